@@ -1,0 +1,163 @@
+"""Single motions with labels: simulate one, find the steady motion it settles to."""
+
+import numpy as np
+
+from impact_damper import ensemble, motion
+from impact_damper.datasets import dataset, flag
+from impact_damper.parameters import check_count, check_number, describe, pack
+
+COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
+
+
+def check_state(state, damper):
+    """Return a state as an array of four, or raise.
+
+    Without a damper the loose mass is left at rest at the origin, Z2 = Z1.
+
+    Raises
+    ------
+    ValueError
+        If the state is not four finite numbers, or two without a damper.
+    """
+    state = np.asarray(state, float)
+    if damper is None and state.shape == (2,):
+        state = np.concatenate([state, state])
+    if state.shape != (4,) or not np.isfinite(state).all():
+        raise ValueError(
+            f"state = {state.tolist()}: must be four finite numbers Z1, Z1', Z2, Z2' "
+            "(the paper's figure 4 gives three; a state of this system has four)")
+    return state
+
+
+def random_states(count, radius, damper, seed, *, within_gap=True):
+    """States drawn uniformly from a ball around the origin.
+
+    Parameters
+    ----------
+    count : int
+    radius : float
+        Dimensionless; 2 in the paper.
+    damper : Damper or None
+        Without a damper the ball is that of (Z1, Z1'), and Z2 = Z1.
+    seed : int or sequence of int
+    within_gap : bool
+        Draw again where |Z2| exceeds the clearance: beyond the wall the contact spring is
+        loaded, with an energy unlike that of any motion at rest. False is the literal ball.
+
+    Returns
+    -------
+    numpy.ndarray, shape (count, 4)
+    """
+    check_count("count", count, least=0, most=10**8)
+    check_number("radius", radius, above=0.0, most=1e3)
+    generator = np.random.default_rng(seed)
+    size = 2 if damper is None else 4
+    states = np.empty((0, size))
+    while len(states) < count:
+        direction = generator.standard_normal((count, size))
+        direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+        drawn = radius * direction * generator.random((count, 1)) ** (1 / size)
+        if damper is not None and within_gap:
+            drawn = drawn[np.abs(drawn[:, 2]) < damper.clearance]
+        states = np.concatenate([states, drawn])
+    states = states[:count]
+    return np.hstack([states, states]) if damper is None else states
+
+
+def simulate(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, periods=20,
+             samples=200, start=0.0, tolerance=1e-12):
+    """Integrate one motion and label it.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+        None switches the damper off.
+    frequency : float
+        Forcing frequency W, dimensionless.
+    state : sequence of 4 floats, or 2 without a damper
+        Z1, Z1', Z2, Z2' at time `start`.
+    periods : float
+        Length in forcing periods.
+    samples : int
+        Samples per forcing period.
+    start : float
+        Time of the first state, dimensionless; the forcing is cos(W T).
+    tolerance : float
+        Local error allowed.
+
+    Returns
+    -------
+    xarray.Dataset
+        The state over `time`, and over `contact` the log of contacts: wall, beginning, end,
+        and approach and departure speeds (NaN for an end after the last sample).
+    """
+    p = pack(oscillator, damper, frequency)
+    y = check_state(state, damper)
+    check_number("periods", periods, above=0.0, most=1e6)
+    check_count("samples", samples, least=2, most=10**6)
+    check_number("tolerance", tolerance, least=1e-15, most=1e-2)
+    start = check_number("start", start)
+    length = periods * 2 * np.pi / p[0]
+    times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
+    states = np.empty((len(times), 4))
+    log = np.empty((1024, 5))
+    first = y.copy()
+    count = motion.trace(p, y, start, times, tolerance, states, log)
+    if count > len(log):
+        log = np.empty((count, 5))
+        motion.trace(p, first, start, times, tolerance, states, log)
+    log = log[:count]
+    data = dict(zip(COMPONENTS, states.T, strict=True))
+    data |= {"contact_wall": log[:, 0], "contact_begin": log[:, 1], "contact_end": log[:, 2],
+             "approach_velocity": log[:, 3], "departure_velocity": log[:, 4]}
+    made = describe(oscillator, damper) | {"frequency": float(frequency), "tolerance": tolerance}
+    return dataset(data, {"time": times}, made, "Motion of the oscillator")
+
+
+def tabulate(records):
+    """Registered variables, by name, of an array of motion records of any shape."""
+    first, second = records["harmonic_displacement"], records["harmonic_relative"]
+
+    def phase(reference):
+        return np.where(reference == 0, np.nan, np.angle(first * np.conj(reference)))
+
+    return {
+        "outcome": records["outcome"],
+        "period": records["period"],
+        "contacts": records["contacts"],
+        "maximum_displacement": records["maximum_displacement"],
+        "asymmetry": records["asymmetry"],
+        "phase_relative": phase(second),
+        "phase_loose": phase(first - second),
+        "multiplier_real": records["multiplier"].real,
+        "multiplier_imaginary": records["multiplier"].imag,
+        "residual": records["residual"],
+        "lyapunov_exponent": records["lyapunov_exponent"],
+        "lyapunov_error": records["lyapunov_error"],
+        "periods_run": records["periods_run"],
+    }
+
+
+def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
+    """The steady motion that a state at T = 0 leads to.
+
+    Returns
+    -------
+    xarray.Dataset
+        Scalars: outcome, period (in forcing periods), contacts per forcing period, extremum of
+        |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent; and `state`,
+        a state of the motion at W T = pi/2.
+    """
+    settling = settling or ensemble.Settling()
+    p = pack(oscillator, damper, frequency)
+    record = ensemble.settle(p[None], check_state(state, damper)[None], settling)[0]
+    data = {name: ((), value) for name, value in tabulate(record).items()}
+    data["state"] = (("component",), record["state"])
+    made = describe(oscillator, damper, settling) | {"frequency": float(frequency)}
+    return dataset(data, {"component": list(COMPONENTS)}, made, "Steady motion of the oscillator")
+
+
+def is_settled(records):
+    """True where a record is of a settled motion."""
+    return records["outcome"] == flag("outcome", "settled")

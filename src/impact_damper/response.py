@@ -1,0 +1,83 @@
+"""Frequency response, and whether random starts lead to collisions."""
+
+import numpy as np
+
+from impact_damper import motion
+from impact_damper.datasets import dataset
+from impact_damper.ensemble import Settling
+from impact_damper.motions import COMPONENTS, random_states
+from impact_damper.parameters import check_count, check_frequency, describe, pack
+from impact_damper.sweep import FREQUENCY, sweep
+
+
+def frequency_response(oscillator, damper, frequencies, *, starts=96, radius=2.0, seed=1995,
+                       settling=None, workers=1, progress=None):
+    """All motions found at each frequency, with and without following.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequencies : sequence of float
+        Increasing forcing frequencies, dimensionless.
+    starts : int
+        Random starts a frequency, uniform in a ball within the gap (`motions.random_states`).
+    radius : float
+        Radius of that ball; 2 in the paper (section 3, iii).
+    seed : int
+    settling : Settling, optional
+    workers : int
+        Threads; the result does not depend on it.
+    progress : str, optional
+        Title of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (frequency, motion) the distinct motions with outcome, period, contacts, extremum of
+        |Z1|, phases, multiplier, Lyapunov exponent, branch, and share of the random starts; over
+        (frequency, start) outcome and length of each run; over `end` the ends of branches.
+
+    Raises
+    ------
+    ValueError
+        If frequencies are not increasing, or a parameter is out of range.
+    """
+    settling = settling or Settling()
+    check_count("starts", starts, most=10**6)
+    frequencies = np.array([check_frequency(value) for value in frequencies])
+    if len(frequencies) == 0 or np.any(np.diff(frequencies) <= 0):
+        raise ValueError("frequencies: must be increasing, and at least one")
+    parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
+    states = np.array([random_states(starts, radius, damper, [seed, i])
+                       for i in range(len(frequencies))])
+    data = sweep(parameters, FREQUENCY, "frequency", states, settling,
+                 workers=workers, progress=progress)
+    made = describe(oscillator, damper, settling) | {
+        "starts": starts, "radius": radius, "seed": seed}
+    coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
+    return dataset(data, coordinates, made, "Frequency response")
+
+
+def collisions(oscillator, damper, frequency, *, starts=2000, radius=2.0, seed=1995,
+               periods=200, tolerance=1e-9):
+    """Whether starts in the literal ball, and in the ball within the gap, lead to a collision.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `ball` (literal, within the gap): shares of starts that lie beyond a wall, that
+        collide within the given forcing periods, and the longest wait for the first collision.
+    """
+    p = pack(oscillator, damper, frequency)
+    shares = np.empty((2, 3))
+    for row, within_gap in enumerate((False, True)):
+        states = random_states(starts, radius, damper, [seed, row], within_gap=within_gap)
+        waits = np.empty(starts)
+        motion.first_collisions(np.tile(p, (starts, 1)), states, periods, tolerance, waits)
+        met = np.isfinite(waits)
+        shares[row] = np.mean(waits == 0), np.mean(met), np.max(waits[met], initial=0.0)
+    data = dict(zip(("beyond_wall", "colliding", "longest_wait"), shares.T, strict=True))
+    made = describe(oscillator, damper) | {"frequency": float(frequency), "starts": starts,
+                                          "radius": radius, "seed": seed, "periods": periods}
+    return dataset(data, {"ball": ["literal", "within_gap"]}, made, "First collisions")

@@ -1,0 +1,190 @@
+"""Every motion along a sweep of one parameter that random starts and following reach.
+
+At each value motions are run from random starts. Each settled motion is then followed
+by Newton's method to the next value, upward and downward, so that motions with small
+basins are found too; where it cannot be followed, its branch has an end.
+"""
+
+from itertools import count
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from impact_damper import ensemble, motion
+from impact_damper.datasets import flag
+from impact_damper.motions import is_settled, tabulate
+
+SAME = 1e-6
+CHAOTIC_GAP = 1.5
+RESOLUTION = 1e-8
+FREQUENCY, CLEARANCE = 0, 3
+
+
+class Catalogue:
+    """The distinct motions known at one value of the parameter.
+
+    Attributes
+    ----------
+    records : list of motion.MOTION
+    numbers : list of int
+        A number for each motion, unique over the sweep.
+    origins : list of int
+        Flags: found by a random start, or by following only.
+    shares : list of int
+        Random starts that lead to it.
+    """
+
+    def __init__(self, p, numbering):
+        self.p = p
+        self.numbering = numbering
+        self.records, self.numbers, self.origins, self.shares = [], [], [], []
+
+    def find(self, record):
+        """Index of a motion, its mirror image counting as the same, or None."""
+        for i, known in enumerate(self.records):
+            if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
+                continue
+            ratio = record["maximum_displacement"] / known["maximum_displacement"]
+            near = abs(ratio - 1) < SAME and abs(record["contacts"] - known["contacts"]) < 1e-9
+            alike = 1 / CHAOTIC_GAP < ratio < CHAOTIC_GAP
+            if near or (alike and not is_settled(record)):
+                return i
+        return None
+
+    def add(self, record, origin):
+        """Index of a motion, entered if it was not known."""
+        i = self.find(record)
+        if i is None:
+            i = len(self.records)
+            self.records.append(record)
+            self.numbers.append(next(self.numbering))
+            self.origins.append(flag("origin", origin))
+            self.shares.append(0)
+        elif record["maximum_displacement"] > self.records[i]["maximum_displacement"] + SAME:
+            self.records[i] = record
+        self.shares[i] += origin == "random_start"
+        return i
+
+
+def _end_event(record, multiplier, beyond):
+    """What ends a branch, from the dominant multiplier at its last orbit and what lies beyond."""
+    if abs(multiplier) < 0.98:
+        return "not_smooth"
+    if abs(multiplier.imag) > 1e-3:
+        return "neimark_sacker"
+    if multiplier.real < 0:
+        return "period_doubling"
+    close = abs(beyond["maximum_displacement"] - record["maximum_displacement"]) < 0.05
+    splits = record["asymmetry"] < SAME and not beyond["asymmetry"] < SAME
+    if close and splits and beyond["period"] == record["period"]:
+        return "symmetry_breaking"
+    return "fold"
+
+
+def _follow(here, there, index, settling, links, ends):
+    """Follow every motion of one catalogue to the next value, noting links and ends."""
+    for i, record in enumerate(list(here.records)):
+        p, y = here.p.copy(), record["state"].copy()
+        multiplier = complex(np.nan)
+        if is_settled(record):
+            multiplier = motion.follow(p, y, record["period"], index, there.p[index], RESOLUTION,
+                                       motion.POLISH_TOLERANCE)
+        arrived = p[index] == there.p[index]
+        beyond = ensemble.settle(there.p[None], y[None], settling, from_strobe=True)[0]
+        j = there.add(beyond, "followed")
+        if not is_settled(record):
+            continue
+        if arrived and is_settled(beyond):
+            links.append((here.numbers[i], there.numbers[j]))
+            continue
+        last = motion.measured(p, y, record["period"], settling.tolerance)
+        ends.append({
+            "end_value": p[index],
+            "end_motion": here.numbers[i],
+            "end_direction": flag("end_direction", "up" if there.p[index] > p[index] else "down"),
+            "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
+            "end_displacement": last["maximum_displacement"],
+            "end_multiplier_real": multiplier.real,
+            "end_multiplier_imaginary": multiplier.imag,
+        })
+
+
+def _branches(catalogues, links):
+    """Branch of every motion by its number: the connected components of the links."""
+    size = sum(len(catalogue.records) for catalogue in catalogues)
+    pairs = np.array(links or [(0, 0)]).T
+    return connected_components(coo_array((np.ones(len(pairs[0])), pairs), (size, size)), False)[1]
+
+
+def _tables(catalogues, branches, dimension):
+    """Arrays over (dimension, motion), the larger motions first, padded with 'absent'."""
+    width = max(len(catalogue.records) for catalogue in catalogues)
+    records = np.zeros((len(catalogues), width), motion.MOTION)
+    records["outcome"] = flag("outcome", "absent")
+    for name in ("residual", "maximum_displacement", "contacts", "asymmetry", "lyapunov_exponent",
+                 "lyapunov_error", "state", "multiplier", "harmonic_displacement",
+                 "harmonic_relative"):
+        records[name] = np.nan
+    extra = {"branch": np.full(records.shape, -1), "share": np.zeros(records.shape, int),
+             "origin": np.full(records.shape, flag("origin", "absent"))}
+    for row, catalogue in enumerate(catalogues):
+        sizes = [record["maximum_displacement"] for record in catalogue.records]
+        for column, k in enumerate(np.argsort(sizes)[::-1]):
+            records[row, column] = catalogue.records[k]
+            extra["branch"][row, column] = branches[catalogue.numbers[k]]
+            extra["share"][row, column] = catalogue.shares[k]
+            extra["origin"][row, column] = catalogue.origins[k]
+    data = tabulate(records) | extra
+    dims = (dimension, "motion")
+    return {name: (dims, values) for name, values in data.items()} | {
+        "state": ((*dims, "component"), records["state"])}
+
+
+def sweep(parameters, index, dimension, states, settling, *, workers=1, progress=None):
+    """All motions found along a sweep of one parameter.
+
+    Parameters
+    ----------
+    parameters : array, shape (n, 7)
+        Packed parameters in the order of the sweep, alike but for one.
+    index : int
+        Which parameter varies: FREQUENCY or CLEARANCE.
+    dimension : str
+        Name of the dimension it gives the data.
+    states : array, shape (n, m, 4)
+        Random starts at T = 0.
+    settling : ensemble.Settling
+    workers, progress
+        As in `ensemble.settle`.
+
+    Returns
+    -------
+    dict
+        Registered variables with their dimensions: over (dimension, motion) the distinct
+        motions, over (dimension, start) what the runs came to, over `end` the branches' ends.
+    """
+    size, starts = states.shape[:2]
+    runs = ensemble.settle(np.repeat(parameters, starts, axis=0), states.reshape(-1, 4), settling,
+                           workers=workers, progress=progress).reshape(size, starts)
+    numbering = count()
+    catalogues = [Catalogue(p, numbering) for p in parameters]
+    for catalogue, row in zip(catalogues, runs, strict=True):
+        for record in row:
+            catalogue.add(record, "random_start")
+    links, ends = [], {}
+    # The second sweep upward also follows what the one downward found.
+    for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
+        ends[turn] = []
+        for here, there in zip(order, order[1:], strict=False):
+            _follow(here, there, index, settling, links, ends[turn])
+    branches = _branches(catalogues, links)
+    ends = ends["down"] + ends["up"]
+    data = _tables(catalogues, branches, dimension)
+    data |= {"run_outcome": ((dimension, "start"), runs["outcome"]),
+             "run_length": ((dimension, "start"), runs["periods_run"])}
+    for name in ("end_value", "end_direction", "end_event", "end_displacement",
+                 "end_multiplier_real", "end_multiplier_imaginary"):
+        data[name] = np.array([end[name] for end in ends])
+    data["end_branch"] = np.array([branches[end["end_motion"]] for end in ends], int)
+    return data

@@ -1,0 +1,96 @@
+"""The schematics: quiet, repeatable to the byte, and legible."""
+
+import os
+import pathlib
+import subprocess
+import sys
+from itertools import combinations
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.path import Path
+from matplotlib.text import Text
+
+import impact_damper
+from impact_damper.figures import schematics
+from impact_damper.figures.style import COLUMNS, save, style
+
+NAMES = ["elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair"]
+KINDS = ["pdf", "png"]
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+def read(path):
+    return [pathlib.Path(f"{path}.{kind}").read_bytes() for kind in KINDS]
+
+
+@pytest.fixture(scope="module")
+def elsewhere(tmp_path_factory):
+    """All schematics, saved by another process with another hash seed and time zone."""
+    folder = tmp_path_factory.mktemp("elsewhere")
+    program = (
+        "from impact_damper.figures import schematics, style\n"
+        f"for name in {NAMES}:\n"
+        f"    style.save(getattr(schematics, name)(), f'{folder}/{{name}}')\n"
+    )
+    source = str(pathlib.Path(impact_damper.__file__).parents[1])
+    environment = os.environ | {"PYTHONPATH": source, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"}
+    subprocess.run([sys.executable, "-W", "error", "-c", program], env=environment, check=True)
+    return folder
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
+    drawn = getattr(schematics, name)()
+    save(drawn, tmp_path / "first")
+    save(drawn, tmp_path / "second")
+    save(getattr(schematics, name)(), tmp_path / "drawn again")
+    assert read(tmp_path / "first") == read(tmp_path / "second")
+    assert read(tmp_path / "first") == read(tmp_path / "drawn again")
+    assert read(tmp_path / "first") == read(elsewhere / name)
+    assert len(list(tmp_path.iterdir())) == 6, "parts left behind"
+
+
+@pytest.fixture(params=NAMES)
+def drawn(request):
+    with style():
+        figure = getattr(schematics, request.param)()
+        FigureCanvasAgg(figure).draw()
+        yield figure
+
+
+def boxes(figure):
+    texts = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
+    return {(text.get_text(), *text.get_position()): text.get_window_extent() for text in texts}
+
+
+def test_texts_lie_on_the_sheet(drawn):
+    assert drawn.get_figwidth() in COLUMNS.values()
+    found = boxes(drawn)
+    assert len(found) >= 6
+    for text, box in found.items():
+        assert box.x0 >= 0 and box.y0 >= 0, text
+        assert box.x1 <= drawn.bbox.x1 and box.y1 <= drawn.bbox.y1, text
+
+
+def test_texts_do_not_overlap(drawn):
+    for (one, box), (other, its_box) in combinations(boxes(drawn).items(), 2):
+        assert not box.overlaps(its_box), f"{one} on {other}"
+
+
+def test_no_line_runs_through_a_text(drawn):
+    (axes,) = drawn.axes
+    for artist in [*axes.lines, *axes.patches]:
+        outline = artist.get_path().to_polygons(artist.get_transform(), closed_only=False)
+        for text, box in boxes(drawn).items():
+            for points in outline:
+                assert not Path(points).intersects_bbox(box, filled=False), text
+
+
+def test_all_drawing_lies_on_the_sheet(drawn):
+    (axes,) = drawn.axes
+    for artist in [*axes.lines, *axes.patches]:
+        box = artist.get_window_extent()
+        assert box.x0 >= 0 and box.y0 >= 0
+        assert box.x1 <= drawn.bbox.x1 and box.y1 <= drawn.bbox.y1
