@@ -3,6 +3,7 @@
 import math
 import numbers
 import re
+import reprlib
 
 import jsonschema
 import yaml
@@ -173,9 +174,7 @@ def _wrong_stages(path, curve):
         reason = "must be 1 with the stage design (harmonic balance knows elastic contact only)"
         yield _problem([*path, "restitution"], curve["restitution"], reason)
     if curve["clearance"] == "rule" and curve["stages"] != ["design"]:
-        reason = (
-            "must be a number with stages beside design (the designs table lists the rule)"
-        )
+        reason = "must be a number with stages beside design (the designs table lists the rule)"
         yield _problem([*path, "clearance"], curve["clearance"], reason)
 
 
@@ -201,7 +200,7 @@ def _allowed(schema):
 
 
 def _problem(path, value, reason):
-    return f"{_path(path)} = {value!r}: {reason}"
+    return f"{_path(path)} = {reprlib.repr(value)}: {reason}"
 
 
 def _path(path):

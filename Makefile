@@ -1,0 +1,46 @@
+# The paper, end to end: `make reproduce`. The tests: `make test`.
+# Needs Python 3.11 or newer, make and a C compiler; everything else goes to .venv.
+
+PYTHON ?= python3
+CORES ?= 2
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/ready
+
+.PHONY: reproduce smoke test lint format lock clean
+
+reproduce: $(READY)
+	$(BIN)/snakemake --cores $(CORES)
+
+smoke: $(READY)
+	$(BIN)/snakemake --cores $(CORES) --configfile config/smoke.yaml
+
+test: $(READY)
+	$(BIN)/python -m pytest
+
+lint: $(READY)
+	$(BIN)/ruff format --check src tests workflow
+	$(BIN)/ruff check src tests workflow
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/snakemake --lint
+
+format: $(READY)
+	$(BIN)/ruff check --fix src tests workflow
+	$(BIN)/ruff format src tests workflow
+	$(BIN)/snakefmt Snakefile workflow
+
+# Made anew when the lock or the package's metadata change, and not otherwise.
+$(READY): requirements.lock pyproject.toml
+	$(PYTHON) -m venv --clear $(VENV)
+	$(BIN)/pip install --require-hashes -r requirements.lock
+	$(BIN)/pip install --no-deps --no-build-isolation --editable .
+	touch $@
+
+# For developers, after a change of the dependencies; needs uv.
+lock:
+	uv pip compile pyproject.toml --all-extras --group build --universal --python-version 3.11 \
+		--generate-hashes --no-emit-index-url --no-header --output-file requirements.lock
+
+clean:
+	rm -rf results-smoke .snakemake
+	find results -mindepth 1 ! -name README.md -delete

@@ -1,0 +1,45 @@
+"""The paper, end to end: `snakemake --cores 2`; a stage of it: `snakemake --cores 2 design`."""
+
+from snakemake.utils import min_version
+
+min_version("9.14")
+
+
+configfile: workflow.source_path("config/config.yaml")
+
+
+include: "workflow/rules/common.smk"
+
+
+pathvars:
+    results=config["results"],
+    logs=f"{config['results']}/logs",
+    benchmarks=f"{config['results']}/timings",
+
+
+report: "workflow/report/workflow.rst"
+
+
+include: "workflow/rules/jobs.smk"
+include: "workflow/rules/kernels.smk"
+include: "workflow/rules/design.smk"
+include: "workflow/rules/free.smk"
+include: "workflow/rules/response.smk"
+include: "workflow/rules/optimum.smk"
+include: "workflow/rules/subharmonic.smk"
+include: "workflow/rules/migration.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/tables.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        rules.design.input,
+        rules.free.input,
+        rules.response.input,
+        rules.optimum.input,
+        rules.subharmonic.input,
+        rules.migration.input,
+        rules.figures.input,
+        rules.tables.input,

@@ -1,0 +1,1 @@
+"""Figures of the paper: each function draws a dataset, or a scheme, and computes nothing."""

@@ -1,0 +1,196 @@
+"""One look for all figures: fonts, colours, roles of curves, sizes, and how a figure is saved.
+
+The palette is that of Okabe and Ito, which colour-blind readers can tell apart.
+Roles that meet in one figure differ in marker or line as well, for grey print.
+"""
+
+import os
+import re
+import string
+from pathlib import Path
+
+import matplotlib.style
+from cycler import cycler
+from matplotlib.figure import Figure
+
+BLACK, GREY, PALE, WHITE = "#000000", "#6E6E6E", "#E9E9E9", "#FFFFFF"
+ORANGE, SKY, GREEN, YELLOW = "#E69F00", "#56B4E9", "#009E73", "#F0E442"
+BLUE, VERMILION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
+PALE_SKY, PALE_YELLOW, PALE_ORANGE = "#D9EDFA", "#FAF6C4", "#FAE7C3"
+
+COLUMNS = {"single": 3.4, "double": 7.0}  # widths in inches
+STROKES = {"outline": 1.1, "detail": 0.8, "fine": 0.5}  # points, for drawings
+LETTER_SIZE = 10.0  # points, for symbols in drawings
+
+STYLE = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 9.0,
+    "axes.labelsize": 9.0,
+    "axes.titlesize": 9.0,
+    "xtick.labelsize": 8.0,
+    "ytick.labelsize": 8.0,
+    "legend.fontsize": 8.0,
+    "legend.frameon": False,
+    "legend.handlelength": 2.4,
+    "legend.columnspacing": 1.4,
+    "axes.linewidth": 0.6,
+    "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "lines.linewidth": 1.1,
+    "lines.markersize": 3.6,
+    "lines.markeredgewidth": 0.8,
+    "patch.linewidth": 0.8,
+    "savefig.dpi": 300,
+    "pdf.fonttype": 42,
+}
+
+
+def _line(label, color, **others):
+    return {"label": label, "color": color, **others}
+
+
+def _points(label, color, marker, filled=False, **others):
+    face = color if filled else "none"
+    return {
+        "label": label,
+        "color": color,
+        "marker": marker,
+        "linestyle": "none",
+        "markerfacecolor": face,
+        **others,
+    }
+
+
+def _shading(label, color):
+    return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
+
+
+# Keywords for `plot` (the last two for `axvspan`); merge to change one: ROLES[name] | {...}.
+ROLES = {
+    "free_stable": _line("free, stable", BLACK, zorder=2.2),
+    "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
+    "harmonic_balance": _line(
+        "with damper, harmonic balance", SKY, linewidth=2.6, solid_capstyle="butt", zorder=2
+    ),
+    "period_1": _points("with damper, period 1", BLUE, "o"),
+    "higher_period": _points("with damper, higher period", GREEN, "s"),
+    "subharmonic_free": _points("one-third subharmonic, free", PURPLE, "^", filled=True),
+    "subharmonic_damped": _points("one-third subharmonic, with damper", PURPLE, "v"),
+    "inelastic": _points("with inelastic damper", VERMILION, "+", markersize=4.6),
+    "chaotic": _points("chaotic", ORANGE, ".", filled=True),
+    "unresolved": _points("unresolved", BLACK, "x"),
+    "damper_on": _shading("damper on", PALE_SKY),
+    "band": _shading("suppression band", PALE_YELLOW),
+}
+
+# Colour, dashes and marker of the curves of one figure that differ in a parameter.
+CURVES = [
+    (BLUE, "-", "o"),
+    (VERMILION, (0, (5, 2)), "s"),
+    (GREEN, (0, (5, 1.5, 1, 1.5)), "^"),
+    (PURPLE, (0, (1, 1.2)), "D"),
+    (BLACK, (0, (8, 2)), "v"),
+]
+
+
+def style():
+    """The common style, as a context manager or as a decorator of a drawing function."""
+    return matplotlib.style.context(["default", STYLE])
+
+
+def figure(column, height) -> Figure:
+    """Empty figure of a column's width.
+
+    Parameters
+    ----------
+    column : str
+        "single" (3.4 in) or "double" (7.0 in).
+    height : float
+        In inches.
+
+    Raises
+    ------
+    ValueError
+        If there is no such column.
+    """
+    if column not in COLUMNS:
+        raise ValueError(f"column = {column!r}: must be one of {', '.join(COLUMNS)}")
+    return Figure(figsize=(COLUMNS[column], height), layout="constrained")
+
+
+def curve(index) -> dict:
+    """Keywords for `plot`: the line of curve `index`, counted from 0 (see `CURVES`)."""
+    color, dashes, _ = CURVES[index]
+    return {"color": color, "linestyle": dashes}
+
+
+def points(index) -> dict:
+    """Keywords for `plot`: the open markers that belong to the line of curve `index`."""
+    color, _, marker = CURVES[index]
+    return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
+
+
+def axis_label(variable) -> str:
+    """Words, symbol and units of a dataset's variable, as "Forcing frequency, $\\Omega$".
+
+    Parameters
+    ----------
+    variable : xarray.DataArray
+        With the attributes `long_name`, `units` and, where it has one, `symbol`.
+    """
+    words, units = variable.attrs["long_name"], variable.attrs["units"]
+    label = words[0].upper() + words[1:]
+    if "symbol" in variable.attrs:
+        label += f", ${tex(variable.attrs['symbol'])}$"
+    return label if units == "1" else f"{label} ({units})"
+
+
+def tex(symbol) -> str:
+    """Mathtext of a registered symbol: words as commands and digits as indices.
+
+    "Omega_p" becomes "\\Omega _p", and "max |Z1|" becomes "\\max\\,|Z_{1}|".
+    """
+    symbol = re.sub(r"[A-Za-z]{2,}", r"\\\g<0> ", symbol)
+    symbol = re.sub(r"([A-Za-z])(\d+)", r"\1_{\2}", symbol)
+    return symbol.replace("  |", r"\,|")
+
+
+def letter_panels(panels) -> None:
+    """Letter the axes (a), (b), ... at their upper left corners, outside the frame."""
+    for letter, axes in zip(string.ascii_lowercase, panels, strict=False):
+        axes.set_title(f"({letter})", loc="left")
+
+
+def legend(figure, columns) -> None:
+    """One legend below all axes of the figure; a label that several axes share is shown once."""
+    entries = {}
+    for axes in figure.axes:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            entries.setdefault(label, handle)
+    figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
+
+
+def save(figure, path) -> None:
+    """Write `path`.pdf and `path`.png, whole or not at all, the same bytes at every run.
+
+    The layout is settled first and then kept, so that both files and any later
+    ones show the same picture.
+    """
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    with style():
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+        for kind, metadata in {"pdf": {"CreationDate": None}, "png": {"Software": None}}.items():
+            whole = Path(f"{path}.{kind}")
+            part = Path(f"{whole}.part-{os.getpid()}")
+            try:
+                figure.savefig(part, format=kind, metadata=metadata)
+                os.replace(part, whole)
+            finally:
+                part.unlink(missing_ok=True)

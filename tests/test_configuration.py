@@ -1,0 +1,183 @@
+"""The paper's configuration is accepted; a broken one is told in a line for each problem."""
+
+import copy
+import math
+from pathlib import Path
+
+import pytest
+import yaml
+
+from impact_damper.configuration import (
+    SCHEMATICS,
+    ConfigurationError,
+    check_configuration,
+    check_unique_keys,
+)
+from impact_damper.figures import schematics
+
+ROOT = Path(__file__).parents[1]
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+
+
+def problems(config):
+    with pytest.raises(ConfigurationError) as caught:
+        check_configuration(config, SCHEMA)
+    return str(caught.value).splitlines()
+
+
+def changed(path, value):
+    """The paper's configuration with one value set."""
+    config = copy.deepcopy(PAPER)
+    *parents, key = path.split("/")
+    place = config
+    for name in parents:
+        place = place[name]
+    place[key] = value
+    return config
+
+
+def every_leaf(config, path=()):
+    for key, value in config.items():
+        if isinstance(value, dict):
+            yield from every_leaf(value, (*path, key))
+        else:
+            yield (*path, key)
+
+
+LEAVES = ["/".join(path) for path in every_leaf(PAPER)]
+
+
+def test_the_paper_is_accepted():
+    check_configuration(PAPER, SCHEMA)
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        ("contact_stiffness", 1.0e-3),
+        ("contact_stiffness", 1.0e9),
+        ("curves/figure_05a/clearance", 1.0e-6),
+        ("curves/figure_05a/clearance", 1000),
+        ("curves/figure_10/restitution", 0.3),
+        ("curves/figure_05a/mass_ratio", 10),
+        ("oscillators/h215/frequencies", {"first": 0.01, "last": 100}),
+        ("optima/e090_rm012/restitution", 1.0),
+    ],
+)
+def test_valid_extremes_are_accepted(path, value):
+    check_configuration(changed(path, value), SCHEMA)
+
+
+@pytest.mark.parametrize("path", LEAVES)
+@pytest.mark.parametrize("value", [math.nan, -math.inf, None, {}, [[]], True])
+def test_no_leaf_takes_a_value_of_another_kind(path, value):
+    lines = problems(changed(path, value))
+    assert all(line.startswith(path.replace("/", ".")) for line in lines)
+
+
+@pytest.mark.parametrize("path", LEAVES)
+def test_every_leaf_is_needed(path):
+    config = copy.deepcopy(PAPER)
+    *parents, key = path.split("/")
+    place = config
+    for name in parents:
+        place = place[name]
+    del place[key]
+    (line,) = problems(config)
+    assert line.startswith(f"{path.replace('/', '.')}: missing")
+
+
+@pytest.mark.parametrize(
+    "section", [name for name, value in PAPER.items() if isinstance(value, dict)]
+)
+def test_unknown_keys_are_rejected(section):
+    (line,) = problems(changed(f"{section}/massratio", 0.12))
+    assert line.startswith(f"{section}.massratio = 0.12: ")
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "allowed"),
+    [
+        ("tolerance", 1.0e-9, "unknown key; known: collisions, contact_stiffness"),
+        ("seed", 0.5, "a whole number, at least 0"),
+        ("contact_stiffness", 0, "greater than 0"),
+        ("contact_stiffness", "2000", "a finite number"),
+        ("points/simulated", 10**9, "at most 100000"),
+        ("points/simulated", 45.0, "a whole number"),
+        ("settling/tolerance", "1e-9", "a finite number"),
+        ("settling/limit", 200, "at least settling.patience = 300"),
+        ("oscillators/h215/damping", -0.1, "greater than 0"),
+        ("oscillators/h215/frequencies/first", 3, "less than last = 2.6"),
+        ("optima/h215_rm012/clearances/last", 0.5, "less than last = 0.5"),
+        ("curves/figure_05a/mass_ratio", 0, "greater than 0"),
+        ("curves/figure_05a/clearance", "Rule", "of the form rule"),
+        ("curves/figure_05a/clearance", "rule", "a number with stages beside design"),
+        ("curves/figure_05a/restitution", 1.2, "at most 1 (e, 1 for elastic contact"),
+        ("curves/figure_05a/restitution", 0.9, "harmonic balance knows elastic contact only"),
+        ("curves/figure_05a/oscillator", "h216", "one of h215, h150, h107, l100, l150"),
+        ("curves/figure_05a/stages", [], "with 1 or more entries"),
+        ("curves/figure_05a/stages", ["design"], "must hold response"),
+        ("curves/figure_10/stages", ["response", "response"], "without repetition"),
+        ("curves/figure_10/stages", ["responses"], "one of design, response, subharmonic"),
+        ("curves/a b", PAPER["curves"]["figure_10"], "a file name"),
+        ("curves/new\n", PAPER["curves"]["figure_10"], "a file name"),
+        ("curves/3", 3, "keys with values"),
+        ("curves", {}, "with 1 or more entries"),
+        ("figures/figure_05a/data", ["figure_5a"], "one of figure_03a"),
+        ("figures/figure_05a/data", [], "with 1 or more entries"),
+        ("figures/figure_05a/kind", "curve", "one of schematic, free"),
+        ("figures/figure_01/data", ["elastic"], "one of elastic_model"),
+        ("figures/figure_06/data", ["h215_rm012"] * 2, "without repetition"),
+        ("results", "../results", "folder below the working directory"),
+        ("results", "/results", "folder below the working directory"),
+        ("results", "my results", "without spaces"),
+    ],
+)
+def test_a_broken_value_is_told_with_what_is_allowed(path, value, allowed):
+    lines = problems(changed(path, value))
+    assert any(allowed in line for line in lines), lines
+
+
+def test_a_name_that_is_no_text_is_rejected():
+    config = copy.deepcopy(PAPER)
+    config["curves"][3] = config["curves"]["figure_10"]
+    assert problems(config) == [
+        "curves.3: name must be text, of the form [A-Za-z0-9][A-Za-z0-9_]* "
+        "(a name becomes part of a file name)"
+    ]
+
+
+@pytest.mark.parametrize("config", [None, [], "config", 3])
+def test_a_configuration_without_keys_is_rejected(config):
+    assert problems(config) == [f"configuration = {config!r}: must be keys with values"]
+
+
+def test_each_problem_has_its_line():
+    config = changed("seed", -1)
+    config["contact_stiffness"] = -2000
+    del config["curves"]["figure_10"]["oscillator"]
+    assert [line.split(" ")[0].rstrip(":") for line in problems(config)] == [
+        "contact_stiffness",
+        "curves.figure_10.oscillator",
+        "seed",
+    ]
+
+
+def test_repeated_keys_are_rejected_with_their_lines():
+    text = "curves:\n  a: {x: 1}\n  b: [{y: 1, y: 2}]\n  a: {x: 2}\n"
+    with pytest.raises(ConfigurationError) as caught:
+        check_unique_keys(text, "mine.yaml")
+    assert sorted(str(caught.value).splitlines()) == [
+        "mine.yaml, line 3: y stands twice: keep one",
+        "mine.yaml, line 4: a stands twice: keep one",
+    ]
+
+
+@pytest.mark.parametrize("name", ["config.yaml", "smoke.yaml"])
+def test_our_own_files_repeat_no_key(name):
+    check_unique_keys((ROOT / "config" / name).read_text(), name)
+
+
+def test_every_schematic_has_its_drawing():
+    assert all(callable(getattr(schematics, name)) for name in SCHEMATICS)

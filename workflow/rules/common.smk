@@ -1,0 +1,88 @@
+"""What the rules share: a checked configuration, and the sources of a script."""
+
+import ast
+import json
+import os
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+import yaml
+from snakemake.exceptions import WorkflowError
+
+from impact_damper.configuration import (
+    SECTIONS,
+    ConfigurationError,
+    check_configuration,
+    check_unique_keys,
+)
+
+ROOT = Path(workflow.basedir)
+PACKAGE = Path(find_spec("impact_damper").origin).parent
+
+
+wildcard_constraints:
+    curve="[A-Za-z0-9_]+",
+    oscillator="[A-Za-z0-9_]+",
+    motion="[A-Za-z0-9_]+",
+    optimum="[A-Za-z0-9_]+",
+    run="[A-Za-z0-9_]+",
+    figure="[A-Za-z0-9_]+",
+    table="[a-z]+",
+
+
+def checked(config):
+    """The configuration with its keys in order, or an error that lists what is wrong with it."""
+    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+    try:
+        for path in workflow.configfiles:
+            check_unique_keys(Path(path).read_text(), Path(path).name)
+        check_configuration(config, schema)
+    except ConfigurationError as error:
+        raise WorkflowError(f"The configuration cannot be run.\n{error}") from None
+    # Snakemake compares parameters as text, in which the order of keys would count.
+    return json.loads(json.dumps(config, sort_keys=True))
+
+
+config = checked(config)
+
+
+def local(path):
+    """Path as seen from the working directory, so that a checkout can move."""
+    return os.path.relpath(path)
+
+
+@cache
+def imports(path):
+    """Modules of the package that a Python file imports itself.
+
+    A package's `__init__` counts only where a name is taken from it: it runs in any
+    case, but decides nothing.
+    """
+    names = []
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names += [f"{node.module}.{alias.name}" for alias in node.names]
+    return {module_file(name) for name in names if name.split(".")[0] == PACKAGE.name}
+
+
+def module_file(name):
+    """File of the module that `impact_damper.a.b` is, or that it is taken from."""
+    path = PACKAGE.joinpath(*name.split(".")[1:])
+    for place in (path, path.parent):
+        for file in (place.with_suffix(".py"), place / "__init__.py"):
+            if file.exists():
+                return file
+    raise WorkflowError(f"There is no module {name}.")
+
+
+@cache
+def code(script):
+    """A script and all modules it imports: inputs of its rule, so that their contents count."""
+    found, new = set(), {ROOT / "workflow/scripts" / script}
+    while new:
+        found |= new
+        new = set().union(*map(imports, new)) - found
+    return sorted(map(local, found))

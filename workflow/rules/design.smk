@@ -1,0 +1,44 @@
+rule design:
+    input:
+        data("free_design"),
+        data("design"),
+
+
+rule free_harmonic_balance:
+    input:
+        code=code("free_harmonic_balance.py"),
+    output:
+        "<results>/free_design/{oscillator}.nc",
+    log:
+        "<logs>/free_design/{oscillator}.log",
+    benchmark:
+        "<benchmarks>/free_design/{oscillator}.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    params:
+        job=free_design_job,
+    message:
+        "Harmonic balance of the free oscillator {wildcards.oscillator}"
+    script:
+        "../scripts/free_harmonic_balance.py"
+
+
+rule harmonic_balance:
+    input:
+        code=code("harmonic_balance.py"),
+    output:
+        "<results>/design/{curve}.nc",
+    log:
+        "<logs>/design/{curve}.log",
+    benchmark:
+        "<benchmarks>/design/{curve}.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    params:
+        job=design_job,
+    message:
+        "Harmonic balance and suppression band of the curve {wildcards.curve}"
+    script:
+        "../scripts/harmonic_balance.py"

@@ -1,0 +1,196 @@
+"""What each job needs: its parameters, in one dictionary that holds no others, and its data."""
+
+# Section of the configuration whose entries a stage computes, each into a file of its name.
+STAGES = {
+    "free_design": "oscillators",
+    "design": "curves",
+    "free": "oscillators",
+    "response": "curves",
+    "motion": "motions",
+    "collisions": "collisions",
+    "optimum": "optima",
+    "subharmonic": "curves",
+    "migration": "migration",
+}
+
+# Stages whose data a table holds; the claims rest on all.
+TABLES = {
+    "design": ["design"],
+    "bands": ["design", "free", "response"],
+    "optima": ["optimum"],
+    "subharmonics": ["free", "subharmonic"],
+    "migration": ["migration"],
+    "claims": list(STAGES),
+}
+
+
+def names(stage):
+    """Names of the entries that a stage computes."""
+    section = config[STAGES[stage]]
+    return [name for name, entry in section.items() if stage in entry.get("stages", [stage])]
+
+
+def data(stage, chosen=None):
+    """Files of a stage, all or those of the chosen entries."""
+    return expand(f"<results>/{stage}/{{name}}.nc", name=names(stage) if chosen is None else chosen)
+
+
+def oscillator_of(name):
+    entry = config["oscillators"][name]
+    return {key: entry[key] for key in ("damping", "linear_frequency")}
+
+
+def damper_of(entry):
+    given = {key: entry[key] for key in ("mass_ratio", "clearance", "restitution") if key in entry}
+    return given | {"contact_stiffness": config["contact_stiffness"]}
+
+
+def grid(span, points):
+    """Arguments of `numpy.linspace`."""
+    return [span["first"], span["last"], config["points"][points]]
+
+
+def frequencies_of(oscillator, points):
+    return grid(config["oscillators"][oscillator]["frequencies"], points)
+
+
+def search():
+    return config["search"] | {"seed": config["seed"]}
+
+
+def free_design_job(wildcards):
+    return {
+        "oscillator": oscillator_of(wildcards.oscillator),
+        "frequencies": frequencies_of(wildcards.oscillator, "harmonic_balance"),
+    }
+
+
+def design_job(wildcards):
+    curve = config["curves"][wildcards.curve]
+    return {
+        "oscillator": oscillator_of(curve["oscillator"]),
+        "damper": damper_of(curve),
+        "frequencies": frequencies_of(curve["oscillator"], "harmonic_balance"),
+    }
+
+
+def free_job(wildcards):
+    return {
+        "oscillator": oscillator_of(wildcards.oscillator),
+        "frequencies": frequencies_of(wildcards.oscillator, "simulated"),
+        "search": search(),
+        "settling": config["settling"],
+    }
+
+
+def response_job(wildcards):
+    curve = config["curves"][wildcards.curve]
+    return {
+        "oscillator": oscillator_of(curve["oscillator"]),
+        "damper": damper_of(curve),
+        "frequencies": frequencies_of(curve["oscillator"], "simulated"),
+        "search": search(),
+        "settling": config["settling"],
+    }
+
+
+def motion_job(wildcards):
+    motion = config["motions"][wildcards.motion]
+    return {
+        "oscillator": oscillator_of(motion["oscillator"]),
+        "damper": damper_of(motion),
+        "frequency": motion["frequency"],
+        "settling": config["settling"],
+    }
+
+
+def collisions_job(wildcards):
+    motion = config["collisions"][wildcards.motion]
+    return {
+        "oscillator": oscillator_of(motion["oscillator"]),
+        "damper": damper_of(motion),
+        "frequency": motion["frequency"],
+        "radius": config["search"]["radius"],
+        "seed": config["seed"],
+    }
+
+
+def optimum_job(wildcards):
+    optimum = config["optima"][wildcards.optimum]
+    return {
+        "oscillator": oscillator_of(optimum["oscillator"]),
+        "damper": damper_of(optimum),
+        "frequency": optimum["frequency"],
+        "clearances": grid(optimum["clearances"], "clearances"),
+        "settling": config["settling"],
+    }
+
+
+def migration_job(wildcards):
+    run = config["migration"][wildcards.run]
+    return {
+        "oscillator": oscillator_of(run["oscillator"]),
+        "damper": damper_of(run),
+        "frequency": run["frequency"],
+        "controller": config["controller"] | {"longest_hold": run["longest_hold"]},
+        "seed": config["seed"],
+        "settling": config["settling"],
+    }
+
+
+def figures(*kinds):
+    """Names of the figures of some kinds."""
+    return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
+
+
+def one_of(choices):
+    """Pattern of a wildcard that takes one of some values, or none if there are none."""
+    return "|".join(choices) or "(?!)"
+
+
+def figure_job(wildcards):
+    """A figure's entry, with the parameters of what it draws in place of the names alone."""
+    figure = config["figures"][wildcards.figure]
+    return figure | {"data": {name: drawn(figure["kind"], name) for name in figure["data"]}}
+
+
+def drawn(kind, name):
+    """Parameters of what a figure draws; a schematic has none."""
+    if kind == "schematic":
+        return {}
+    if kind == "free":
+        return {"oscillator": oscillator_of(name)}
+    entry = config[SECTIONS[kind]][name]
+    frequency = {"frequency": entry["frequency"]} if "frequency" in entry else {}
+    return {
+        "oscillator": oscillator_of(entry["oscillator"]),
+        "damper": damper_of(entry),
+        **frequency,
+    }
+
+
+def figure_data(wildcards):
+    """Files that a figure draws, by stage."""
+    figure = config["figures"][wildcards.figure]
+    kind, chosen = figure["kind"], figure["data"]
+    if kind == "free":
+        return {stage: data(stage, chosen) for stage in ("free_design", "free")}
+    if kind == "response":
+        oscillators = sorted({config["curves"][name]["oscillator"] for name in chosen})
+        return {stage: data(stage, oscillators) for stage in ("free_design", "free")} | {
+            stage: data(stage, [name for name in chosen if name in names(stage)])
+            for stage in ("design", "response", "subharmonic")
+        }
+    stage = "migration" if kind == "release" else kind
+    return {stage: data(stage, chosen)}
+
+
+def caption(wildcards):
+    """Template of a figure's caption."""
+    kind = config["figures"][wildcards.figure]["kind"]
+    return local(ROOT / "workflow/report" / f"{kind}.rst")
+
+
+def table_data(wildcards):
+    """Files that a table condenses, by stage."""
+    return {stage: data(stage) for stage in TABLES[wildcards.table]}

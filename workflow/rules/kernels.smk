@@ -1,0 +1,17 @@
+# The marker says that kernels were compiled here, and no more: it has no inputs and is ancient to
+# those who wait for it. Kernels are kept by the digest of their sources, so a stale one is never
+# run, and an edit of the sources reaches the jobs through their own inputs.
+rule kernels:
+    output:
+        touch("<results>/kernels.compiled"),
+    log:
+        "<logs>/kernels.log",
+    benchmark:
+        "<benchmarks>/kernels.tsv"
+    threads: 1
+    message:
+        "Compiling the kernels, once for all jobs"
+    conda:
+        "../envs/impact-damper.yaml"
+    script:
+        "../scripts/kernels.py"

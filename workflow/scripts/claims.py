@@ -1,0 +1,16 @@
+"""The claims table: every claim of the paper, the number that decides it, and the verdict."""
+
+import sys
+from pathlib import Path
+
+from impact_damper.claims import claims
+from impact_damper.datasets import load
+from impact_damper.tables import save
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+datasets = {
+    stage: {Path(path).stem: load(path) for path in paths}
+    for stage, paths in snakemake.input.items()
+    if stage != "code"
+}
+save(claims(datasets), snakemake.output.csv, snakemake.output.markdown)

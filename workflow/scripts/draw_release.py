@@ -1,0 +1,14 @@
+"""Steady motion coloured by where a release leads: figure 14."""
+
+import sys
+from pathlib import Path
+
+from impact_damper.datasets import load
+from impact_damper.figures.migration import draw_release
+from impact_damper.figures.style import save
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+drawing = draw_release(
+    migration=[load(path) for path in snakemake.input.migration],
+)
+save(drawing, Path(snakemake.output.pdf).with_suffix(""))

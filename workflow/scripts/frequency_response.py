@@ -1,0 +1,23 @@
+"""Simulated motions with the damper over frequency (figures 5, 8 and 10)."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.parameters import Damper, Oscillator
+from impact_damper.response import frequency_response
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+response = frequency_response(
+    Oscillator(**job["oscillator"]),
+    Damper(**job["damper"]),
+    np.linspace(*job["frequencies"]),
+    **job["search"],
+    settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.curve,
+)
+save(response, snakemake.output[0])

@@ -1,0 +1,22 @@
+"""Runs of the migration controller (section 5, figures 13 to 16)."""
+
+import sys
+
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.migration import trials
+from impact_damper.parameters import Damper, Oscillator
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+outcome = trials(
+    Oscillator(**job["oscillator"]),
+    Damper(**job["damper"]),
+    job["frequency"],
+    **job["controller"],
+    seed=job["seed"],
+    settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.run,
+)
+save(outcome, snakemake.output[0])

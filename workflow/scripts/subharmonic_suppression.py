@@ -1,0 +1,23 @@
+"""The one-third subharmonic, and what the damper makes of it (figures 5 and 8)."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.parameters import Damper, Oscillator
+from impact_damper.subharmonic import suppression
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+motions = suppression(
+    Oscillator(**job["oscillator"]),
+    Damper(**job["damper"]),
+    np.linspace(*job["frequencies"]),
+    **job["search"],
+    settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.curve,
+)
+save(motions, snakemake.output[0])

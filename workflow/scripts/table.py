@@ -1,0 +1,16 @@
+"""Tables of designs, bands, optima, subharmonics and migration."""
+
+import sys
+from pathlib import Path
+
+from impact_damper import tables
+from impact_damper.datasets import load
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+datasets = {
+    stage: {Path(path).stem: load(path) for path in paths}
+    for stage, paths in snakemake.input.items()
+    if stage != "code"
+}
+make = getattr(tables, snakemake.wildcards.table)
+tables.save(make(datasets), snakemake.output.csv, snakemake.output.markdown)
