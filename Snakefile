@@ -2,7 +2,7 @@
 
 from snakemake.utils import min_version
 
-min_version("9.14")
+min_version("9.27")
 
 
 configfile: workflow.source_path("config/config.yaml")

@@ -72,6 +72,30 @@ def check_configuration(config, schema) -> None:
         raise ConfigurationError("\n".join(dict.fromkeys(problems)))
 
 
+def without_left_out(config) -> dict:
+    """The configuration without entries set to null: how a second file leaves out what a first has.
+
+    Figures that draw such an entry go with it; one that is left with nothing to draw does too.
+    """
+    kept = {
+        key: {name: entry for name, entry in value.items() if entry is not None}
+        if isinstance(value, dict)
+        else value
+        for key, value in config.items()
+    }
+    for name, figure in list(kept.get("figures", {}).items()):
+        section = SECTIONS.get(figure.get("kind")) if isinstance(figure, dict) else None
+        if section is None or not isinstance(figure.get("data"), list):
+            continue
+        left_out = {key for key, entry in config.get(section, {}).items() if entry is None}
+        data = [key for key in figure["data"] if key not in left_out]
+        if data:
+            kept["figures"][name] = figure | {"data": data}
+        else:
+            del kept["figures"][name]
+    return kept
+
+
 def check_unique_keys(text, name) -> None:
     """Raise if a key of a YAML file stands twice, of which a reader would keep the last alone.
 

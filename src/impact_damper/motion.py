@@ -263,7 +263,8 @@ def settle(p, y, start, tolerance, patience, limit, out):
             mean, error, growing = exponent(rates[:batches])
             out.lyapunov_exponent = mean / (BLOCK * period)
             out.lyapunov_error = error / (BLOCK * period)
-            ripe = k >= patience and (out.lyapunov_exponent > WEAK or k >= limit - BLOCK)
+            last = k >= limit - BLOCK
+            ripe = last or (k >= patience and out.lyapunov_exponent > WEAK)
             if ripe and growing and mean > CONFIDENCE * error:
                 out.outcome = CHAOTIC
                 break

@@ -66,6 +66,10 @@ class Catalogue:
         self.shares[i] += origin == "random_start"
         return i
 
+    def order(self):
+        """Indices of the motions, the larger first."""
+        return np.argsort([record["maximum_displacement"] for record in self.records])[::-1]
+
 
 def _end_event(record, multiplier, beyond):
     """What ends a branch, from the dominant multiplier at its last orbit and what lies beyond."""
@@ -129,8 +133,7 @@ def _tables(catalogues, branches, dimension):
     extra = {"branch": np.full(records.shape, -1), "share": np.zeros(records.shape, int),
              "origin": np.full(records.shape, flag("origin", "absent"))}
     for row, catalogue in enumerate(catalogues):
-        sizes = [record["maximum_displacement"] for record in catalogue.records]
-        for column, k in enumerate(np.argsort(sizes)[::-1]):
+        for column, k in enumerate(catalogue.order()):
             records[row, column] = catalogue.records[k]
             extra["branch"][row, column] = branches[catalogue.numbers[k]]
             extra["share"][row, column] = catalogue.shares[k]
@@ -169,9 +172,8 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
                            workers=workers, progress=progress).reshape(size, starts)
     numbering = count()
     catalogues = [Catalogue(p, numbering) for p in parameters]
-    for catalogue, row in zip(catalogues, runs, strict=True):
-        for record in row:
-            catalogue.add(record, "random_start")
+    reached = [[catalogue.add(record, "random_start") for record in row]
+               for catalogue, row in zip(catalogues, runs, strict=True)]
     links, ends = [], {}
     # The second sweep upward also follows what the one downward found.
     for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
@@ -181,7 +183,10 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
     branches = _branches(catalogues, links)
     ends = ends["down"] + ends["up"]
     data = _tables(catalogues, branches, dimension)
+    columns = [np.argsort(catalogue.order())[row]
+               for catalogue, row in zip(catalogues, reached, strict=True)]
     data |= {"run_outcome": ((dimension, "start"), runs["outcome"]),
+             "run_motion": ((dimension, "start"), np.array(columns)),
              "run_length": ((dimension, "start"), runs["periods_run"])}
     for name in ("end_value", "end_direction", "end_event", "end_displacement",
                  "end_multiplier_real", "end_multiplier_imaginary"):

@@ -15,6 +15,7 @@ from impact_damper.configuration import (
     ConfigurationError,
     check_configuration,
     check_unique_keys,
+    without_left_out,
 )
 
 ROOT = Path(workflow.basedir)
@@ -33,6 +34,7 @@ wildcard_constraints:
 
 def checked(config):
     """The configuration with its keys in order, or an error that lists what is wrong with it."""
+    config = without_left_out(config)
     schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
     try:
         for path in workflow.configfiles:

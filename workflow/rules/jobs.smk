@@ -54,8 +54,9 @@ def frequencies_of(oscillator, points):
     return grid(config["oscillators"][oscillator]["frequencies"], points)
 
 
-def search():
-    return config["search"] | {"seed": config["seed"]}
+def search(starts):
+    given = config["search"]
+    return {"starts": given[starts], "radius": given["radius"], "seed": config["seed"]}
 
 
 def free_design_job(wildcards):
@@ -77,8 +78,8 @@ def design_job(wildcards):
 def free_job(wildcards):
     return {
         "oscillator": oscillator_of(wildcards.oscillator),
-        "frequencies": frequencies_of(wildcards.oscillator, "simulated"),
-        "search": search(),
+        "frequencies": frequencies_of(wildcards.oscillator, "free"),
+        "search": search("starts"),
         "settling": config["settling"],
     }
 
@@ -89,7 +90,7 @@ def response_job(wildcards):
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
         "frequencies": frequencies_of(curve["oscillator"], "simulated"),
-        "search": search(),
+        "search": search("starts"),
         "settling": config["settling"],
     }
 
@@ -122,6 +123,7 @@ def optimum_job(wildcards):
         "damper": damper_of(optimum),
         "frequency": optimum["frequency"],
         "clearances": grid(optimum["clearances"], "clearances"),
+        "search": search("sweep_starts"),
         "settling": config["settling"],
     }
 

@@ -16,6 +16,9 @@ sweep = clearance_sweep(
     job["damper"],
     job["frequency"],
     np.linspace(*job["clearances"]),
+    **job["search"],
     settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.optimum,
 )
 save(sweep, snakemake.output[0])

@@ -74,19 +74,47 @@ def _shading(label, color):
 # Keywords for `plot` (the last two for `axvspan`); merge to change one: ROLES[name] | {...}.
 ROLES = {
     "free_stable": _line("free, stable", BLACK, zorder=2.2),
-    "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
-    "harmonic_balance": _line(
-        "with damper, harmonic balance", SKY, linewidth=2.6, solid_capstyle="butt", zorder=2
+    "free_unstable": _line(
+        "free, unstable (harmonic balance)", GREY, linestyle=(0, (4, 2)), zorder=2.1
     ),
-    "period_1": _points("with damper, period 1", BLUE, "o"),
-    "higher_period": _points("with damper, higher period", GREEN, "s"),
-    "subharmonic_free": _points("one-third subharmonic, free", PURPLE, "^", filled=True),
-    "subharmonic_damped": _points("one-third subharmonic, with damper", PURPLE, "v"),
-    "inelastic": _points("with inelastic damper", VERMILION, "+", markersize=4.6),
-    "chaotic": _points("chaotic", ORANGE, ".", filled=True),
-    "unresolved": _points("unresolved", BLACK, "x"),
+    "free_higher": _line(
+        "free, other periods", BLACK, marker="|", markersize=4.2, linewidth=0.6, zorder=2.2
+    ),
+    "harmonic_balance": _line(
+        "elastic, stable (harmonic balance)", SKY, linewidth=2.6, solid_capstyle="butt", zorder=2
+    ),
+    "period_1": _points("elastic, period 1", BLUE, "o"),
+    "higher_period": _points("elastic, other periods", GREEN, "s"),
+    "subharmonic_free": _points(
+        "free, one-third subharmonic",
+        PURPLE,
+        "^",
+        filled=True,
+        markevery=0.025,
+        linestyle="-",
+        linewidth=0.5,
+    ),
+    "subharmonic_damped": _points("elastic, subharmonic (period $3n$)", PURPLE, "v"),
+    "chaotic": _points("elastic, chaotic", ORANGE, ".", filled=True),
+    "non_colliding": _points("elastic, no contact", BLACK, "D", markersize=2.6),
+    "unresolved": _points("elastic, unresolved", BLACK, "x"),
+    "inelastic_period_1": _points("inelastic, period 1", VERMILION, "+", markersize=4.6),
+    "inelastic_higher_period": _points("inelastic, other periods", VERMILION, "*"),
+    "inelastic_subharmonic_damped": _points("inelastic, subharmonic (period $3n$)", VERMILION, "v"),
+    "inelastic_chaotic": _points("inelastic, chaotic", VERMILION, "1", markersize=4.6),
+    "inelastic_non_colliding": _points("inelastic, no contact", VERMILION, "d"),
+    "inelastic_unresolved": _points("inelastic, unresolved", VERMILION, "x"),
+    "optimum": _points("smallest simulated", BLACK, "*", filled=True, markersize=5.5, zorder=3),
+    "near_optimum": _line("within 10 % of it", BLACK, marker="|", linewidth=0.6, zorder=3),
+    "non_resonance": _points("released to the non-resonance motion", BLUE, "o"),
+    "subharmonic": _points("released to the one-third subharmonic", VERMILION, "^", filled=True),
+    "resonance": _points("released to the resonance motion", BLACK, "x"),
+    "other": _points("released to another motion", GREEN, "s"),
+    "lost": _points("not settled after the release", ORANGE, "*"),
+    "switched_on": _line("switched on", VERMILION),
+    "switched_off": _line("switched off", BLUE, linestyle=(0, (3, 1.5))),
     "damper_on": _shading("damper on", PALE_SKY),
-    "band": _shading("suppression band", PALE_YELLOW),
+    "band": _shading("suppression band (harmonic balance)", PALE_YELLOW),
 }
 
 # Colour, dashes and marker of the curves of one figure that differ in a parameter.

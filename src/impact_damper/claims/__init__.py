@@ -1,0 +1,22 @@
+"""Every claim of Chatterjee, Mallik and Ghosh (1995), judged by the datasets."""
+
+import pandas as pd
+
+from impact_damper.claims import balance, contact, migration, motions, optimum, slips, subharmonic
+
+CLAIMS = tuple(sorted(
+    (claim for module in (balance, contact, migration, motions, optimum, slips, subharmonic)
+     for claim in module.CLAIMS),
+    key=lambda claim: (claim.number.startswith("S"), int(claim.number.removeprefix("S")))))
+
+
+def claims(datasets) -> pd.DataFrame:
+    """The claims table: a row for each claim, then one for each slip.
+
+    Parameters
+    ----------
+    datasets : dict
+        By stage and name, as the workflow makes them; a claim whose datasets are missing
+        is not decidable.
+    """
+    return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])

@@ -1,0 +1,59 @@
+"""Claim 15, on the model of inelastic contact (appendix B)."""
+
+import math
+
+from impact_damper.claims import extract
+from impact_damper.claims.claim import Claim, Missing, Number
+
+LOW = 0.3
+
+
+def relative_damping(restitution):
+    """Damping ratio z of the relative motion, from e = exp(-pi z/sqrt(1 - z^2))."""
+    logarithm = math.log(restitution)
+    return -logarithm / math.hypot(math.pi, logarithm)
+
+
+def duration(restitution):
+    """Time in contact over that of an elastic contact, 1/sqrt(1 - z^2)."""
+    return 1 / math.sqrt(1 - relative_damping(restitution) ** 2)
+
+
+def pull_free_error(restitution):
+    """Relative excess of the restitution over e if contact ends when the force vanishes.
+
+    The force -y'' vanishes at wd t = pi - 2 asin(z), while the penetration y is positive; from
+    there to the end of the contact the walls pull.
+    """
+    damping = relative_damping(restitution)
+    return math.exp(2 * math.asin(damping) * damping * duration(restitution)) - 1
+
+
+def model(datasets):
+    """Numbers of claim 15: the e that the datasets use, and a low one."""
+    used = [extract.parameter(data, "restitution")
+            for stage in ("response", "optimum") for data in datasets.get(stage, {}).values()]
+    used = [value for value in used if value < 1]
+    if not used:
+        raise Missing("There is no dataset with inelastic contact")
+    return {"high": max(map(pull_free_error, used)), "low": pull_free_error(LOW),
+            "pulling": 2 * math.asin(relative_damping(LOW)) / math.pi,
+            "duration": duration(LOW)}
+
+
+CLAIMS = (
+    Claim(
+        "15", "The contact model with (25) is good for high e and fails for low e.",
+        "appendix B", "Good: walls that cannot pull would return nearly the same share of the "
+        "velocity. From the closed form of an isolated contact, for the e < 1 of the datasets "
+        f"and for e = {LOW}. The paper's reason is that a contact takes longer.",
+        (
+            Number("high", "largest relative excess of the restitution without pull, e of the "
+                   "datasets", most=0.05, decisive=True),
+            Number("low", f"the same for e = {LOW}", least=0.2, decisive=True),
+            Number("duration", f"time in contact for e = {LOW} over that for e = 1", least=1.2),
+            Number("pulling", f"share of it in which the wall pulls, e = {LOW}"),
+        ),
+        model,
+    ),
+)

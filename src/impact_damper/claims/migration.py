@@ -1,0 +1,167 @@
+"""Claims on migration control: 12, 13, 14 and 19 (section 5, figures 13 to 16)."""
+
+import numpy as np
+
+from impact_damper.claims import extract
+from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.datasets import flag
+
+
+def lead(case, kind, free_motion):
+    """Shares of the releases of each damped motion of a kind that lead to a free motion."""
+    rows = case.damped_kind.values == flag("damped_kind", kind)
+    return case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
+
+
+def only(case, kind, free_motion, choose):
+    """Least or largest of `lead`, NaN if there is no such damped motion or release."""
+    shares = lead(case, kind, free_motion)
+    shares = shares[np.isfinite(shares)]
+    return float(choose(shares)) if len(shares) else np.nan
+
+
+def cases(datasets):
+    """All cases of migration control, or raise Missing."""
+    if not datasets.get("migration"):
+        raise Missing("There is no dataset of the stage migration")
+    return list(datasets["migration"].values())
+
+
+def any_phase(datasets):
+    """Numbers of claim 12."""
+    case = extract.get(datasets, "migration", "figure_13")
+    return {"quiet": only(case, "quiet", "non_resonance", min),
+            "unsettled": only(case, "unsettled", "non_resonance", min),
+            "unsettled_subharmonic": only(case, "unsettled", "subharmonic", max),
+            "unsettled_resonance": only(case, "unsettled", "resonance", max)}
+
+
+def both_outcomes(case, kind):
+    """Whether releases of a damped motion lead to either of the free motions."""
+    goal, other = (lead(case, kind, name) for name in ("non_resonance", "subharmonic"))
+    return bool(np.any((goal > 0) & (other > 0)))
+
+
+def release_phase(datasets):
+    """Numbers of claim 13."""
+    case = extract.get(datasets, "migration", "figure_15")
+    lower, upper = extract.subharmonic_range(extract.free_of(datasets, case))
+    numbers = {"frequency": extract.parameter(case, "frequency"), "lower": lower, "upper": upper,
+               "inside": min(extract.parameter(case, "frequency") - lower,
+                             upper - extract.parameter(case, "frequency"))}
+    for kind in ("quiet", "unsettled"):
+        numbers[f"{kind}_goal"] = only(case, kind, "non_resonance", max)
+        numbers[f"{kind}_subharmonic"] = only(case, kind, "subharmonic", max)
+        there = [extract.parameter(each, "frequency") for each in cases(datasets)
+                 if both_outcomes(each, kind)]
+        numbers[f"{kind}_first"] = min(there, default=np.nan)
+        numbers[f"{kind}_last"] = max(there, default=np.nan)
+    return numbers
+
+
+def total_cycles(datasets):
+    """Numbers of claim 14: all runs of all cases."""
+    runs = cases(datasets)
+    within = [float(run.within_share.sel(bound="share")) for run in runs]
+    reached = [run.trial_outcome == flag("trial_outcome", "reached") for run in runs]
+    medians = [float(run.switchings.where(there).median())
+               for run, there in zip(runs, reached, strict=True)]
+    return {
+        "most": np.mean(np.array(within) >= 0.5), "within": min(within),
+        "worst": extract.parameter(runs[int(np.argmin(within))], "frequency"),
+        "never": max(1 - float(there.mean()) for there in reached),
+        "switchings": max((median for median in medians if median > 0), default=np.nan),
+        "median": max(float(run.total_time.median()) for run in runs),
+        "longest": max(float(run.total_time.max()) for run in runs),
+        "damper": max(float(run.damper_time.median()) for run in runs),
+    }
+
+
+def early_release(datasets):
+    """Numbers of claim 19."""
+    case = extract.get(datasets, "migration", "figure_16")
+    counts = case.destination_count.sel(damped_motion="unsettled")
+    total = float(counts.sum())
+    return {
+        "early": float(counts.sel(free_motion="subharmonic")) / total if total else np.nan,
+        "goal": float(counts.sel(free_motion="non_resonance")) / total if total else np.nan,
+        "reached": float(case.reached_share.sel(bound="share")),
+        "switchings": float(case.switchings.median()),
+        "cycles": float(case.total_time.median()),
+    }
+
+
+CLAIMS = (
+    Claim(
+        "12", "W = 1.95: released at any phase, the motion goes to the non-resonance branch.",
+        "section 5 (i), figure 13", "Released from the steady state, taken as the quiet damped "
+        "motion, at even phases; beside it the motion before it has settled.",
+        (
+            Number("quiet", "share of releases of the quiet motion to the non-resonance branch",
+                   least=1, decisive=True),
+            Number("unsettled", "share of releases of the unsettled motion to it", least=1),
+            Number("unsettled_subharmonic", "share of those to the one-third subharmonic"),
+            Number("unsettled_resonance", "share of those to the resonance branch"),
+        ),
+        any_phase,
+    ),
+    Claim(
+        "13", "W = 1.7: the release phase decides between the period-1 and the period-3 motion.",
+        "section 5 (ii), figure 14", "Releases of the quiet damped motion at even phases, and of "
+        "the motion before it has settled; the free period-3 motion must exist at that W.",
+        (
+            Number("inside", "distance in W from the ends of the free one-third subharmonic, "
+                   "negative outside", least=0, decisive=True),
+            Number("lower", "W at which the free one-third subharmonic begins"),
+            Number("upper", "W at which it ends"),
+            Number("frequency", "W of the case"),
+            Number("quiet_goal", "share of releases of the quiet motion to the non-resonance "
+                   "branch", least=0.01, most=0.99, decisive=True),
+            Number("quiet_subharmonic", "share of them to period 3", least=0.01, most=0.99,
+                   decisive=True),
+            Number("unsettled_goal", "share of releases of the unsettled motion to the "
+                   "non-resonance branch"),
+            Number("unsettled_subharmonic", "share of those to period 3"),
+            Number("quiet_first", "lowest W of all cases with both outcomes from the quiet "
+                   "motion"),
+            Number("quiet_last", "highest such W"),
+            Number("unsettled_first", "lowest W of all cases with both outcomes from the "
+                   "unsettled motion"),
+            Number("unsettled_last", "highest W of those"),
+        ),
+        release_phase,
+    ),
+    Claim(
+        "14", "Several switchings, in total not more than 350 cycles, reach the non-resonance "
+        "branch.", "section 5", "Forcing periods from the first switching on until the free "
+        "motion has settled; the worst of the cases.",
+        (
+            Number("most", "share of cases in which half of the runs arrive within 350 cycles",
+                   least=0.5, decisive=True),
+            Number("within", "least share of runs that arrive within 350 cycles", least=1),
+            Number("worst", "W of that case"),
+            Number("never", "largest share of runs that never arrive"),
+            Number("switchings", "largest median of switchings of the runs that arrive"),
+            Number("median", "largest median of the cycles"),
+            Number("longest", "most cycles"),
+            Number("damper", "largest median of the cycles with the damper on"),
+        ),
+        total_cycles,
+    ),
+    Claim(
+        "19", "W = 1.85: released before the steady state, the motion goes to the period-3 "
+        "branch; several switchings then lead to period 1.", "section 5 (iii), figure 16",
+        "Switchings with the damper held for a few cycles only.",
+        (
+            Number("early", "share of early releases that lead to period 3", least=0.01,
+                   decisive=True),
+            Number("early", "share of early releases that lead to period 3", least=0.5),
+            Number("goal", "share of early releases that lead to the non-resonance branch"),
+            Number("reached", "share of runs that arrive in the end", least=0.5, decisive=True),
+            Number("reached", "share of runs that arrive in the end", least=1),
+            Number("switchings", "median of the switchings"),
+            Number("cycles", "median of the cycles"),
+        ),
+        early_release,
+    ),
+)

@@ -1,0 +1,121 @@
+"""Migration control: a run against time, and where releases lead (figures 13 to 16)."""
+
+import numpy as np
+
+from impact_damper.datasets import flag, parameters_of
+from impact_damper.figures.style import (
+    BLACK,
+    ROLES,
+    axis_label,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+AROUND = -15, 25  # forcing periods around a release
+DESTINATIONS = {
+    "non_resonance": "non_resonance",
+    "subharmonic": "subharmonic",
+    "resonance": "resonance",
+    "other": "other",
+    "unresolved": "lost",
+}
+MOTIONS = {
+    "unsettled": "before it has settled",
+    "quiet": "quiet motion",
+    "violent": "violent motion",
+    "subharmonic": "subharmonic motion",
+}
+
+
+@style()
+def draw_migration(*, migration):
+    """Displacement of the primary mass in the stored run: all of it, and its last release.
+
+    Parameters
+    ----------
+    migration : list of xarray.Dataset
+        Of `trials`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 0.7 + 3.6 * len(migration))
+    panels = drawn.subplots(2 * len(migration), 1, squeeze=False)[:, 0]
+    for runs, whole, part in zip(migration, panels[::2], panels[1::2], strict=True):
+        run = runs.isel(trial=int(runs["example"]))
+        period = 2 * np.pi / parameters_of(runs)["frequency"]
+        release = np.nanmax(run["off_time"])
+        draw_run(whole, run, run["time"].values[[0, -1]], 0.3)
+        draw_run(part, run, release + period * np.array(AROUND), 0.8)
+        above = whole.secondary_xaxis("top", (lambda t, p=period: t / p, lambda n, p=period: n * p))
+        above.set_xlabel(r"Forcing periods, $\Omega T / 2 \pi$")
+        part.set(xlabel=axis_label(run["time"]))
+    drawn.supylabel(axis_label(migration[0]["displacement"]), fontsize="medium")
+    letter_panels(panels)
+    legend(drawn, 3)
+    return drawn
+
+
+def draw_run(axes, run, span, width):
+    """A run of the controller over a span of time, with its switchings."""
+    axes.plot(run["time"], run["displacement"], color=BLACK, linewidth=width)
+    on, off = (run[name].values[np.isfinite(run[name])] for name in ("on_time", "off_time"))
+    for begin, end in zip(on, off, strict=True):
+        axes.axvspan(begin, end, **ROLES["damper_on"])
+    for times, role in ((on, "switched_on"), (off, "switched_off")):
+        for time in times:
+            axes.axvline(time, **ROLES[role])
+    axes.set(xlim=span)
+    axes.tick_params(top=False)
+
+
+@style()
+def draw_release(*, migration):
+    """States of each damped motion at which it was released, marked by where that leads.
+
+    Parameters
+    ----------
+    migration : list of xarray.Dataset
+        Of `trials`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    sources = [(runs, row) for runs in migration for row in range(runs.sizes["damped"])]
+    rows = -(-len(sources) // 2)
+    drawn = figure("double", 0.6 + 2.6 * rows)
+    panels = drawn.subplots(rows, 2, squeeze=False).ravel()
+    for axes, (runs, row) in zip(panels, sources, strict=False):
+        draw_releases(axes, runs.isel(damped=row))
+    for axes in panels[len(sources) :]:
+        axes.remove()
+    letter_panels(panels[: len(sources)])
+    legend(drawn, 3)
+    return drawn
+
+
+def draw_releases(axes, releases):
+    """Releases of one damped motion."""
+    for destination, role in DESTINATIONS.items():
+        value = flag("release_destination", destination)
+        chosen = releases["release_destination"].values == value
+        if chosen.any():
+            axes.plot(
+                releases["release_displacement"].values[chosen],
+                releases["release_velocity"].values[chosen],
+                **ROLES[role],
+            )
+    (words,) = (
+        words
+        for kind, words in MOTIONS.items()
+        if releases["damped_kind"] == flag("damped_kind", kind)
+    )
+    axes.set(
+        title=words,
+        xlabel=axis_label(releases["release_displacement"]),
+        ylabel=axis_label(releases["release_velocity"]),
+    )

@@ -1,0 +1,55 @@
+"""Phase plots of steady motions: figure 4."""
+
+import numpy as np
+
+from impact_damper.figures.style import (
+    BLACK,
+    BLUE,
+    ORANGE,
+    axis_label,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+WALLS = {
+    1: {"label": "contact, $Z_2 \\geq d_0$", "color": BLUE, "solid_capstyle": "butt"},
+    -1: {"label": "contact, $Z_2 \\leq -d_0$", "color": ORANGE, "linestyle": (0, (1.2, 0.5))},
+}
+
+
+@style()
+def draw_motion(*, motion):
+    """Velocity against displacement of the primary mass, with its contacts, a panel for each.
+
+    Parameters
+    ----------
+    motion : list of xarray.Dataset
+        Of `simulate`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("single" if len(motion) == 1 else "double", 3.2)
+    panels = drawn.subplots(1, len(motion), squeeze=False)[0]
+    for axes, traced in zip(panels, motion, strict=True):
+        axes.plot(traced["displacement"], traced["velocity"], color=BLACK, linewidth=0.8)
+        for wall, look in WALLS.items():
+            velocity = np.where(in_contact(traced, wall), traced["velocity"], np.nan)
+            axes.plot(traced["displacement"], velocity, linewidth=3, **look)
+        axes.set(xlabel=axis_label(traced["displacement"]), ylabel=axis_label(traced["velocity"]))
+    if len(panels) > 1:
+        letter_panels(panels)
+    legend(drawn, 2)
+    return drawn
+
+
+def in_contact(traced, wall):
+    """True at the times of contact with a wall; a contact without an end lasts."""
+    time = traced["time"].values[:, None]
+    chosen = traced["contact_wall"].values == wall
+    begin = traced["contact_begin"].values[chosen]
+    end = np.nan_to_num(traced["contact_end"].values[chosen], nan=np.inf)
+    return np.any((begin <= time) & (time <= end), axis=1)

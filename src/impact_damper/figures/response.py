@@ -1,0 +1,89 @@
+"""Frequency responses with and without a damper: figures 5, 8 and 10."""
+
+from impact_damper.datasets import flag, parameters_of
+from impact_damper.figures.branches import branch_lines, draw_lines
+from impact_damper.figures.design import draw_balance, draw_band
+from impact_damper.figures.free import draw_free_branches
+from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
+
+JOINED = {"linestyle": "-", "linewidth": 0.5}
+STATUSES = ("chaotic", "non_colliding", "unresolved")
+
+
+@style()
+def draw_response(*, response, design, subharmonic, free, free_design):
+    """Largest displacement against forcing frequency, all of one oscillator in one plot.
+
+    Parameters
+    ----------
+    response : list of xarray.Dataset
+        Of `frequency_response` with a damper, elastic or inelastic.
+    design : list of xarray.Dataset
+        Harmonic balance of the elastic dampers and their suppression bands.
+    subharmonic : list of xarray.Dataset
+        Of `suppression`.
+    free : list of xarray.Dataset
+        Of `frequency_response` without a damper.
+    free_design : list of xarray.Dataset
+        Of `harmonic_balance_response` without a damper.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 5.0)
+    axes = drawn.subplots()
+    for motions, balance in zip(free, free_design, strict=True):
+        draw_free_branches(axes, motions, balance)
+    for balance in design:
+        draw_band(axes, balance)
+        draw_balance(axes, balance)
+    for motions in response:
+        draw_motions(axes, motions)
+    for motions in subharmonic:
+        draw_settled(axes, motions, ["subharmonic_damped"])
+    first = response[0]
+    axes.set(
+        xlabel=axis_label(first["frequency"]),
+        ylabel=axis_label(first["maximum_displacement"]),
+        xlim=first["frequency"].values[[0, -1]],
+    )
+    axes.set_ylim(bottom=0)
+    legend(drawn, 3)
+    return drawn
+
+
+def draw_motions(axes, motions):
+    """Motions with a damper: settled ones along their branches, and those of any other status."""
+    prefix = "inelastic_" if parameters_of(motions)["restitution"] < 1 else ""
+    draw_settled(axes, motions, ["period_1", "higher_period", "subharmonic_damped"], prefix)
+    outcome = motions["outcome"].values
+    chosen = {status: outcome == flag("outcome", status) for status in STATUSES}
+    chosen["non_colliding"] |= is_settled(motions) & (motions["contacts"].values == 0)
+    for status in STATUSES:
+        row, column = chosen[status].nonzero()
+        if len(row):
+            axes.plot(
+                motions["frequency"].values[row],
+                motions["maximum_displacement"].values[row, column],
+                **ROLES[f"{prefix}{status}"],
+            )
+
+
+def draw_settled(axes, motions, roles, prefix=""):
+    """Settled motions with contacts; those whose period is a multiple of 3 are subharmonics."""
+    period = motions["period"].values
+    colliding = is_settled(motions) & (motions["contacts"].values > 0)
+    chosen = {
+        "period_1": period == 1,
+        "higher_period": (period > 1) & (period % 3 != 0),
+        "subharmonic_damped": (period > 1) & (period % 3 == 0),
+    }
+    for role in roles:
+        found = branch_lines(motions, colliding & chosen[role])
+        draw_lines(axes, found, ROLES[f"{prefix}{role}"] | JOINED)
+
+
+def is_settled(motions):
+    """True for settled motions."""
+    return motions["outcome"].values == flag("outcome", "settled")

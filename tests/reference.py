@@ -1,0 +1,84 @@
+"""Motions by heyoka.py with terminal events: the same equations, another program.
+
+State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `parameters.pack`.
+"""
+
+import math
+from typing import NamedTuple
+
+import heyoka
+import numpy as np
+
+# heyoka's tolerance is relative to the largest term of the events too: no distant wall.
+BEYOND_ALL_MOTIONS = 16.0
+
+
+class Run(NamedTuple):
+    """States at the times asked for, and contacts: wall, beginning, end, Z2' at both."""
+
+    states: np.ndarray
+    contacts: np.ndarray
+
+
+class Reference:
+    """Integrator that switches between flight and contact at terminal events.
+
+    Parameters
+    ----------
+    longest : float
+        Longest step allowed; a second value counts the contacts a second time.
+    """
+
+    def __init__(self, longest=math.inf):
+        x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
+        names = [heyoka.par[i] for i in range(8)]
+        frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot, side = names
+        free = heyoka.cos(frequency * heyoka.time) - damping * v - stiffness * x - x * x * x
+        force = spring * (z - side * clearance) + dashpot * w
+        rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
+        entries = [
+            heyoka.t_event(z - clearance, direction=rising),
+            heyoka.t_event(z + clearance, direction=falling),
+        ]
+        release = [heyoka.t_event(side * z - clearance, direction=falling)]
+        pushed = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
+        self.longest = longest
+        self.flight = heyoka.taylor_adaptive(
+            [(x, v), (v, free), (z, w), (w, free)], np.zeros(4), pars=np.zeros(4), t_events=entries
+        )
+        self.contact = heyoka.taylor_adaptive(
+            pushed, np.zeros(4), pars=np.zeros(8), t_events=release
+        )
+
+    def _leg(self, p, side, state, t, end):
+        """Integrate to the next event or to the end; returns outcome, state and time."""
+        motion = self.contact if side else self.flight
+        motion.time = t
+        motion.state[:] = state
+        motion.reset_cooldowns()
+        motion.pars[:4] = (*p[:3], min(p[3], BEYOND_ALL_MOTIONS))
+        if side:
+            motion.pars[4:] = (*p[4:], side)
+        outcome = motion.propagate_until(end, max_delta_t=self.longest)[0]
+        return outcome, motion.state.copy(), motion.time
+
+    def run(self, p, state, start, times, side=0):
+        """Integrate from `start` through increasing times, with `side` the wall touched first."""
+        t, clearance = start, min(p[3], BEYOND_ALL_MOTIONS)
+        contacts = [[side, t, np.nan, state[3], np.nan]] if side else []
+        samples = []
+        while len(samples) < len(times):
+            outcome, state, t = self._leg(p, side, state, t, times[len(samples)])
+            if outcome == heyoka.taylor_outcome.time_limit:
+                samples.append(state)
+                continue
+            if side:
+                contacts[-1][2::2] = t, state[3]
+                state[2] = side * np.nextafter(clearance, 0.0)
+                side = 0
+            else:
+                side = 1 if int(outcome) == -1 else -1
+                contacts.append([side, t, np.nan, state[3], np.nan])
+                # A hair beyond: on the wall, a release within the same step could be hidden.
+                state[2] = side * np.nextafter(clearance, math.inf)
+        return Run(np.array(samples), np.array(contacts).reshape(-1, 5))

@@ -1,0 +1,245 @@
+"""Claims: every verdict follows from the data, and changes with them."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from made_up import PEAKS, world
+
+from impact_damper.claims import CLAIMS, claims, extract
+from impact_damper.claims.claim import (
+    DIFFERENT,
+    NOT_DECIDABLE,
+    NOT_REPRODUCED,
+    REPRODUCED,
+    Claim,
+    Missing,
+    Number,
+)
+from impact_damper.claims.motions import ELASTIC
+from impact_damper.datasets import flag, parameters_of
+
+BY_NUMBER = {claim.number: claim for claim in CLAIMS}
+
+
+@pytest.fixture
+def data():
+    return world()
+
+
+def scale(stage, name, **factors):
+    """A change of the made-up data: variables of a dataset times factors."""
+    def change(data):
+        for variable, factor in factors.items():
+            data[stage][name] = data[stage][name].assign(
+                {variable: data[stage][name][variable] * factor})
+    return change
+
+
+def assign(stage, name, **values):
+    """A change of the made-up data: variables of a dataset set to a value."""
+    def change(data):
+        for variable, value in values.items():
+            old = data[stage][name][variable]
+            data[stage][name] = data[stage][name].assign({variable: old.where(False, value)})
+    return change
+
+
+def each(names, change):
+    """A change of several made-up datasets."""
+    def changes(data):
+        for name in names:
+            change(name)(data)
+    return changes
+
+
+def copy(stage, name, source):
+    """A change of the made-up data: one dataset in place of another."""
+    def change(data):
+        data[stage][name] = data[stage][source]
+    return change
+
+
+def share(name, kind, subharmonic):
+    """A change of the made-up data: where releases of a damped motion lead."""
+    def change(data):
+        case = data["migration"][name].copy(deep=True)
+        row = {"damped": ["unsettled", "quiet"].index(kind)}
+        case.release_share.loc[row | {"free_motion": "subharmonic"}] = subharmonic
+        case.release_share.loc[row | {"free_motion": "non_resonance"}] = 1 - subharmonic
+        data["migration"][name] = case
+    return change
+
+
+def early(subharmonic):
+    """A change of the made-up data: counts of the early releases to the subharmonic."""
+    def change(data):
+        case = data["migration"]["figure_16"].copy(deep=True)
+        case.destination_count.loc[{"damped_motion": "unsettled"}] = 0
+        for motion, count in (("subharmonic", subharmonic), ("non_resonance", 10 - subharmonic)):
+            case.destination_count.loc[
+                {"damped_motion": "unsettled", "free_motion": motion}] = count
+        data["migration"]["figure_16"] = case
+    return change
+
+
+def power(data):
+    """A change of the made-up data: the penetration that the expansion of (6e) gives."""
+    old = data["design"]["figure_05a"]
+    clearance = extract.parameter(old, "clearance")
+    depth = old.relative_amplitude - clearance
+    data["design"]["figure_05a"] = old.assign(relative_amplitude=clearance + depth**(1 / 3) / 100)
+
+
+def fourth(data):
+    """A change of the made-up data: the state's missing component."""
+    old = data["motion"]["figure_04"]
+    data["motion"]["figure_04"] = old.assign(relative_velocity=old.velocity)
+
+
+def renamed(stage, name, **values):
+    """A change of the made-up data: parameters that made a dataset."""
+    def change(data):
+        old = data[stage][name].copy()
+        old.attrs["parameters"] = json.dumps(parameters_of(old) | values)
+        data[stage][name] = old
+    return change
+
+
+REFUTED = {
+    "1": scale("design", "figure_03a_rule", quiet_amplitude=1000),
+    "2": scale("design", "figure_05a", rigid_amplitude=1.1),
+    "3": assign("design", "figure_03b", stability=flag("stability", "unstable")),
+    "4": scale("design", "figure_05c", band_width=0.1),
+    "5": assign("response", "figure_05b", contacts=3.0),
+    "6": each(ELASTIC, lambda name: scale("response", name, contacts=0.5)),
+    "7": scale("response", "figure_05a", phase_relative=0.5),
+    "8": scale("collisions", "figure_05a", colliding=0.5),
+    "9": scale("optimum", "0.215_0.12_1.0", optimum_clearance=0.9),
+    "10": copy("subharmonic", "figure_05b", "figure_05c"),
+    "11": copy("response", "figure_10", "figure_05c"),
+    "12": share("figure_13", "quiet", 0.1),
+    "13": share("figure_15", "quiet", 0.0),
+    "14": each(("figure_13", "figure_15"), lambda name: scale(
+        "migration", name, within_share=0.1)),
+    "15": renamed("response", "figure_10", restitution=0.2),
+    "16": scale("response", "figure_05a", maximum_displacement=30),
+    "17": scale("response", "figure_05c", maximum_displacement=10),
+    "18": scale("subharmonic", "figure_08", free_subharmonic=0.2),
+    "19": early(0),
+    "S1": power,
+    "S2": renamed("design", "figure_03a", clearance=0.69),
+    "S3": fourth,
+    "S4": renamed("design", "figure_05a", clearance=2),
+    "S5": scale("free", "h150", end_value=1.02),
+    "S6": renamed("optimum", "0.215_0.12_0.75", frequency=1.0),
+}
+
+DIFFERENCES = {
+    "4": scale("design", "figure_03b", reduction=0.5),
+    "6": assign("response", "figure_05b", outcome=flag("outcome", "chaotic")),
+    "8": scale("collisions", "figure_05a", colliding=0.995),
+    "9": scale("optimum", "0.215_0.12_1.0", optimum_displacement=2),
+    "12": share("figure_13", "unsettled", 0.1),
+    "14": scale("migration", "figure_13", within_share=0.1),
+    "18": assign("subharmonic", "figure_08", suppression=flag("suppression", "unchanged")),
+    "19": early(1),
+}
+
+
+def test_every_claim_and_slip_is_there_in_order():
+    numbers = [str(k) for k in range(1, 20)] + [f"S{k}" for k in range(1, 7)]
+    assert [claim.number for claim in CLAIMS] == numbers
+
+
+def test_all_are_reproduced_in_a_world_made_so(data):
+    table = claims(data)
+    assert dict(zip(table.number, table.verdict, strict=True)) == dict.fromkeys(
+        BY_NUMBER, REPRODUCED), table[table.verdict != REPRODUCED].to_string()
+    assert (table.difference == "").all()
+    assert (table.evidence != "").all()
+
+
+@pytest.mark.parametrize("number", BY_NUMBER)
+def test_data_refute(number, data):
+    REFUTED[number](data)
+    row = BY_NUMBER[number].judge(data)
+    assert row["verdict"] == NOT_REPRODUCED, row["evidence"]
+    assert row["difference"].startswith("Here ")
+
+
+@pytest.mark.parametrize("number", DIFFERENCES)
+def test_data_make_a_difference(number, data):
+    DIFFERENCES[number](data)
+    row = BY_NUMBER[number].judge(data)
+    assert row["verdict"] == DIFFERENT, row["evidence"]
+
+
+@pytest.mark.parametrize("number", BY_NUMBER)
+def test_missing_data_leave_it_open(number):
+    row = BY_NUMBER[number].judge({})
+    assert row["verdict"] == NOT_DECIDABLE
+    assert row["difference"].startswith("There ")
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
+def test_evidence_and_numbers_have_the_same_names(claim, data):
+    assert {number.name for number in claim.numbers} <= set(claim.evidence(data))
+    assert any(number.decisive for number in claim.numbers)
+
+
+SHARP = Number("sharp", "the sharp number", most=1.0, decisive=True)
+FULL = Number("full", "the full number", least=0.0, most=2.0)
+NOTE = Number("note", "the note")
+
+
+@pytest.mark.parametrize("values, verdict", [
+    ((1.0, 2.0, math.nan), REPRODUCED),
+    ((1.0, 2.1, 0.0), DIFFERENT),
+    ((1.1, 1.0, 0.0), NOT_REPRODUCED),
+    ((1.1, math.nan, 0.0), NOT_REPRODUCED),
+    ((math.nan, 1.0, 0.0), NOT_DECIDABLE),
+    ((1.0, math.nan, 0.0), NOT_DECIDABLE),
+])
+def test_verdict(values, verdict):
+    evidence = dict(zip(("sharp", "full", "note"), values, strict=True))
+    claim = Claim("1", "", "", "", (SHARP, FULL, NOTE), lambda datasets: evidence)
+    assert claim.judge({})["verdict"] == verdict
+
+
+def test_words():
+    evidence = {"sharp": 1.23456, "full": math.nan, "note": math.nan}
+    row = Claim("1", "", "", "", (SHARP, FULL, NOTE), lambda datasets: evidence).judge({})
+    assert row["criterion"] == (
+        "Decided by: the sharp number at most 1. In full: the full number from 0 to 2.")
+    assert row["evidence"] == "the sharp number: 1.235; the full number: none; the note: none"
+    assert row["difference"] == (
+        "Here the sharp number is 1.235 instead of at most 1; the full number is unknown.")
+
+
+def test_simulated_band(data):
+    """The edge is the end of the high branch; only the next frequency bounds a chaotic one."""
+    response, free = data["response"]["figure_05a"], data["free"]["h215"]
+    band = extract.simulated_band(response, free)
+    assert band.lower == pytest.approx(0.95 * PEAKS[0.215])
+    assert band.width == pytest.approx(0.05 * PEAKS[0.215])
+    assert band.resolution == 0
+    chaotic = response.assign(end_value=0 * response.end_value, outcome=response.outcome.where(
+        response.contacts != 4, flag("outcome", "chaotic")))
+    band = extract.simulated_band(chaotic, free)
+    assert band.lower == pytest.approx(0.945 * PEAKS[0.215])
+    assert band.least_width == pytest.approx(0.05 * PEAKS[0.215])
+
+
+def test_quiet_motion_touches_and_has_settled(data):
+    response = data["response"]["figure_05a"]
+    rest = response.assign(outcome=response.outcome.where(
+        response.contacts != 2, flag("outcome", "non_colliding")))
+    assert np.isnan(extract.quiet(rest).maximum_displacement[-1])
+    assert extract.quiet(response).maximum_displacement[-1] < 0.2
+
+
+def test_unknown_dataset_is_named():
+    with pytest.raises(Missing, match="no dataset design/figure_05a"):
+        extract.get({}, "design", "figure_05a")

@@ -1,0 +1,253 @@
+"""Events against exact arithmetic, steps against their order, tangents against differences."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from conftest import DESIGN, INELASTIC, PAPER
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from sampling import sample
+
+from impact_damper import kernel, series
+from impact_damper.motion import period_map
+from impact_damper.parameters import Damper, Oscillator, pack
+
+# Beyond this much the wall counts as passed: rounding of the polynomials below.
+HAIR = Fraction(1, 10**12)
+DEGREE = 7
+coefficients = st.lists(st.integers(-200, 200), min_size=2, max_size=DEGREE + 1)
+examples = settings(max_examples=150, deadline=None, derandomize=True)
+
+
+def evaluate(c, t):
+    value = Fraction(0)
+    for a in reversed(c):
+        value = value * t + a
+    return value
+
+
+def sturm_chain(c):
+    """Sturm's chain of a polynomial with rational coefficients, lowest power first."""
+
+    def trimmed(c):
+        while c and c[-1] == 0:
+            c = c[:-1]
+        return [a / abs(c[-1]) for a in c]
+
+    chain = [trimmed(c), trimmed([k * a for k, a in enumerate(c)][1:])]
+    while len(chain[-1]) > 0:
+        left, divisor = list(chain[-2]), chain[-1]
+        while len(left) >= len(divisor):
+            factor = left[-1] / divisor[-1]
+            for k in range(len(divisor)):
+                left[len(left) - len(divisor) + k] -= factor * divisor[k]
+            left.pop()
+        chain.append(trimmed([-a for a in left]))
+    return chain[:-1]
+
+
+def roots_within(c, end):
+    """Number of different real roots in (0, end], by Sturm's theorem in exact arithmetic."""
+    chain = sturm_chain([Fraction(a) for a in c])
+
+    def changes(t):
+        signs = [s for s in (evaluate(link, t) for link in chain) if s != 0]
+        return sum((a > 0) != (b > 0) for a, b in zip(signs, signs[1:], strict=False))
+
+    return changes(Fraction(0)) - changes(Fraction(end))
+
+
+def padded(c):
+    return np.pad(np.array(c, float), (0, series.LENGTH - len(c)))
+
+
+def check_contact(c, offset, drift, clearance, length):
+    """The time found is on the wall, and no wall was passed before it."""
+    t, side = kernel.first_contact(padded(c), series.FLIGHT_ORDER, offset, drift, clearance, length)
+    path = [Fraction(float(a)) for a in [*c, *[0.0] * (2 - len(c))]]
+    path[0] += Fraction(offset)
+    path[1] += Fraction(drift)
+    for sign in (1, -1):
+        wall = [sign * a for a in path]
+        wall[0] -= Fraction(clearance) + HAIR
+        assert roots_within(wall, t) == 0
+    if side == 0:
+        assert t == length
+    else:
+        assert 0 <= t < length
+        assert abs(side * evaluate(path, Fraction(t)) - Fraction(clearance)) < HAIR
+        slope = evaluate([k * a for k, a in enumerate(path)][1:], Fraction(t))
+        assert side * slope > -Fraction(1, 10**5)
+    return t, side
+
+
+@examples
+@given(coefficients, st.integers(-64, 64), st.integers(-128, 128), st.floats(0.1, 3.0))
+def test_first_contact_of_random_polynomials(c, offset, drift, length):
+    c = [a / 64 for a in c]
+    offset, drift = offset / 64, drift / 64
+    check_contact(c, offset, drift, abs(c[0] + offset) + 0.25, length)
+
+
+@examples
+@given(coefficients, st.integers(2, 14), st.booleans())
+def test_first_contact_of_grazing_polynomials(c, exponent, beyond):
+    """The wall stands next to the largest |Z2|: a double root, nearly."""
+    c = [0.0, *(a / 64 for a in c)]
+    t = np.linspace(0, 1, 10001)
+    largest = np.max(np.abs(np.polynomial.Polynomial(c)(t)))
+    if largest < 0.1:
+        return
+    check_contact(c, 0.0, 0.0, largest * (1 + (1 if beyond else -1) * 10.0**-exponent), 1.0)
+
+
+@pytest.mark.parametrize("exponent", range(1, 15))
+@pytest.mark.parametrize("sign", [1, -1])
+def test_grazing_parabola(exponent, sign):
+    """Z2 = 1 - (t - 1)^2 meets the wall at 1 - eps when t = 1 - sqrt(eps)."""
+    depth = 10.0**-exponent
+    c = sign * padded([0.0, 2.0, -1.0])
+    t, side = kernel.first_contact(c, series.FLIGHT_ORDER, 0.0, 0.0, 1 - depth, 3.0)
+    assert side == sign
+    assert_allclose(t, 1 - math.sqrt(depth), atol=1e-15 / math.sqrt(depth))
+    if exponent < 15:
+        # with the wall moved out, the other wall is met, at -1 - eps
+        t, side = kernel.first_contact(c, series.FLIGHT_ORDER, 0.0, 0.0, 1 + depth, 3.0)
+        assert side == -sign
+        assert_allclose(t, 1 + math.sqrt(2 + depth), rtol=1e-14)
+
+
+def test_no_contact_without_walls():
+    c = padded([0.0, 1e3])
+    assert kernel.first_contact(c, series.FLIGHT_ORDER, 0.0, 0.0, math.inf, 2.0) == (2.0, 0)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_start_on_a_wall_that_recedes(side):
+    """Just released: the wall itself is no contact, the next one is found."""
+    c = side * padded([1.0, -1e-3, 1.0])
+    t, found = kernel.first_contact(c, series.FLIGHT_ORDER, 0.0, 0.0, 1.0, 1.0)
+    assert found == side
+    assert_allclose(t, 1e-3, rtol=1e-9)
+
+
+@examples
+@given(coefficients, st.integers(0, 64), st.floats(0.1, 2.0), st.sampled_from([1, -1]))
+def test_first_release_of_random_polynomials(c, depth, length, side):
+    """A contact begins on the wall moving outward, or anywhere beyond it."""
+    c = [depth / 64, *(a / 64 for a in c)]
+    if depth == 0:
+        c[1] = abs(c[1]) + 1 / 64
+    t, released = kernel.first_release(
+        padded([side * a for a in c]), series.CONTACT_ORDER, side, length
+    )
+    path = [Fraction(a) for a in c]
+    above = [path[0] + HAIR, *path[1:]]
+    assert roots_within(above, t) == 0
+    if released:
+        assert 0 <= t < length
+        assert abs(evaluate(path, Fraction(t))) < HAIR
+    else:
+        assert t == length
+
+
+def test_side_of():
+    p = pack(PAPER, DESIGN, 2.0)
+    for z, w, side in [(2, 1, 1), (2, -1, 0), (2.1, -1, 1), (-2, -1, -1), (-2, 1, 0), (0, 9, 0)]:
+        assert kernel.side_of(p, np.array([0.0, 0.0, z, w])) == side
+    assert kernel.side_of(pack(PAPER, None, 2.0), np.array([9.0, 0.0, 9.0, 1.0])) == 0
+
+
+def integrated(p, state, side, length, steps, tolerance):
+    """State after equal steps, events aside."""
+    y, work = np.array(state), kernel.workspace()
+    for i in range(steps):
+        taken, side = kernel.step(
+            p, y, np.empty((0, 4)), side, i * length / steps, length / steps, tolerance, work
+        )
+        assert taken == length / steps
+    return y
+
+
+def test_order_of_flight_steps():
+    """Halving the step divides the error by two to the order of the series."""
+    p = pack(PAPER, None, 2.0)
+    state = [1.5, 0.5, 1.5, 0.5]
+    exact = integrated(p, state, 0, 2.4, 24, 1.0)
+    errors = [np.max(np.abs(integrated(p, state, 0, 2.4, n, 1e15) - exact)) for n in (3, 4, 6)]
+    orders = np.log(np.divide(errors[:-1], errors[1:])) / np.log([4 / 3, 3 / 2])
+    assert np.all(orders > series.FLIGHT_ORDER - 2)
+
+
+def test_order_of_contact_series():
+    """Contact steps are capped below where their error shows: the series itself is looked at."""
+    p = pack(Oscillator(0.215, 1.0), Damper(0.12, 2.0, 0.9), 2.0)
+    state = 0.5, -0.4, 0.0, 1.5
+    lengths = 0.04, 0.06, 0.09
+    errors = []
+    for length in lengths:
+        x, q, square = (np.zeros(series.LENGTH) for _ in range(3))
+        series.contact(p, 1.0, 0.0, *state, x, q, square)
+        at_end, _ = kernel.polynomial(q, series.CONTACT_ORDER, length)
+        y, n = np.array(state), 40
+        for i in range(n):
+            angle = p[0] * length * i / n
+            series.contact(p, math.cos(angle), math.sin(angle), *y, x, q, square)
+            y[:2] = kernel.polynomial(x, series.CONTACT_ORDER, length / n)
+            y[2:] = kernel.polynomial(q, series.CONTACT_ORDER, length / n)
+        errors.append(abs(at_end - y[2]))
+    orders = np.diff(np.log(errors)) / np.diff(np.log(lengths))
+    assert_allclose(orders, series.CONTACT_ORDER + 1, atol=2)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_contact_steps_never_pass_a_release(tolerance):
+    """Stiff and soft walls: a contact lasts half a natural period, nearly."""
+    for stiffness in (1e2, 1e4, 1e6):
+        damper = Damper(0.12, 2.0, 1.0, stiffness)
+        p = pack(PAPER, damper, 2.0)
+        _, log = sample(p, [0.0, 0.0, 2.0, 1.0], math.pi / 4, [math.pi / 4 + 1.0], tolerance)
+        half = math.pi / damper.contact_frequency
+        assert abs(log[0, 2] - log[0, 1] - half) < 0.2 * half
+
+
+def test_tangents_against_differences(impacting):
+    """Central differences of the map between mid-flight phases converge with order two."""
+    p, state = impacting.parameters, impacting.state
+    _, matrix, _ = period_map(p, state, 1, 1e-14)
+
+    def error(h):
+        difference = np.empty((4, 4))
+        for k, unit in enumerate(np.eye(4)):
+            ahead, _, _ = period_map(p, state + h * unit, 1, 1e-14)
+            behind, _, _ = period_map(p, state - h * unit, 1, 1e-14)
+            difference[:, k] = (ahead - behind) / (2 * h)
+        return np.max(np.abs(difference - matrix))
+
+    coarse, fine = error(1e-3), error(1e-4)
+    assert fine < 1e-6 * np.max(np.abs(matrix)) * 100
+    assert 80 < coarse / fine < 125
+    assert error(1e-5) < 1e-7 * np.max(np.abs(matrix))
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
+def test_tangents_of_a_motion_that_starts_in_contact(damper):
+    """At tolerance and phase at will; the dashpot's jump at the release included."""
+    p = pack(Oscillator(0.3, 1.1), damper, 1.9)
+    state = np.array([0.4, 0.2, damper.clearance + 0.01, 1.0])
+
+    def after(y, tangents):
+        y = y.copy()
+        kernel.advance(p, y, tangents, 1, 0.2, 0.7, 1e-14, kernel.workspace())
+        return y
+
+    tangents = np.eye(4)
+    after(state, tangents)
+    h = 1e-5
+    for k, unit in enumerate(np.eye(4)):
+        none = np.empty((0, 4))
+        difference = (after(state + h * unit, none) - after(state - h * unit, none)) / (2 * h)
+        assert_allclose(tangents[k], difference, rtol=1e-6, atol=1e-6)

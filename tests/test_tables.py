@@ -1,0 +1,85 @@
+"""Tables: a row for each thing that was computed, and files that are whole and always the same."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from made_up import world
+
+from impact_damper import tables
+
+
+@pytest.fixture(scope="module")
+def data():
+    return world()
+
+
+def test_design(data):
+    table = tables.design(data).set_index("curve")
+    assert len(table) == len(data["design"])
+    assert table.loc["figure_05a", "rm Wp^2 d0"] == pytest.approx(1)
+    assert table.loc["figure_03b", "d0 of (19)"] == pytest.approx(1 / (0.12 * 2.1**2))
+
+
+def test_bands(data):
+    table = tables.bands(data).set_index("curve")
+    assert set(table.index) == set(data["design"]) | set(data["response"])
+    row = table.loc["figure_05b"]
+    assert row["width, balance"] == pytest.approx(row["width, simulated"])
+    assert row["ended by"] == "other motion appears"
+    assert row["widest range of it"] == pytest.approx(3 * 0.01)
+    assert row["share of it with a single motion"] == 1
+    assert np.isnan(table.loc["figure_03a", "width, simulated"])
+    assert np.isnan(table.loc["figure_10", "width, balance"])
+
+
+def test_optima(data):
+    table = tables.optima(data).set_index("sweep")
+    assert len(table) == len(data["optimum"])
+    assert table.loc["0.107_0.12_1.0", "excess over (19)"] == pytest.approx(0.05)
+    assert (table.kind == "kink").all()
+
+
+def test_subharmonics(data):
+    table = tables.subharmonics(data)
+    free = table[table.damper == "off"].set_index("data")
+    assert free.loc["h215", "from W"] == pytest.approx(0.8 * 2)
+    assert free.loc["h215", "to W"] == pytest.approx(1.1 * 2)
+    damped = table[table.data == "figure_05c"]
+    assert list(damped.branch) == ["all", "1"]
+    assert damped["over that without damper"].iloc[0] == pytest.approx(0.1 / 0.8)
+    assert list(table[table.data == "figure_05a"].branch) == ["all"]
+
+
+def test_free_oscillator_without_subharmonic(data):
+    free = data["free"]["h215"]
+    changed = data | {"free": {"none": free.assign(period=free.period * 0 + 1)}}
+    assert tables.subharmonics(changed).branch.iloc[0] == "none"
+
+
+def test_migration(data):
+    table = tables.migration(data)
+    assert len(table) == 2 * len(data["migration"])
+    row = table[(table.case == "figure_15") & (table["released from"] == "quiet")].iloc[0]
+    assert row["to subharmonic"] == 0.5
+    assert row["runs that arrive"] == 1
+    assert row["median cycles"] == pytest.approx(150)
+
+
+def test_files(tmp_path):
+    table = pd.DataFrame({"name": ["a|b", "c"], "number": [1 / 3, np.nan], "count": [10, 2000000]})
+    csv, markdown = tmp_path / "new" / "table.csv", tmp_path / "new" / "table.md"
+    tables.save(table, csv, markdown)
+    assert csv.read_bytes() == b"name,number,count\na|b,0.333333,10\nc,,2000000\n"
+    assert markdown.read_text().splitlines()[2].split() == [
+        "|", r"a\|b", "|", "0.333333", "|", "10", "|"]
+    before = csv.read_bytes(), markdown.read_bytes()
+    tables.save(table, csv, markdown)
+    assert (csv.read_bytes(), markdown.read_bytes()) == before
+    assert sorted(path.name for path in csv.parent.iterdir()) == ["table.csv", "table.md"]
+
+
+def test_failed_table_leaves_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr("os.replace", lambda *paths: (_ for _ in ()).throw(OSError("full")))
+    with pytest.raises(OSError, match="full"):
+        tables.save(pd.DataFrame({"a": [1]}), tmp_path / "a.csv", tmp_path / "a.md")
+    assert list(tmp_path.iterdir()) == []
