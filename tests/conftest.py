@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from impact_damper import motion
+from impact_damper import orbits
 from impact_damper.parameters import Damper, Oscillator, pack
 
 PAPER = Oscillator(0.215)
@@ -44,7 +44,7 @@ class Scene(NamedTuple):
 def scene_of(name):
     damper, frequency, start = STARTS[name]
     p, state = pack(PAPER, damper, frequency), np.array(start)
-    found, _, _ = motion.polish(p, state, 1, 0.1, 1e-13)
+    found, _, _ = orbits.polish(p, state, 1, 0.1, 1e-13)
     assert found
     return Scene(p, state, damper, frequency)
 

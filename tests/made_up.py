@@ -8,11 +8,25 @@ from impact_damper.variables import DAMPED_MOTION, FREE_MOTION
 STIFFNESS = 2000.0
 PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}
 LINEAR = {0.0: 2.0, 1.0: 2.1, 1.5: 2.3}
-BAND_START = {"figure_05a": 0.95, "figure_03b": 0.94, "figure_03a": 0.93, "figure_03c_rule": 0.95,
-              "figure_03b_rule": 0.94, "figure_03a_rule": 0.93, "figure_05b": 0.92,
-              "figure_05c": 0.90, "figure_08": 0.95, "figure_10": 0.80}
-DAMPERS = {"figure_05a": 0.12, "figure_05b": 0.25, "figure_05c": 0.4, "figure_08": 0.12,
-           "figure_10": 0.25}
+BAND_START = {
+    "figure_05a": 0.95,
+    "figure_03b": 0.94,
+    "figure_03a": 0.93,
+    "figure_03c_rule": 0.95,
+    "figure_03b_rule": 0.94,
+    "figure_03a_rule": 0.93,
+    "figure_05b": 0.92,
+    "figure_05c": 0.90,
+    "figure_08": 0.95,
+    "figure_10": 0.80,
+}
+DAMPERS = {
+    "figure_05a": 0.12,
+    "figure_05b": 0.25,
+    "figure_05c": 0.4,
+    "figure_08": 0.12,
+    "figure_10": 0.25,
+}
 
 
 def frequencies(peak):
@@ -24,8 +38,12 @@ def parameters(damping=0.215, linear=0.0, **others):
 
 
 def damper(mass_ratio, peak, restitution=1.0):
-    return {"mass_ratio": mass_ratio, "clearance": 1 / (mass_ratio * peak**2),
-            "restitution": restitution, "contact_stiffness": STIFFNESS}
+    return {
+        "mass_ratio": mass_ratio,
+        "clearance": 1 / (mass_ratio * peak**2),
+        "restitution": restitution,
+        "contact_stiffness": STIFFNESS,
+    }
 
 
 def quiet_size(frequency, peak, mass_ratio):
@@ -42,68 +60,110 @@ def design(name, mass_ratio=0.12, damping=0.215, linear=0.0):
     frequency = frequencies(peak)
     given = damper(mass_ratio, peak)
     size = quiet_size(frequency, peak, mass_ratio)
-    high = np.where(frequency < BAND_START[name] * peak,
-                    0.9 * resonance_size(frequency, peak, damping), np.nan)
+    high = np.where(
+        frequency < BAND_START[name] * peak, 0.9 * resonance_size(frequency, peak, damping), np.nan
+    )
     amplitude = np.stack([np.sign(frequency - peak + 1e-9) * size, high], axis=-1)
     depth = np.zeros_like(amplitude)
     for _ in range(20):
-        force = mass_ratio * frequency[:, None]**2 * (given["clearance"] + depth - amplitude)
-        depth = (np.pi * force / (2 * STIFFNESS))**2 / (2 * given["clearance"])
+        force = mass_ratio * frequency[:, None] ** 2 * (given["clearance"] + depth - amplitude)
+        depth = (np.pi * force / (2 * STIFFNESS)) ** 2 / (2 * given["clearance"])
     free = np.where(frequency <= peak, resonance_size(frequency, peak, damping), 0.2)
     found = np.isfinite(amplitude)
     edges = np.array([BAND_START[name], 1.0]) * peak
     data = {
-        "amplitude": amplitude, "relative_amplitude": given["clearance"] + depth,
+        "amplitude": amplitude,
+        "relative_amplitude": given["clearance"] + depth,
         "kind": np.where(found, flag("kind", "impacting"), flag("kind", "absent")),
         "stability": np.where(found, flag("stability", "stable"), flag("stability", "absent")),
         "rigid_amplitude": amplitude * 1.001,
         "rigid_wall": np.where(found, flag("rigid_wall", "pushes"), flag("rigid_wall", "absent")),
-        "free_amplitude": free[:, None], "peak_frequency": peak,
-        "peak_amplitude": 1 / (damping * peak), "quiet_amplitude": 1e-3,
-        "reduction": 1 - 1e-3 * damping * peak, "band_width": edges[1] - edges[0],
-        "edge_frequency": edges, "edge_reduction": np.full(2, 0.99),
-        "edge_event": [flag("edge_event", "other_motion_appears"),
-                       flag("edge_event", "resonance_branch_ends")],
-        "band_status": flag("band_status", "found"), "break_even_frequency": 1.4 * peak,
+        "free_amplitude": free[:, None],
+        "peak_frequency": peak,
+        "peak_amplitude": 1 / (damping * peak),
+        "quiet_amplitude": 1e-3,
+        "reduction": 1 - 1e-3 * damping * peak,
+        "band_width": edges[1] - edges[0],
+        "edge_frequency": edges,
+        "edge_reduction": np.full(2, 0.99),
+        "edge_event": [
+            flag("edge_event", "other_motion_appears"),
+            flag("edge_event", "resonance_branch_ends"),
+        ],
+        "band_status": flag("band_status", "found"),
+        "break_even_frequency": 1.4 * peak,
     }
-    return dataset(data, {"frequency": frequency, "edge": ["lower", "upper"]},
-                   parameters(damping, linear, **given), "made up")
+    return dataset(
+        data,
+        {"frequency": frequency, "edge": ["lower", "upper"]},
+        parameters(damping, linear, **given),
+        "made up",
+    )
 
 
 def motions(frequency, columns):
     """Registered variables of columns of motions, each (present, contacts, size, others)."""
-    fill = {"outcome": flag("outcome", "absent"), "period": 0, "contacts": np.nan,
-            "maximum_displacement": np.nan, "asymmetry": np.nan, "phase_relative": np.nan,
-            "phase_loose": np.nan, "branch": -1, "share": 0}
-    usual = {"outcome": flag("outcome", "settled"), "period": 1, "asymmetry": 0.0,
-             "phase_relative": 0.0, "phase_loose": 0.0, "share": 1}
+    fill = {
+        "outcome": flag("outcome", "absent"),
+        "period": 0,
+        "contacts": np.nan,
+        "maximum_displacement": np.nan,
+        "asymmetry": np.nan,
+        "phase_relative": np.nan,
+        "phase_loose": np.nan,
+        "branch": -1,
+        "share": 0,
+    }
+    usual = {
+        "outcome": flag("outcome", "settled"),
+        "period": 1,
+        "asymmetry": 0.0,
+        "phase_relative": 0.0,
+        "phase_loose": 0.0,
+        "share": 1,
+    }
     data = {}
     for name, absent in fill.items():
-        data[name] = np.stack([
-            np.where(present, (usual | others | {"branch": k}).get(name), absent)
-            for k, (present, others) in enumerate(columns)], axis=-1)
+        data[name] = np.stack(
+            [
+                np.where(present, (usual | others | {"branch": k}).get(name), absent)
+                for k, (present, others) in enumerate(columns)
+            ],
+            axis=-1,
+        )
     return data
 
 
 def ends(*rows):
     """Ends of branches, each (value, direction, branch, size)."""
     value, direction, branch, size = zip(*rows, strict=True)
-    return {"end_value": np.array(value), "end_branch": np.array(branch),
-            "end_displacement": np.array(size),
-            "end_direction": [flag("end_direction", each) for each in direction]}
+    return {
+        "end_value": np.array(value),
+        "end_branch": np.array(branch),
+        "end_displacement": np.array(size),
+        "end_direction": [flag("end_direction", each) for each in direction],
+    }
 
 
 def free(damping):
     peak = PEAKS[damping]
     frequency = frequencies(peak)
     third = (frequency > 0.8 * peak) & (frequency < 1.1 * peak)
-    data = motions(frequency, [
-        (frequency <= peak, {"contacts": 0.0, "maximum_displacement":
-                             resonance_size(frequency, peak, damping)}),
-        (third, {"contacts": 0.0, "maximum_displacement": 0.8, "period": 3}),
-        (frequency > 0, {"contacts": 0.0, "maximum_displacement": 0.2}),
-    ]) | ends((peak, "up", 0, 1 / (damping * peak)), (1.1 * peak, "up", 1, 0.8),
-              (0.8 * peak, "down", 1, 0.8))
+    data = motions(
+        frequency,
+        [
+            (
+                frequency <= peak,
+                {"contacts": 0.0, "maximum_displacement": resonance_size(frequency, peak, damping)},
+            ),
+            (third, {"contacts": 0.0, "maximum_displacement": 0.8, "period": 3}),
+            (frequency > 0, {"contacts": 0.0, "maximum_displacement": 0.2}),
+        ],
+    ) | ends(
+        (peak, "up", 0, 1 / (damping * peak)),
+        (1.1 * peak, "up", 1, 0.8),
+        (0.8 * peak, "down", 1, 0.8),
+    )
     return dataset(data, {"frequency": frequency}, parameters(damping), "made up")
 
 
@@ -115,15 +175,37 @@ def response(name, damping=0.215, restitution=1.0):
     relative = np.where(frequency < peak, np.pi, 0.0)
     high = 0.9 * resonance_size(frequency, peak, damping)
     chaos = np.abs(frequency / peak - 0.7) < 0.01
-    data = motions(frequency, [
-        (frequency < edge, {"contacts": 4.0, "maximum_displacement": high, "outcome": np.where(
-            chaos, flag("outcome", "chaotic"), flag("outcome", "settled"))}),
-        (frequency > 0, {"contacts": 2.0, "maximum_displacement": size,
-                         "phase_relative": relative, "phase_loose": np.pi - relative}),
-    ]) | ends((edge, "up", 0, 0.9 * resonance_size(edge, peak, damping)))
+    data = motions(
+        frequency,
+        [
+            (
+                frequency < edge,
+                {
+                    "contacts": 4.0,
+                    "maximum_displacement": high,
+                    "outcome": np.where(
+                        chaos, flag("outcome", "chaotic"), flag("outcome", "settled")
+                    ),
+                },
+            ),
+            (
+                frequency > 0,
+                {
+                    "contacts": 2.0,
+                    "maximum_displacement": size,
+                    "phase_relative": relative,
+                    "phase_loose": np.pi - relative,
+                },
+            ),
+        ],
+    ) | ends((edge, "up", 0, 0.9 * resonance_size(edge, peak, damping)))
     data["run_outcome"] = np.ones((len(frequency), 2))
-    return dataset(data, {"frequency": frequency},
-                   parameters(damping, **damper(mass_ratio, peak, restitution)), "made up")
+    return dataset(
+        data,
+        {"frequency": frequency},
+        parameters(damping, **damper(mass_ratio, peak, restitution)),
+        "made up",
+    )
 
 
 def motion():
@@ -146,14 +228,24 @@ def sweep(damping, mass_ratio, restitution=1.0):
     clearance = np.linspace(0.5, 1.5, 101) * best
     data = {
         "quiet_displacement": 0.02 + 0.1 * np.abs(clearance / best - 1),
-        "optimum_clearance": best, "optimum_displacement": 0.02, "rule_clearance": rule,
-        "peak_rule_clearance": rule, "analytical_optimum": rule, "optimum_ratio": 1.05,
-        "optimum_kind": flag("optimum_kind", "kink"), "straight_flight_ratio": 1.05,
-        "first_harmonic_share": 4.7, "straight_flight_share": 1.0,
+        "optimum_clearance": best,
+        "optimum_displacement": 0.02,
+        "rule_clearance": rule,
+        "peak_rule_clearance": rule,
+        "analytical_optimum": rule,
+        "optimum_ratio": 1.05,
+        "optimum_kind": flag("optimum_kind", "kink"),
+        "straight_flight_ratio": 1.05,
+        "first_harmonic_share": 4.7,
+        "straight_flight_share": 1.0,
         "near_clearance": best * np.array([1 - flatness, 1 + flatness]),
     }
-    return dataset(data, {"clearance": clearance, "edge": ["lower", "upper"]}, parameters(
-        damping, frequency=frequency, mass_ratio=mass_ratio, restitution=restitution), "made up")
+    return dataset(
+        data,
+        {"clearance": clearance, "edge": ["lower", "upper"]},
+        parameters(damping, frequency=frequency, mass_ratio=mass_ratio, restitution=restitution),
+        "made up",
+    )
 
 
 def subharmonic(name, damping=0.215, damped=np.nan):
@@ -162,24 +254,33 @@ def subharmonic(name, damping=0.215, damped=np.nan):
     frequency = np.linspace(0.8, 1.1, 61) * peak
     present = np.full(len(frequency), np.isfinite(damped))
     size = 0.8 * peak / 2
-    data = motions(frequency, [
-        (present, {"contacts": 2.0, "maximum_displacement": damped, "period": 3}),
-        (frequency > 0, {"contacts": 2.0, "maximum_displacement": 0.01}),
-    ])
+    data = motions(
+        frequency,
+        [
+            (present, {"contacts": 2.0, "maximum_displacement": damped, "period": 3}),
+            (frequency > 0, {"contacts": 2.0, "maximum_displacement": 0.01}),
+        ],
+    )
     ratio = np.where(present, damped, 0.0) / size
     state = np.where(present, flag("suppression", "reduced"), flag("suppression", "removed"))
     count = int(present.any())
     data |= {
         "free_subharmonic": np.full(len(frequency), size),
-        "damped_subharmonic": np.where(present, damped, np.nan), "subharmonic_ratio": ratio,
-        "suppression": state, "free_subharmonic_frequency": np.array([0.799, 1.101]) * peak,
+        "damped_subharmonic": np.where(present, damped, np.nan),
+        "subharmonic_ratio": ratio,
+        "suppression": state,
+        "free_subharmonic_frequency": np.array([0.799, 1.101]) * peak,
         "switched_share": 0.5 * present[:, None],
-        "subharmonic_period": np.full(count, 3), "subharmonic_displacement": np.full(count, damped),
+        "subharmonic_period": np.full(count, 3),
+        "subharmonic_displacement": np.full(count, damped),
         "subharmonic_frequency": np.tile(np.array([0.8, 1.1]) * peak, (count, 1)),
     }
-    return dataset(data, {"frequency": frequency, "edge": ["lower", "upper"],
-                          "switched_motion": ["subharmonic"]},
-                   parameters(damping, **damper(DAMPERS[name], peak)), "made up")
+    return dataset(
+        data,
+        {"frequency": frequency, "edge": ["lower", "upper"], "switched_motion": ["subharmonic"]},
+        parameters(damping, **damper(DAMPERS[name], peak)),
+        "made up",
+    )
 
 
 def migration(frequency, subharmonic_share):
@@ -193,43 +294,76 @@ def migration(frequency, subharmonic_share):
     reached = np.full(4, flag("trial_outcome", "reached"))
     data = {
         "damped_kind": [DAMPED_MOTION["unsettled"], DAMPED_MOTION["quiet"]],
-        "damped_period": np.array([0, 1]), "damped_displacement": np.array([np.nan, 0.1]),
-        "release_share": shares, "destination_count": counts, "trial_outcome": reached,
-        "switchings": np.array([1, 2, 3, 4]), "damper_time": np.full(4, 50.0),
+        "damped_period": np.array([0, 1]),
+        "damped_displacement": np.array([np.nan, 0.1]),
+        "release_share": shares,
+        "destination_count": counts,
+        "trial_outcome": reached,
+        "switchings": np.array([1, 2, 3, 4]),
+        "damper_time": np.full(4, 50.0),
         "total_time": np.array([60.0, 120.0, 180.0, 300.0]),
-        "reached_share": np.ones(3), "within_share": np.ones(3), "escape_rate": np.full(3, 0.1),
+        "reached_share": np.ones(3),
+        "within_share": np.ones(3),
+        "escape_rate": np.full(3, 0.1),
     }
-    coordinates = {"bound": ["share", "lower", "upper"], "damped_motion": kinds,
-                   "free_motion": destinations}
-    return dataset(data, coordinates, parameters(
-        **damper(0.12, 2.0), frequency=frequency), "made up")
+    coordinates = {
+        "bound": ["share", "lower", "upper"],
+        "damped_motion": kinds,
+        "free_motion": destinations,
+    }
+    return dataset(
+        data, coordinates, parameters(**damper(0.12, 2.0), frequency=frequency), "made up"
+    )
 
 
 def world():
     """Datasets by stage and name, in which every claim is reproduced."""
     linear = {"a": 1.5, "b": 1.0}
-    designs = {name: design(name, rm) for name, rm in DAMPERS.items()
-               if name in ("figure_05a", "figure_05b", "figure_05c")}
-    designs |= {f"figure_03{k}{tail}": design(f"figure_03{k}{tail}", linear=value)
-                for k, value in linear.items() for tail in ("", "_rule")}
-    designs |= {"figure_03c_rule": design("figure_03c_rule"),
-                "figure_08": design("figure_08", damping=0.107)}
+    designs = {
+        name: design(name, rm)
+        for name, rm in DAMPERS.items()
+        if name in ("figure_05a", "figure_05b", "figure_05c")
+    }
+    designs |= {
+        f"figure_03{k}{tail}": design(f"figure_03{k}{tail}", linear=value)
+        for k, value in linear.items()
+        for tail in ("", "_rule")
+    }
+    designs |= {
+        "figure_03c_rule": design("figure_03c_rule"),
+        "figure_08": design("figure_08", damping=0.107),
+    }
     responses = {name: response(name) for name in ("figure_05a", "figure_05b", "figure_05c")}
-    responses |= {"figure_08": response("figure_08", 0.107),
-                  "figure_10": response("figure_10", restitution=0.75)}
+    responses |= {
+        "figure_08": response("figure_08", 0.107),
+        "figure_10": response("figure_10", restitution=0.75),
+    }
     return {
         "design": designs,
         "free": {f"h{1000 * h:.0f}": free(h) for h in PEAKS},
         "response": responses,
         "motion": {"figure_04": motion()},
         "collisions": {"figure_05a": collisions()},
-        "optimum": {f"{h}_{rm}_{e}": sweep(h, rm, e) for h, rm, e in (
-            (0.215, 0.12, 1.0), (0.215, 0.18, 1.0), (0.107, 0.12, 1.0), (0.107, 0.18, 1.0),
-            (0.215, 0.12, 0.75), (0.215, 0.18, 0.75))},
-        "subharmonic": {"figure_05a": subharmonic("figure_05a"),
-                        "figure_05b": subharmonic("figure_05b"),
-                        "figure_05c": subharmonic("figure_05c", damped=0.1),
-                        "figure_08": subharmonic("figure_08", 0.107)},
-        "migration": {"figure_13": migration(1.95, 0.0), "figure_15": migration(1.7, 0.5),
-                      "figure_16": migration(1.85, 0.6)},
+        "optimum": {
+            f"{h}_{rm}_{e}": sweep(h, rm, e)
+            for h, rm, e in (
+                (0.215, 0.12, 1.0),
+                (0.215, 0.18, 1.0),
+                (0.107, 0.12, 1.0),
+                (0.107, 0.18, 1.0),
+                (0.215, 0.12, 0.75),
+                (0.215, 0.18, 0.75),
+            )
+        },
+        "subharmonic": {
+            "figure_05a": subharmonic("figure_05a"),
+            "figure_05b": subharmonic("figure_05b"),
+            "figure_05c": subharmonic("figure_05c", damped=0.1),
+            "figure_08": subharmonic("figure_08", 0.107),
+        },
+        "migration": {
+            "figure_13": migration(1.95, 0.0),
+            "figure_15": migration(1.7, 0.5),
+            "figure_16": migration(1.85, 0.6),
+        },
     }

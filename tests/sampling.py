@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from impact_damper import motion
+from impact_damper import recording
 
 
 def sample(p, state, start, times, tolerance=1e-14):
     """States at increasing times, and contacts as rows of wall, beginning, end, Z2' at both."""
     states, log = np.empty((len(times), 4)), np.empty((4096, 5))
-    count = motion.trace(
+    count = recording.trace(
         p, np.array(state, float), float(start), np.array(times, float), tolerance, states, log
     )
     return states, log[:count]

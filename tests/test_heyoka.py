@@ -10,8 +10,8 @@ from sampling import sample
 from scipy.optimize import brentq
 
 from impact_damper.kernel import side_of
-from impact_damper.motion import period_map
 from impact_damper.motions import random_states
+from impact_damper.orbits import period_map
 from impact_damper.parameters import Damper, Oscillator, pack
 
 TOLERANCES = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12]

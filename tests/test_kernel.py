@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from sampling import sample
 
 from impact_damper import kernel, series
-from impact_damper.motion import period_map
+from impact_damper.orbits import period_map
 from impact_damper.parameters import Damper, Oscillator, pack
 
 # Beyond this much the wall counts as passed: rounding of the polynomials below.

@@ -8,8 +8,8 @@ from conftest import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 from sampling import gauss, sample
 
-from impact_damper.motion import period_map
 from impact_damper.motions import random_states
+from impact_damper.orbits import period_map
 from impact_damper.parameters import Damper, Oscillator, pack
 
 WITH_LINEAR_SPRING = Oscillator(0.15, 1.2)

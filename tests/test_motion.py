@@ -8,7 +8,7 @@ from conftest import DESIGN, PAPER
 from numpy.testing import assert_allclose
 from sampling import sample
 
-from impact_damper import kernel, motion
+from impact_damper import kernel, motion, orbits, recording
 from impact_damper.parameters import Damper, pack
 
 NONE = np.empty((0, 4))
@@ -16,7 +16,7 @@ NONE = np.empty((0, 4))
 
 def settled(p, state, tolerance=1e-9, patience=300, limit=1500, watched=50):
     """Record of the motion from a state at W T = pi/2."""
-    record = np.zeros(1, motion.MOTION)
+    record = np.zeros(1, recording.MOTION)
     motion.settle_and_measure(
         p, np.array(state, float), 0.5 * math.pi / p[0], tolerance, patience, limit, watched,
         record[0],
@@ -72,7 +72,7 @@ def test_free_motions_settle(state, period, largest):
     assert record["contacts"] == 0
     assert abs(record["multiplier"]) < 1
     # what is given as settled does come back, by plain integration, and repeats no sooner
-    back = [motion.period_map(p, record["state"], n, 1e-13)[0] for n in range(1, period + 1)]
+    back = [orbits.period_map(p, record["state"], n, 1e-13)[0] for n in range(1, period + 1)]
     apart = [np.max(np.abs(y - record["state"])) for y in back]
     assert apart[-1] < 1e-8
     assert period == 1 or min(apart[:-1]) > 0.1
@@ -91,7 +91,7 @@ def test_scenes_settle(scene):
 
 def test_asymmetry(scene):
     """Distance from the mirrored motion half a period on, here by integration of the mirror."""
-    record = motion.measured(scene.parameters, scene.state, 1, 1e-12)
+    record = recording.measured(scene.parameters, scene.state, 1, 1e-12)
     later = [scene.strobe + scene.period / 2]
     (half,), _ = sample(scene.parameters, scene.state, scene.strobe, later)
     apart = np.max(np.abs(half + scene.state))
@@ -148,7 +148,7 @@ def test_exponent_of_a_settled_motion_is_its_multiplier(scene):
     expected = math.log(abs(record["multiplier"])) / (record["period"] * scene.period)
     # without a damper the loose mass only rides along, a neutral tangent: start without it
     if scene.damper is None:
-        _, matrix, _ = motion.period_map(scene.parameters, scene.state, 1, 1e-13)
+        _, matrix, _ = orbits.period_map(scene.parameters, scene.state, 1, 1e-13)
         found = math.log(max(abs(np.linalg.eigvals(matrix[:2, :2])))) / scene.period
     else:
         found = growth_of_tangent(scene.parameters, scene.state, 1200, 200)
@@ -159,7 +159,7 @@ def test_polish_comes_back_from_aside(scene):
     """To the orbit, from a percent aside; the return is by an integration of its own."""
     p = scene.parameters
     y = scene.state * 1.01
-    found, residual, multiplier = motion.polish(p, y, 1, 0.2, 1e-13)
+    found, residual, multiplier = orbits.polish(p, y, 1, 0.2, 1e-13)
     assert found and residual < 1e-8
     (back,), _ = sample(p, y, scene.strobe, [scene.strobe + scene.period])
     assert_allclose(back, y, atol=2e-9)
@@ -170,7 +170,7 @@ def test_polish_comes_back_from_aside(scene):
 def test_polish_finds_no_orbit_where_none_is_near(design):
     y = np.array([1.0, 1.0, 0.5, -1.0])
     before = y.copy()
-    found, residual, multiplier = motion.polish(design.parameters, y, 1, 1e-3, 1e-12)
+    found, residual, multiplier = orbits.polish(design.parameters, y, 1, 1e-3, 1e-12)
     assert not found and np.isnan(residual) and np.isnan(multiplier)
     assert np.array_equal(y, before)
 
@@ -179,7 +179,7 @@ def test_polish_finds_no_orbit_where_none_is_near(design):
 def test_follow_ends_at_the_folds_of_the_free_response(start, target):
     """On one side of the end the motion goes on, on the other it leaves for the other branch."""
     p, y = pack(PAPER, None, 2.0), np.tile(start, 2)
-    multiplier = motion.follow(p, y, 1, 0, target, 1e-8, 1e-12)
+    multiplier = orbits.follow(p, y, 1, 0, target, 1e-8, 1e-12)
     end = p[0]
     assert 1.25 < end < 2.1
     assert_allclose(end, 2.0144439 if target > 2 else 1.3001, atol=5e-5)
@@ -191,7 +191,7 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
         record = settled(p, y, limit=5000)
         assert record["outcome"] == motion.SETTLED
         sizes.append(record["maximum_displacement"])
-    here = motion.measured(np.array([end, *p[1:]]), y, 1, 1e-11)["maximum_displacement"]
+    here = recording.measured(np.array([end, *p[1:]]), y, 1, 1e-11)["maximum_displacement"]
     assert abs(sizes[0] - here) < 0.2
     assert abs(sizes[1] - here) > 0.8
 
@@ -199,7 +199,7 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
 def test_follow_arrives(design):
     """At a target within the branch; the orbit there is the one that simulation comes to."""
     p, y = design.parameters.copy(), design.state.copy()
-    multiplier = motion.follow(p, y, 1, 3, 1.9, 1e-8, 1e-12)
+    multiplier = orbits.follow(p, y, 1, 3, 1.9, 1e-8, 1e-12)
     assert p[3] == 1.9
     record = settled(p, design.state)
     assert record["outcome"] == motion.SETTLED and record["contacts"] == 2
@@ -209,7 +209,7 @@ def test_follow_arrives(design):
 
 def test_measures_against_dense_samples(scene):
     """Extremum, contacts and harmonics of one period."""
-    record = motion.measured(scene.parameters, scene.state, 1, 1e-12)
+    record = recording.measured(scene.parameters, scene.state, 1, 1e-12)
     count = 4096
     times = scene.strobe + np.arange(count) * scene.period / count
     states, log = sample(scene.parameters, scene.state, scene.strobe, times)
@@ -227,7 +227,7 @@ def test_measures_against_dense_samples(scene):
 
 def test_extremum_of_an_unsettled_motion():
     p, state = VIOLENT
-    record = motion.measured(p, np.array(state), 3, 1e-12)
+    record = recording.measured(p, np.array(state), 3, 1e-12)
     strobe, length = 0.5 * math.pi / p[0], 6 * math.pi / p[0]
     states, _ = sample(p, state, strobe, strobe + np.linspace(0, length, 60001))
     largest = np.max(np.abs(states[:, 0]))
@@ -238,7 +238,7 @@ def test_log_of_contacts_may_be_short(design):
     """Contacts beyond its end are counted only."""
     log, states = np.full((3, 5), np.nan), np.empty((1, 4))
     end = np.array([design.strobe + 10 * design.period])
-    count = motion.trace(
+    count = recording.trace(
         design.parameters, design.state.copy(), design.strobe, end, 1e-12, states, log
     )
     assert count == 20
@@ -249,7 +249,7 @@ def test_first_collision_by_simulation():
     p = pack(PAPER, DESIGN, 2.0)
     states = np.array([[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.1, 0.0], [0.0, 0.0, 0.0, 0.0]])
     waits = np.empty(3)
-    motion.first_collisions(np.tile(p, (3, 1)), states, 10, 1e-12, waits)
+    recording.first_collisions(np.tile(p, (3, 1)), states, 10, 1e-12, waits)
     _, log = sample(p, states[0], 0.0, [10.0])
     assert_allclose(waits[0], log[0, 1] * p[0] / (2 * math.pi), rtol=1e-12)
     assert waits[1] == 0

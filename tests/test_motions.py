@@ -8,7 +8,7 @@ from conftest import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 from scipy import stats
 
-from impact_damper import ensemble, motion
+from impact_damper import ensemble, orbits, recording
 from impact_damper.datasets import flag, parameters_of
 from impact_damper.motions import random_states, simulate, steady_motion, tabulate
 from impact_damper.parameters import Damper, pack
@@ -135,9 +135,9 @@ def test_phases_of_a_steady_motion():
     """Of Z1 to Z2 and to Z1 - Z2, by Fourier transform of a simulation."""
     for frequency in (1.8, 2.2):
         p, y = pack(PAPER, DESIGN, 2.0), np.array(ON_ORBIT)
-        motion.follow(p, y, 1, 0, frequency, 1e-8, 1e-12)
+        orbits.follow(p, y, 1, 0, frequency, 1e-8, 1e-12)
         assert p[0] == frequency
-        record = motion.measured(p, y, 1, 1e-12)
+        record = recording.measured(p, y, 1, 1e-12)
         data = simulate(
             PAPER, DESIGN, frequency, y, start=np.pi / 2 / frequency, periods=1, samples=512
         )
@@ -147,7 +147,7 @@ def test_phases_of_a_steady_motion():
         table = tabulate(record)
         assert_allclose(table["phase_relative"], np.angle(first / second), atol=2e-2)
         assert_allclose(table["phase_loose"], np.angle(first / (first - second)), atol=2e-2)
-    assert np.isnan(tabulate(np.zeros(1, motion.MOTION))["phase_relative"]).all()
+    assert np.isnan(tabulate(np.zeros(1, recording.MOTION))["phase_relative"]).all()
 
 
 def test_results_do_not_depend_on_the_threads():

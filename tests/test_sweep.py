@@ -7,7 +7,7 @@ import pytest
 from conftest import DESIGN, PAPER
 from numpy.testing import assert_allclose
 
-from impact_damper import ensemble, motion
+from impact_damper import ensemble, orbits, recording
 from impact_damper.datasets import flag
 from impact_damper.motions import random_states
 from impact_damper.parameters import Damper, pack
@@ -41,7 +41,7 @@ def test_every_motion_returns(free):
     for i, frequency in enumerate(FREQUENCIES):
         p = pack(PAPER, None, frequency)
         for k in np.flatnonzero(outcome[i] == flag("outcome", "settled")):
-            back = [motion.period_map(p, state[i, k], n, 1e-13)[0] for n in range(1, 4)]
+            back = [orbits.period_map(p, state[i, k], n, 1e-13)[0] for n in range(1, 4)]
             apart = np.max(np.abs(back - state[i, k])[:, :2], axis=1)
             assert np.argmax(apart < 1e-8) + 1 == period[i, k]
 
@@ -76,7 +76,7 @@ def test_motions_change_at_an_end(free):
         column = np.nanargmin(np.abs(free["maximum_displacement"][1][row] - size))
         state, period = free["state"][1][row, column].copy(), free["period"][1][row, column]
         p[0] = FREQUENCIES[row]
-        motion.follow(p, state, int(period), FREQUENCY, value - 1e-4 * direction, 1e-8, 1e-12)
+        orbits.follow(p, state, int(period), FREQUENCY, value - 1e-4 * direction, 1e-8, 1e-12)
         assert_allclose(p[0], value - 1e-4 * direction, rtol=1e-15)
         sizes = []
         for beyond in (-1e-4, 1e-3):
@@ -119,7 +119,7 @@ def test_mirrored_motion_is_the_same():
     y = np.array([1.87868319, -2.47688679, 0.02448582, -0.45289641])
     later = y.copy()
     half = 0.5 * math.pi / 1.7 + math.pi / 1.7
-    motion.trace(p, later, 0.5 * math.pi / 1.7, np.array([half]), 1e-13, np.empty((1, 4)),
+    recording.trace(p, later, 0.5 * math.pi / 1.7, np.array([half]), 1e-13, np.empty((1, 4)),
                  np.empty((9, 5)))  # fmt: skip
     records = ensemble.settle(np.tile(p, (2, 1)), np.array([y, -later]), from_strobe=True)
     assert np.all(records["outcome"] == flag("outcome", "settled"))
@@ -140,5 +140,5 @@ def test_sweep_of_the_clearance():
     assert data["state"][0] == ("clearance", "motion", "component")
     for i, p in enumerate(parameters):
         column = int(np.flatnonzero(data["contacts"][1][i] == 2)[0])
-        back, _, _ = motion.period_map(p, data["state"][1][i, column], 1, 1e-13)
+        back, _, _ = orbits.period_map(p, data["state"][1][i, column], 1, 1e-13)
         assert_allclose(back, data["state"][1][i, column], atol=1e-8)

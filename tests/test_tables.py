@@ -71,7 +71,14 @@ def test_files(tmp_path):
     tables.save(table, csv, markdown)
     assert csv.read_bytes() == b"name,number,count\na|b,0.333333,10\nc,,2000000\n"
     assert markdown.read_text().splitlines()[2].split() == [
-        "|", r"a\|b", "|", "0.333333", "|", "10", "|"]
+        "|",
+        r"a\|b",
+        "|",
+        "0.333333",
+        "|",
+        "10",
+        "|",
+    ]
     before = csv.read_bytes(), markdown.read_bytes()
     tables.save(table, csv, markdown)
     assert (csv.read_bytes(), markdown.read_bytes()) == before

@@ -44,6 +44,4 @@ numba.config.CACHE_DIR = str(CACHE_DIRECTORY)
 # "contract" allows fused multiply-add and nothing else: reordering sums would
 # cost both digits and speed. Kernels release the interpreter lock, so threads
 # spread them over cores without a parallel compilation of their own.
-kernel = partial(
-    numba.njit, cache=True, nogil=True, fastmath={"contract"}, error_model="numpy"
-)
+kernel = partial(numba.njit, cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")

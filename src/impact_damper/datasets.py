@@ -42,17 +42,26 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
     title : str
         One line that says what the dataset is.
     """
-    def labelled(items):
-        return {name: variable(name, value[1], value[0]) if isinstance(value, tuple)
-                else variable(name, value) for name, value in items.items()}
 
-    return xr.Dataset(labelled(data), labelled(coordinates), {
-        "Conventions": "CF-1.11",
-        "title": title,
-        "source": "impact-damper",
-        "references": "Chatterjee, Mallik and Ghosh, J. Sound Vib. 187(3), 403-420, 1995",
-        "parameters": json.dumps(parameters, sort_keys=True),
-    })
+    def labelled(items):
+        return {
+            name: variable(name, value[1], value[0])
+            if isinstance(value, tuple)
+            else variable(name, value)
+            for name, value in items.items()
+        }
+
+    return xr.Dataset(
+        labelled(data),
+        labelled(coordinates),
+        {
+            "Conventions": "CF-1.11",
+            "title": title,
+            "source": "impact-damper",
+            "references": "Chatterjee, Mallik and Ghosh, J. Sound Vib. 187(3), 403-420, 1995",
+            "parameters": json.dumps(parameters, sort_keys=True),
+        },
+    )
 
 
 def flag(name, meaning) -> int:
@@ -71,8 +80,9 @@ def save(data, path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
     encoding = {name: {"_FillValue": None} for name in data.coords}
-    encoding |= {name: {"_FillValue": None} for name in data.data_vars
-                 if data[name].dtype.kind in "iub"}
+    encoding |= {
+        name: {"_FillValue": None} for name in data.data_vars if data[name].dtype.kind in "iub"
+    }
     try:
         data.to_netcdf(part, engine="netcdf4", encoding=encoding)
         os.replace(part, path)

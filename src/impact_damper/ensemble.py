@@ -12,6 +12,7 @@ from tqdm import tqdm
 
 from impact_damper import motion
 from impact_damper.parameters import check_count, check_number
+from impact_damper.recording import MOTION
 
 CHUNK = 16
 
@@ -73,17 +74,25 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
 
     Returns
     -------
-    numpy.ndarray of motion.MOTION, shape (m,)
+    numpy.ndarray of recording.MOTION, shape (m,)
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
     states = np.ascontiguousarray(states, float)
-    records = np.zeros(len(states), motion.MOTION)
+    found = np.zeros(len(states), MOTION)
 
     def work(part):
-        start = 0.5 * np.pi / parameters[part, 0] if from_strobe else np.zeros(len(records[part]))
-        motion.settle_many(parameters[part], states[part], start, settling.tolerance,
-                           settling.patience, settling.limit, settling.watched, records[part])
+        start = 0.5 * np.pi / parameters[part, 0] if from_strobe else np.zeros(len(found[part]))
+        motion.settle_many(
+            parameters[part],
+            states[part],
+            start,
+            settling.tolerance,
+            settling.patience,
+            settling.limit,
+            settling.watched,
+            found[part],
+        )
 
     run_chunks(work, len(states), workers, progress)
-    return records
+    return found

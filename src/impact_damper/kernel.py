@@ -176,12 +176,14 @@ def contact_step(p, y, tangents, side, t, longest, tolerance, work):
     """One step in contact. Returns its length and the side after it: 0 if the contact ended."""
     x, q, square, dx, dq = work[0], work[1], work[2], work[3], work[4]
     angle = p[0] * t
-    contact(p, math.cos(angle), math.sin(angle), y[0], y[1], y[2] - side * p[3], y[3],
-            x, q, square)
+    contact(p, math.cos(angle), math.sin(angle), y[0], y[1], y[2] - side * p[3], y[3], x, q, square)
     scale = max(1.0, abs(y[0]), abs(y[1]), abs(y[3]))
-    length = min(longest, CONTACT_CAP * 2.0 * math.pi / math.sqrt(p[4] * (1.0 + p[5])),
-                 step_length(q, CONTACT_ORDER, tolerance * scale),
-                 step_length(x, CONTACT_ORDER, tolerance * scale))
+    length = min(
+        longest,
+        CONTACT_CAP * 2.0 * math.pi / math.sqrt(p[4] * (1.0 + p[5])),
+        step_length(q, CONTACT_ORDER, tolerance * scale),
+        step_length(x, CONTACT_ORDER, tolerance * scale),
+    )
     length, released = first_release(q, CONTACT_ORDER, side, length)
     y[0], y[1] = polynomial(x, CONTACT_ORDER, length)
     penetration, y[3] = polynomial(q, CONTACT_ORDER, length)

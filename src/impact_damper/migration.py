@@ -9,7 +9,7 @@ within a longest hold, in the forcing period after that.
 
 import numpy as np
 
-from impact_damper import ensemble, motion, switching
+from impact_damper import ensemble, recording, switching
 from impact_damper.datasets import dataset, flag
 from impact_damper.parameters import check_count, describe
 from impact_damper.releases import (
@@ -44,8 +44,20 @@ def _control(here, draws, longest_hold, settling, periods):
     logs = np.zeros((number, switchings), switching.SWITCHING)
     counts = np.zeros(number, int)
     rows = switching.control_many(
-        here.on, here.off, here.state, draws, here.known, settling.tolerance, longest_hold,
-        settling.limit, periods, path, logs, counts, np.zeros(1, motion.MOTION))
+        here.on,
+        here.off,
+        here.state,
+        draws,
+        here.known,
+        settling.tolerance,
+        longest_hold,
+        settling.limit,
+        periods,
+        path,
+        logs,
+        counts,
+        np.zeros(1, recording.MOTION),
+    )
     return path[:rows], logs, counts
 
 
@@ -64,9 +76,15 @@ def _trace(here, path, log, tolerance):
     cuts = np.searchsorted(times, np.append(path[:, 0], ends[-1]))
     states = np.empty((len(times), 4))
     for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False):
-        motion.trace(here.on if on else here.off, row[1:].copy(), (row[0] + 0.25) * period,
-                     (times[first:last] + 0.25) * period, tolerance, states[first:last],
-                     np.empty((0, 5)))
+        recording.trace(
+            here.on if on else here.off,
+            row[1:].copy(),
+            (row[0] + 0.25) * period,
+            (times[first:last] + 0.25) * period,
+            tolerance,
+            states[first:last],
+            np.empty((0, 5)),
+        )
     return (times + 0.25) * period, states[:, 0]
 
 
@@ -75,10 +93,14 @@ def _log_data(logs, counts, here):
     absent = np.arange(logs.shape[-1]) >= np.asarray(counts)[..., None]
     period = 2 * np.pi / here.on[0]
     kind = kinds(logs["released_period"], logs["released_displacement"], here.known)
-    data = {name: np.where(absent, np.nan, (logs[name] + 0.25) * period)
-            for name in ("on_time", "off_time", "end_time")}
-    data |= {name: np.where(absent, np.nan, logs[name])
-             for name in ("released_displacement", "destination_displacement")}
+    data = {
+        name: np.where(absent, np.nan, (logs[name] + 0.25) * period)
+        for name in ("on_time", "off_time", "end_time")
+    }
+    data |= {
+        name: np.where(absent, np.nan, logs[name])
+        for name in ("released_displacement", "destination_displacement")
+    }
     return data | {
         "released_from": np.where(absent, DAMPED_MOTION["none"], kind),
         "released_period": np.where(absent, 0, logs["released_period"]),
@@ -87,9 +109,7 @@ def _log_data(logs, counts, here):
 
 
 def _totals(logs, counts):
-    """Registered variables of whole runs, over (...), in forcing periods from the first switching.
-
-    """
+    """Registered variables of whole runs, in forcing periods from the first switching."""
     absent = np.arange(logs.shape[-1]) >= np.asarray(counts)[..., None]
     last = np.asarray(counts)[..., None] - 1
 
@@ -100,8 +120,9 @@ def _totals(logs, counts):
     held = np.where(absent, 0.0, logs["off_time"] - logs["on_time"])
     reached = final("destination") == FREE_MOTION["non_resonance"]
     return {
-        "trial_outcome": np.where(reached, flag("trial_outcome", "reached"),
-                                  flag("trial_outcome", "not_reached")),
+        "trial_outcome": np.where(
+            reached, flag("trial_outcome", "reached"), flag("trial_outcome", "not_reached")
+        ),
         "switchings": np.asarray(counts),
         "damper_time": np.sum(held, axis=-1),
         "release_time": final("off_time") - first,
@@ -115,13 +136,25 @@ def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, s
     check_count("periods", periods, most=10**6)
     check_count("switchings", switchings, most=10**4)
     made = describe(oscillator, damper, settling) | {
-        "frequency": float(frequency), "longest_hold": longest_hold, "periods": periods,
-        "largest_switchings": switchings}
+        "frequency": float(frequency),
+        "longest_hold": longest_hold,
+        "periods": periods,
+        "largest_switchings": switchings,
+    }
     return scene(oscillator, damper, frequency, settling), made
 
 
-def migrate(oscillator, damper, frequency, *, seed=1995, longest_hold=500, periods=2000,
-            switchings=100, settling=None):
+def migrate(
+    oscillator,
+    damper,
+    frequency,
+    *,
+    seed=1995,
+    longest_hold=500,
+    periods=2000,
+    switchings=100,
+    settling=None,
+):
     """One run of the controller of figure 17, from the resonance branch.
 
     Parameters
@@ -154,15 +187,18 @@ def migrate(oscillator, damper, frequency, *, seed=1995, longest_hold=500, perio
         If the free oscillator has not both period-1 motions, or an argument is out of range.
     """
     settling = settling or ensemble.Settling()
-    here, made = _checked(oscillator, damper, frequency, longest_hold, periods, switchings,
-                          settling)
-    path, logs, counts = _control(here, _draws(seed, switchings)[None], longest_hold, settling,
-                                  periods)
-    log = logs[0, :counts[0]]
+    here, made = _checked(
+        oscillator, damper, frequency, longest_hold, periods, switchings, settling
+    )
+    path, logs, counts = _control(
+        here, _draws(seed, switchings)[None], longest_hold, settling, periods
+    )
+    log = logs[0, : counts[0]]
     times, displacement = _trace(here, path, log, settling.tolerance)
     data = {"displacement": displacement}
-    data |= {name: ("switching", values)
-             for name, values in _log_data(log, counts[0], here).items()}
+    data |= {
+        name: ("switching", values) for name, values in _log_data(log, counts[0], here).items()
+    }
     data |= {name: ((), values) for name, values in _totals(log, counts[0]).items()}
     return dataset(data, {"time": times}, made, "Migration control, one run")
 
@@ -180,9 +216,16 @@ def _summary(logs_data, totals):
     """Registered shares and counts over all runs."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     number = len(reached)
-    count = [[np.sum((logs_data["released_from"] == DAMPED_MOTION[kind])
-                     & (logs_data["destination"] == FREE_MOTION[name]))
-              for name in DESTINATIONS] for kind in KINDS]
+    count = [
+        [
+            np.sum(
+                (logs_data["released_from"] == DAMPED_MOTION[kind])
+                & (logs_data["destination"] == FREE_MOTION[name])
+            )
+            for name in DESTINATIONS
+        ]
+        for kind in KINDS
+    ]
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     return {
         "destination_count": np.array(count),
@@ -191,9 +234,22 @@ def _summary(logs_data, totals):
     }
 
 
-def trials(oscillator, damper, frequency, *, trials=400, releases=240, lifetime=4000,
-           seed=1995, longest_hold=500, periods=2000, switchings=100, settling=None, workers=1,
-           progress=None):
+def trials(
+    oscillator,
+    damper,
+    frequency,
+    *,
+    trials=400,
+    releases=240,
+    lifetime=4000,
+    seed=1995,
+    longest_hold=500,
+    periods=2000,
+    switchings=100,
+    settling=None,
+    workers=1,
+    progress=None,
+):
     """Many runs of the controller, where releases lead, and the life of the violent motion.
 
     Parameters
@@ -229,10 +285,15 @@ def trials(oscillator, damper, frequency, *, trials=400, releases=240, lifetime=
     check_count("trials", trials, most=10**6)
     check_count("releases", releases, most=10**6)
     check_count("lifetime", lifetime, least=100, most=10**7)
-    here, made = _checked(oscillator, damper, frequency, longest_hold, periods, switchings,
-                          settling)
-    runs, watched = (root.spawn(number) for root, number in zip(
-        np.random.SeedSequence(seed).spawn(2), (trials, releases), strict=True))
+    here, made = _checked(
+        oscillator, damper, frequency, longest_hold, periods, switchings, settling
+    )
+    runs, watched = (
+        root.spawn(number)
+        for root, number in zip(
+            np.random.SeedSequence(seed).spawn(2), (trials, releases), strict=True
+        )
+    )
     draws = np.array([_draws(child, switchings) for child in runs])
     logs = np.zeros(draws.shape[:2], switching.SWITCHING)
     counts = np.zeros(trials, int)
@@ -241,18 +302,22 @@ def trials(oscillator, damper, frequency, *, trials=400, releases=240, lifetime=
         _, logs[part], counts[part] = _control(here, draws[part], longest_hold, settling, periods)
 
     ensemble.run_chunks(work, trials, workers, progress)
-    logs = logs[:, :np.max(counts)]
+    logs = logs[:, : np.max(counts)]
     data = _log_data(logs, counts, here)
     totals = _totals(logs, counts)
     example = _example(totals)
     path, _, _ = _control(here, draws[example, None], longest_hold, settling, periods)
-    times, displacement = _trace(here, path, logs[example, :counts[example]], settling.tolerance)
+    times, displacement = _trace(here, path, logs[example, : counts[example]], settling.tolerance)
     data |= totals | _summary(data, totals) | {"example": example, "displacement": displacement}
     lives, motions, entries = watch(here, watched, lifetime, settling, workers, progress)
     life, coordinates = transient_data(lives, motions, lifetime, here.known)
     records = settled_motions(oscillator, damper, frequency, seed, settling, workers, motions)
     data |= life | release_data(here, records, entries, settling)
-    coordinates |= {"time": times, "bound": BOUNDS, "damped_motion": KINDS,
-                    "free_motion": DESTINATIONS}
+    coordinates |= {
+        "time": times,
+        "bound": BOUNDS,
+        "damped_motion": KINDS,
+        "free_motion": DESTINATIONS,
+    }
     made |= {"trials": trials, "releases": releases, "lifetime": lifetime, "seed": seed}
     return dataset(data, coordinates, made, "Migration control")

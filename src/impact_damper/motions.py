@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper import ensemble, motion
+from impact_damper import ensemble, recording
 from impact_damper.datasets import dataset, flag
 from impact_damper.parameters import check_count, check_number, describe, pack
 
@@ -25,7 +25,8 @@ def check_state(state, damper):
     if state.shape != (4,) or not np.isfinite(state).all():
         raise ValueError(
             f"state = {state.tolist()}: must be four finite numbers Z1, Z1', Z2, Z2' "
-            "(the paper's figure 4 gives three; a state of this system has four)")
+            "(the paper's figure 4 gives three; a state of this system has four)"
+        )
     return state
 
 
@@ -64,8 +65,17 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     return np.hstack([states, states]) if damper is None else states
 
 
-def simulate(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, periods=20,
-             samples=200, start=0.0, tolerance=1e-12):
+def simulate(
+    oscillator,
+    damper,
+    frequency,
+    state=(0.0, 0.0, 0.0, 0.0),
+    *,
+    periods=20,
+    samples=200,
+    start=0.0,
+    tolerance=1e-12,
+):
     """Integrate one motion and label it.
 
     Parameters
@@ -103,14 +113,19 @@ def simulate(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, perio
     states = np.empty((len(times), 4))
     log = np.empty((1024, 5))
     first = y.copy()
-    count = motion.trace(p, y, start, times, tolerance, states, log)
+    count = recording.trace(p, y, start, times, tolerance, states, log)
     if count > len(log):
         log = np.empty((count, 5))
-        motion.trace(p, first, start, times, tolerance, states, log)
+        recording.trace(p, first, start, times, tolerance, states, log)
     log = log[:count]
     data = dict(zip(COMPONENTS, states.T, strict=True))
-    data |= {"contact_wall": log[:, 0], "contact_begin": log[:, 1], "contact_end": log[:, 2],
-             "approach_velocity": log[:, 3], "departure_velocity": log[:, 4]}
+    data |= {
+        "contact_wall": log[:, 0],
+        "contact_begin": log[:, 1],
+        "contact_end": log[:, 2],
+        "approach_velocity": log[:, 3],
+        "departure_velocity": log[:, 4],
+    }
     made = describe(oscillator, damper) | {"frequency": float(frequency), "tolerance": tolerance}
     return dataset(data, {"time": times}, made, "Motion of the oscillator")
 

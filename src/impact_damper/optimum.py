@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper import harmonic_balance as balance
-from impact_damper import motion
+from impact_damper import orbits
 from impact_damper.datasets import dataset, flag
 from impact_damper.design import optimum_clearance
 from impact_damper.ensemble import Settling
@@ -156,7 +156,7 @@ class _Branch(NamedTuple):
         away = np.abs(self.parameters[:, CLEARANCE] - start)
         k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
         p, y = self.parameters[k].copy(), self.states[k].copy()
-        motion.follow(p, y, 1, CLEARANCE, clearance, RESOLUTION, motion.POLISH_TOLERANCE)
+        orbits.follow(p, y, 1, CLEARANCE, clearance, RESOLUTION, orbits.POLISH_TOLERANCE)
         return p, y
 
     def displacement(self, clearance):
@@ -164,7 +164,7 @@ class _Branch(NamedTuple):
         p, y = self.follow(clearance, clearance)
         if p[CLEARANCE] != clearance:
             return np.inf
-        return motion.measured(p, y, 1, motion.POLISH_TOLERANCE)["maximum_displacement"]
+        return recording.measured(p, y, 1, orbits.POLISH_TOLERANCE)["maximum_displacement"]
 
     def limit(self, clearance, step):
         """The next point of the sweep, or the end of branch or sweep if that comes first."""

@@ -96,8 +96,13 @@ class Damper:
     def __post_init__(self):
         check_number("mass_ratio", self.mass_ratio, above=0.0, most=10.0)
         check_number("clearance", self.clearance, above=0.0, most=1e3)
-        check_number("restitution", self.restitution, least=0.05, most=1.0,
-                     why="below, the dashpot nears critical damping")
+        check_number(
+            "restitution",
+            self.restitution,
+            least=0.05,
+            most=1.0,
+            why="below, the dashpot nears critical damping",
+        )
         check_number("contact_stiffness", self.contact_stiffness, above=0.0, most=1e9)
 
     @property
@@ -129,11 +134,24 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     stiffness = oscillator.linear_frequency**2
     if damper is None:
         return np.array([frequency, oscillator.damping, stiffness, np.inf, 0.0, 0.0, 0.0])
-    return np.array([frequency, oscillator.damping, stiffness, damper.clearance,
-                     damper.contact_stiffness, 1 / damper.mass_ratio, damper.dashpot])
+    return np.array(
+        [
+            frequency,
+            oscillator.damping,
+            stiffness,
+            damper.clearance,
+            damper.contact_stiffness,
+            1 / damper.mass_ratio,
+            damper.dashpot,
+        ]
+    )
 
 
 def describe(*parts) -> dict:
     """Parameters of an oscillator, a damper or None as one dictionary of plain numbers."""
-    return {field.name: getattr(part, field.name)
-            for part in parts if part is not None for field in fields(part)}
+    return {
+        field.name: getattr(part, field.name)
+        for part in parts
+        if part is not None
+        for field in fields(part)
+    }

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import binomtest, chi2
 
-from impact_damper import ensemble, motion, switching
+from impact_damper import ensemble, orbits, recording, switching
 from impact_damper.datasets import dataset, flag
 from impact_damper.harmonic_balance import free_solutions, impacting_solutions
 from impact_damper.motions import is_settled, random_states
@@ -54,10 +54,10 @@ def _free_motion(oscillator, frequency, start, which, settling):
     if record["period"] != 1:
         return None
     y = record["state"].copy()
-    motion.follow(p, y, 1, FREQUENCY, frequency, RESOLUTION, motion.POLISH_TOLERANCE)
+    orbits.follow(p, y, 1, FREQUENCY, frequency, RESOLUTION, orbits.POLISH_TOLERANCE)
     if p[FREQUENCY] != frequency:
         return None
-    found = motion.measured(p, y, 1, settling.tolerance)
+    found = recording.measured(p, y, 1, settling.tolerance)
     found["state"] = y
     return found
 
@@ -73,12 +73,17 @@ def scene(oscillator, damper, frequency, settling) -> Scene:
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
     goal = _free_motion(oscillator, frequency, 1.1 * frequency, 0, settling)
     resonance = _free_motion(oscillator, frequency, 0.9 * frequency, -1, settling)
-    known = np.array([np.nan if record is None else record["maximum_displacement"]
-                      for record in (goal, resonance)])
+    known = np.array(
+        [
+            np.nan if record is None else record["maximum_displacement"]
+            for record in (goal, resonance)
+        ]
+    )
     if not known[0] + switching.ALIKE < known[1]:
         raise ValueError(
             f"frequency = {frequency:g}: the free oscillator must have a non-resonance and a "
-            "resonance motion here, since migration leads from one to the other")
+            "resonance motion here, since migration leads from one to the other"
+        )
     return Scene(on, off, resonance["state"].copy(), known)
 
 
@@ -130,7 +135,7 @@ def watch(here, seeds, lifetime, settling, workers, progress):
     """Runs from the resonance branch, each released once: lives, records and releases."""
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     lives = np.empty(len(draws))
-    motions = np.zeros(len(draws), motion.MOTION)
+    motions = np.zeros(len(draws), recording.MOTION)
     entries = np.zeros(len(draws), switching.RELEASE)
     for name in ("phase", "displacement", "velocity"):
         entries[name] = np.nan
@@ -138,9 +143,20 @@ def watch(here, seeds, lifetime, settling, workers, progress):
 
     def work(part):
         switching.transients(
-            here.on, here.off, here.state, draws[part], here.known, settling.tolerance, LEAD,
-            lifetime, settling.limit, lives[part], motions[part], entries[part],
-            np.zeros(1, motion.MOTION))
+            here.on,
+            here.off,
+            here.state,
+            draws[part],
+            here.known,
+            settling.tolerance,
+            LEAD,
+            lifetime,
+            settling.limit,
+            lives[part],
+            motions[part],
+            entries[part],
+            np.zeros(1, recording.MOTION),
+        )
 
     ensemble.run_chunks(work, len(draws), workers, progress)
     return lives, motions, entries
@@ -167,30 +183,40 @@ def transient_data(lives, motions, lifetime, known):
     }, {"age": times}
 
 
-def release_data(here, records, entries, settling):
+def release_data(here, motions, entries, settling):
     """Registered variables of releases: of the unsettled motion, then of each settled one.
 
     Settled motions are released at as many phases as there are `entries`, evenly over the period.
     """
     number = len(entries)
     rows = [entries]
-    for record in records:
+    for record in motions:
         waits = np.arange(number) * record["period"] / number
         rows.append(np.zeros(number, switching.RELEASE))
-        switching.release_many(here.on, here.off, record["state"].copy(), waits, here.known,
-                               settling.tolerance, settling.limit, rows[-1],
-                               np.zeros(1, motion.MOTION))
+        switching.release_many(
+            here.on,
+            here.off,
+            record["state"].copy(),
+            waits,
+            here.known,
+            settling.tolerance,
+            settling.limit,
+            rows[-1],
+            np.zeros(1, recording.MOTION),
+        )
     table = np.array(rows)
     valid = np.sum(table["destination"] >= 0, axis=1)
-    shares = [[wilson(np.sum(row["destination"] == FREE_MOTION[name]), total)
-               for name in DESTINATIONS] for row, total in zip(table, valid, strict=True)]
-    period = np.array([0] + [record["period"] for record in records])
-    displacement = np.array([np.nan] + [record["maximum_displacement"] for record in records])
+    shares = [
+        [wilson(np.sum(row["destination"] == FREE_MOTION[name]), total) for name in DESTINATIONS]
+        for row, total in zip(table, valid, strict=True)
+    ]
+    period = np.array([0] + [record["period"] for record in motions])
+    displacement = np.array([np.nan] + [record["maximum_displacement"] for record in motions])
     return {
         "damped_kind": kinds(period, displacement, here.known),
         "damped_period": period,
         "damped_displacement": displacement,
-        "damped_contacts": np.array([np.nan] + [record["contacts"] for record in records]),
+        "damped_contacts": np.array([np.nan] + [record["contacts"] for record in motions]),
         "release_phase": table["phase"],
         "release_displacement": table["displacement"],
         "release_velocity": table["velocity"],
@@ -207,13 +233,17 @@ def settled_motions(oscillator, damper, frequency, seed, settling, workers, foun
     on = pack(oscillator, damper, frequency)
     balance = impacting_solutions(oscillator, damper, frequency)
     angle = balance.phase + np.pi / 2
-    columns = [part for size in (balance.amplitude, balance.relative_amplitude)
-               for part in (size * np.cos(angle), -size * frequency * np.sin(angle))]
+    columns = [
+        part
+        for size in (balance.amplitude, balance.relative_amplitude)
+        for part in (size * np.cos(angle), -size * frequency * np.sin(angle))
+    ]
     states = np.concatenate([np.stack(columns, axis=-1), random_states(96, 2.0, damper, seed)])
-    records = ensemble.settle(np.tile(on, (len(states), 1)), states, settling, from_strobe=True,
-                              workers=workers)
+    reached = ensemble.settle(
+        np.tile(on, (len(states), 1)), states, settling, from_strobe=True, workers=workers
+    )
     catalogue = Catalogue(on, count())
-    for record in np.concatenate([found, records]):
+    for record in np.concatenate([found, reached]):
         if is_settled(record):
             catalogue.add(record, "random_start")
     return sorted(catalogue.records, key=lambda record: record["maximum_displacement"])
@@ -222,21 +252,35 @@ def settled_motions(oscillator, damper, frequency, seed, settling, workers, foun
 def _scan_records(response):
     """Records of the settled motions at one frequency of a frequency response."""
     keep = response["outcome"].values == flag("outcome", "settled")
-    records = np.zeros(np.sum(keep), motion.MOTION)
+    found = np.zeros(np.sum(keep), recording.MOTION)
     for name in ("period", "maximum_displacement", "contacts", "state"):
-        records[name] = response[name].values[keep]
-    return records[::-1]
+        found[name] = response[name].values[keep]
+    return found[::-1]
 
 
 def _padded(values, length):
     """Array with its first axis filled up to a length by what stands for nothing."""
-    missing = np.full((length - len(values), *values.shape[1:]),
-                      np.nan if values.dtype.kind == "f" else -1, values.dtype)
+    missing = np.full(
+        (length - len(values), *values.shape[1:]),
+        np.nan if values.dtype.kind == "f" else -1,
+        values.dtype,
+    )
     return np.concatenate([values, missing])
 
 
-def release_scan(oscillator, damper, frequencies, *, starts=24, releases=100, lifetime=200,
-                 seed=1995, settling=None, workers=1, progress=None):
+def release_scan(
+    oscillator,
+    damper,
+    frequencies,
+    *,
+    starts=24,
+    releases=100,
+    lifetime=200,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
     """Where releases lead from every damped motion, at each frequency.
 
     Parameters
@@ -271,21 +315,42 @@ def release_scan(oscillator, damper, frequencies, *, starts=24, releases=100, li
     check_count("releases", releases, most=10**6)
     check_count("lifetime", lifetime, least=2 * LEAD, most=10**7)
     scenes = [scene(oscillator, damper, frequency, settling) for frequency in frequencies]
-    response = frequency_response(oscillator, damper, frequencies, starts=starts, seed=seed,
-                                  settling=settling, workers=workers, progress=progress)
+    response = frequency_response(
+        oscillator,
+        damper,
+        frequencies,
+        starts=starts,
+        seed=seed,
+        settling=settling,
+        workers=workers,
+        progress=progress,
+    )
     seeds = np.random.SeedSequence(seed).spawn(len(scenes))
     rows = []
     for i, here in enumerate(scenes):
         _, _, entries = watch(here, seeds[i].spawn(releases), lifetime, settling, workers, None)
-        rows.append(release_data(here, _scan_records(response.isel(frequency=i)), entries,
-                                 settling))
+        rows.append(
+            release_data(here, _scan_records(response.isel(frequency=i)), entries, settling)
+        )
     width = max(len(row["damped_kind"]) for row in rows)
-    names = ("damped_kind", "damped_period", "damped_displacement", "damped_contacts",
-             "release_share")
+    names = (
+        "damped_kind",
+        "damped_period",
+        "damped_displacement",
+        "damped_contacts",
+        "release_share",
+    )
     data = {name: np.array([_padded(row[name], width) for row in rows]) for name in names}
     data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
     made = describe(oscillator, damper, settling) | {
-        "starts": starts, "releases": releases, "lifetime": lifetime, "seed": seed}
-    coordinates = {"frequency": response["frequency"].values, "free_motion": DESTINATIONS,
-                   "bound": BOUNDS}
+        "starts": starts,
+        "releases": releases,
+        "lifetime": lifetime,
+        "seed": seed,
+    }
+    coordinates = {
+        "frequency": response["frequency"].values,
+        "free_motion": DESTINATIONS,
+        "bound": BOUNDS,
+    }
     return dataset(data, coordinates, made, "Where releases of the damper lead")

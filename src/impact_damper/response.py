@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper import motion
+from impact_damper import recording
 from impact_damper.datasets import dataset
 from impact_damper.ensemble import Settling
 from impact_damper.motions import COMPONENTS, random_states
@@ -10,8 +10,18 @@ from impact_damper.parameters import check_count, check_frequency, describe, pac
 from impact_damper.sweep import FREQUENCY, sweep
 
 
-def frequency_response(oscillator, damper, frequencies, *, starts=96, radius=2.0, seed=1995,
-                       settling=None, workers=1, progress=None):
+def frequency_response(
+    oscillator,
+    damper,
+    frequencies,
+    *,
+    starts=96,
+    radius=2.0,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
     """All motions found at each frequency, with and without following.
 
     Parameters
@@ -49,18 +59,32 @@ def frequency_response(oscillator, damper, frequencies, *, starts=96, radius=2.0
     if len(frequencies) == 0 or np.any(np.diff(frequencies) <= 0):
         raise ValueError("frequencies: must be increasing, and at least one")
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
-    states = np.array([random_states(starts, radius, damper, [seed, i])
-                       for i in range(len(frequencies))])
-    data = sweep(parameters, FREQUENCY, "frequency", states, settling,
-                 workers=workers, progress=progress)
+    states = np.array(
+        [random_states(starts, radius, damper, [seed, i]) for i in range(len(frequencies))]
+    )
+    data = sweep(
+        parameters, FREQUENCY, "frequency", states, settling, workers=workers, progress=progress
+    )
     made = describe(oscillator, damper, settling) | {
-        "starts": starts, "radius": radius, "seed": seed}
+        "starts": starts,
+        "radius": radius,
+        "seed": seed,
+    }
     coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
     return dataset(data, coordinates, made, "Frequency response")
 
 
-def collisions(oscillator, damper, frequency, *, starts=2000, radius=2.0, seed=1995,
-               periods=200, tolerance=1e-9):
+def collisions(
+    oscillator,
+    damper,
+    frequency,
+    *,
+    starts=2000,
+    radius=2.0,
+    seed=1995,
+    periods=200,
+    tolerance=1e-9,
+):
     """Whether starts in the literal ball, and in the ball within the gap, lead to a collision.
 
     Returns
@@ -74,10 +98,15 @@ def collisions(oscillator, damper, frequency, *, starts=2000, radius=2.0, seed=1
     for row, within_gap in enumerate((False, True)):
         states = random_states(starts, radius, damper, [seed, row], within_gap=within_gap)
         waits = np.empty(starts)
-        motion.first_collisions(np.tile(p, (starts, 1)), states, periods, tolerance, waits)
+        recording.first_collisions(np.tile(p, (starts, 1)), states, periods, tolerance, waits)
         met = np.isfinite(waits)
         shares[row] = np.mean(waits == 0), np.mean(met), np.max(waits[met], initial=0.0)
     data = dict(zip(("beyond_wall", "colliding", "longest_wait"), shares.T, strict=True))
-    made = describe(oscillator, damper) | {"frequency": float(frequency), "starts": starts,
-                                          "radius": radius, "seed": seed, "periods": periods}
+    made = describe(oscillator, damper) | {
+        "frequency": float(frequency),
+        "starts": starts,
+        "radius": radius,
+        "seed": seed,
+        "periods": periods,
+    }
     return dataset(data, {"ball": ["literal", "within_gap"]}, made, "First collisions")

@@ -95,12 +95,14 @@ def _module():
     name = "impact_damper_series"
     path = CACHE_DIRECTORY / f"{name}.py"
     if not path.exists():
-        source = "from impact_damper.accelerate import kernel\n\n\n" + "\n\n".join([
-            unrolled("flight", contact=False, tangent=False),
-            unrolled("contact", contact=True, tangent=False),
-            unrolled("flight_tangent", contact=False, tangent=True),
-            unrolled("contact_tangent", contact=True, tangent=True),
-        ])
+        source = "from impact_damper.accelerate import kernel\n\n\n" + "\n\n".join(
+            [
+                unrolled("flight", contact=False, tangent=False),
+                unrolled("contact", contact=True, tangent=False),
+                unrolled("flight_tangent", contact=False, tangent=True),
+                unrolled("contact_tangent", contact=True, tangent=True),
+            ]
+        )
         part = path.with_name(f"{path.name}.part-{os.getpid()}")
         part.write_text(source)
         os.replace(part, path)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper import motion
+from impact_damper import orbits, recording
 from impact_damper.datasets import dataset, flag
 from impact_damper.ensemble import Settling
 from impact_damper.motions import COMPONENTS, random_states
@@ -160,10 +160,10 @@ class FreeSubharmonic(NamedTuple):
             return None
         k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))
         p, y = self.parameters[k].copy(), self.states[k].copy()
-        motion.follow(p, y, 3, FREQUENCY, frequency, RESOLUTION, motion.POLISH_TOLERANCE)
+        orbits.follow(p, y, 3, FREQUENCY, frequency, RESOLUTION, orbits.POLISH_TOLERANCE)
         if p[FREQUENCY] != frequency:
             return None
-        record = motion.measured(p, y, 3, motion.POLISH_TOLERANCE)
+        record = recording.measured(p, y, 3, orbits.POLISH_TOLERANCE)
         record["state"] = y
         return record
 
@@ -210,16 +210,16 @@ def switched_on(oscillator, p, state, loose, generator):
     numpy.ndarray, shape (m, 4)
     """
     period = 2 * np.pi / p[FREQUENCY]
-    begin = motion.strobe_time(p)
+    begin = orbits.strobe_time(p)
     times = begin + np.sort(generator.random(len(loose))) * 3 * period
     states, log = np.empty((len(loose), 4)), np.empty((0, 5))
     free = pack(oscillator, None, p[FREQUENCY])
-    motion.trace(free, state.copy(), begin, times, motion.POLISH_TOLERANCE, states, log)
+    recording.trace(free, state.copy(), begin, times, orbits.POLISH_TOLERANCE, states, log)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
     for time, y in zip(times, states, strict=True):
         until = np.array([np.ceil(time / period) * period])
-        motion.trace(p, y, time, until, motion.POLISH_TOLERANCE, np.empty((1, 4)), log)
+        recording.trace(p, y, time, until, orbits.POLISH_TOLERANCE, np.empty((1, 4)), log)
     return states
 
 

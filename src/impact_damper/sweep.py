@@ -11,7 +11,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from impact_damper import ensemble, motion
+from impact_damper import ensemble, orbits, recording
 from impact_damper.datasets import flag
 from impact_damper.motions import is_settled, tabulate
 
@@ -26,7 +26,7 @@ class Catalogue:
 
     Attributes
     ----------
-    records : list of motion.MOTION
+    records : list of recording.MOTION
     numbers : list of int
         A number for each motion, unique over the sweep.
     origins : list of int
@@ -92,26 +92,31 @@ def _follow(here, there, index, settling, links, ends):
         p, y = here.p.copy(), record["state"].copy()
         multiplier = complex(np.nan)
         if is_settled(record):
-            multiplier = motion.follow(p, y, record["period"], index, there.p[index], RESOLUTION,
-                                       motion.POLISH_TOLERANCE)
+            multiplier = orbits.follow(
+                p, y, record["period"], index, there.p[index], RESOLUTION, orbits.POLISH_TOLERANCE
+            )
         arrived = p[index] == there.p[index]
         beyond = ensemble.settle(there.p[None], y[None], settling, from_strobe=True)[0]
         j = there.add(beyond, "followed")
         if not is_settled(record):
             continue
-        if arrived and is_settled(beyond):
+        if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
             links.append((here.numbers[i], there.numbers[j]))
             continue
-        last = motion.measured(p, y, record["period"], settling.tolerance)
-        ends.append({
-            "end_value": p[index],
-            "end_motion": here.numbers[i],
-            "end_direction": flag("end_direction", "up" if there.p[index] > p[index] else "down"),
-            "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
-            "end_displacement": last["maximum_displacement"],
-            "end_multiplier_real": multiplier.real,
-            "end_multiplier_imaginary": multiplier.imag,
-        })
+        last = recording.measured(p, y, record["period"], settling.tolerance)
+        ends.append(
+            {
+                "end_value": p[index],
+                "end_motion": here.numbers[i],
+                "end_direction": flag(
+                    "end_direction", "up" if there.p[index] > p[index] else "down"
+                ),
+                "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
+                "end_displacement": last["maximum_displacement"],
+                "end_multiplier_real": multiplier.real,
+                "end_multiplier_imaginary": multiplier.imag,
+            }
+        )
 
 
 def _branches(catalogues, links):
@@ -124,14 +129,26 @@ def _branches(catalogues, links):
 def _tables(catalogues, branches, dimension):
     """Arrays over (dimension, motion), the larger motions first, padded with 'absent'."""
     width = max(len(catalogue.records) for catalogue in catalogues)
-    records = np.zeros((len(catalogues), width), motion.MOTION)
+    records = np.zeros((len(catalogues), width), recording.MOTION)
     records["outcome"] = flag("outcome", "absent")
-    for name in ("residual", "maximum_displacement", "contacts", "asymmetry", "lyapunov_exponent",
-                 "lyapunov_error", "state", "multiplier", "harmonic_displacement",
-                 "harmonic_relative"):
+    for name in (
+        "residual",
+        "maximum_displacement",
+        "contacts",
+        "asymmetry",
+        "lyapunov_exponent",
+        "lyapunov_error",
+        "state",
+        "multiplier",
+        "harmonic_displacement",
+        "harmonic_relative",
+    ):
         records[name] = np.nan
-    extra = {"branch": np.full(records.shape, -1), "share": np.zeros(records.shape, int),
-             "origin": np.full(records.shape, flag("origin", "absent"))}
+    extra = {
+        "branch": np.full(records.shape, -1),
+        "share": np.zeros(records.shape, int),
+        "origin": np.full(records.shape, flag("origin", "absent")),
+    }
     for row, catalogue in enumerate(catalogues):
         for column, k in enumerate(catalogue.order()):
             records[row, column] = catalogue.records[k]
@@ -141,7 +158,8 @@ def _tables(catalogues, branches, dimension):
     data = tabulate(records) | extra
     dims = (dimension, "motion")
     return {name: (dims, values) for name, values in data.items()} | {
-        "state": ((*dims, "component"), records["state"])}
+        "state": ((*dims, "component"), records["state"])
+    }
 
 
 def sweep(parameters, index, dimension, states, settling, *, workers=1, progress=None):
@@ -168,12 +186,19 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
         motions, over (dimension, start) what the runs came to, over `end` the branches' ends.
     """
     size, starts = states.shape[:2]
-    runs = ensemble.settle(np.repeat(parameters, starts, axis=0), states.reshape(-1, 4), settling,
-                           workers=workers, progress=progress).reshape(size, starts)
+    runs = ensemble.settle(
+        np.repeat(parameters, starts, axis=0),
+        states.reshape(-1, 4),
+        settling,
+        workers=workers,
+        progress=progress,
+    ).reshape(size, starts)
     numbering = count()
     catalogues = [Catalogue(p, numbering) for p in parameters]
-    reached = [[catalogue.add(record, "random_start") for record in row]
-               for catalogue, row in zip(catalogues, runs, strict=True)]
+    reached = [
+        [catalogue.add(record, "random_start") for record in row]
+        for catalogue, row in zip(catalogues, runs, strict=True)
+    ]
     links, ends = [], {}
     # The second sweep upward also follows what the one downward found.
     for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
@@ -183,13 +208,23 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
     branches = _branches(catalogues, links)
     ends = ends["down"] + ends["up"]
     data = _tables(catalogues, branches, dimension)
-    columns = [np.argsort(catalogue.order())[row]
-               for catalogue, row in zip(catalogues, reached, strict=True)]
-    data |= {"run_outcome": ((dimension, "start"), runs["outcome"]),
-             "run_motion": ((dimension, "start"), np.array(columns)),
-             "run_length": ((dimension, "start"), runs["periods_run"])}
-    for name in ("end_value", "end_direction", "end_event", "end_displacement",
-                 "end_multiplier_real", "end_multiplier_imaginary"):
+    columns = [
+        np.argsort(catalogue.order())[row]
+        for catalogue, row in zip(catalogues, reached, strict=True)
+    ]
+    data |= {
+        "run_outcome": ((dimension, "start"), runs["outcome"]),
+        "run_motion": ((dimension, "start"), np.array(columns)),
+        "run_length": ((dimension, "start"), runs["periods_run"]),
+    }
+    for name in (
+        "end_value",
+        "end_direction",
+        "end_event",
+        "end_displacement",
+        "end_multiplier_real",
+        "end_multiplier_imaginary",
+    ):
         data[name] = np.array([end[name] for end in ends])
     data["end_branch"] = np.array([branches[end["end_motion"]] for end in ends], int)
     return data

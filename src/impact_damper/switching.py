@@ -1,6 +1,6 @@
 """Kernels of migration control: legs of a run with the damper on and off, and where releases lead.
 
-A run is looked at once a forcing period, at the strobe of `motion`. A leg begins where the
+A run is looked at once a forcing period, at the strobe of `orbits`. A leg begins where the
 damper is switched, somewhere between two strobes; Z1 and Z1' go through it unchanged. It
 ends at the strobe where the motion is near a stable orbit or its time is up. The state is
 left where it is, not taken onto that orbit, so that a run is one continuous motion.
@@ -18,13 +18,11 @@ from impact_damper.motion import (
     RING,
     SETTLED,
     UNRESOLVED,
-    distance,
     land,
-    measure,
     nearby_period,
-    one_period,
-    strobe_time,
 )
+from impact_damper.orbits import one_period, strobe_time
+from impact_damper.recording import measure
 
 LOST, NON_RESONANCE, RESONANCE, SUBHARMONIC, OTHER = 0, 1, 2, 3, 4
 ALIKE = 1e-6
@@ -32,21 +30,25 @@ ALIKE = 1e-6
 # it than this.
 CAPTURE = 0.1
 
-SWITCHING = np.dtype([
-    ("on_time", "f8"),
-    ("off_time", "f8"),
-    ("end_time", "f8"),
-    ("released_period", "i2"),
-    ("released_displacement", "f8"),
-    ("destination", "i1"),
-    ("destination_displacement", "f8"),
-])
-RELEASE = np.dtype([
-    ("phase", "f8"),
-    ("displacement", "f8"),
-    ("velocity", "f8"),
-    ("destination", "i1"),
-])
+SWITCHING = np.dtype(
+    [
+        ("on_time", "f8"),
+        ("off_time", "f8"),
+        ("end_time", "f8"),
+        ("released_period", "i2"),
+        ("released_displacement", "f8"),
+        ("destination", "i1"),
+        ("destination_displacement", "f8"),
+    ]
+)
+RELEASE = np.dtype(
+    [
+        ("phase", "f8"),
+        ("displacement", "f8"),
+        ("velocity", "f8"),
+        ("destination", "i1"),
+    ]
+)
 
 
 @kernel
@@ -83,8 +85,9 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
     t = strobe_time(p)
     out.outcome, out.period, out.maximum_displacement = UNRESOLVED, 0, np.nan
     path[0, 0], path[0, 1:] = strobe - ahead, y
-    side, _, _ = advance(p, y, none, side_of(p, y), t - ahead * 2.0 * math.pi / p[0], t,
-                         tolerance, work)
+    side, _, _ = advance(
+        p, y, none, side_of(p, y), t - ahead * 2.0 * math.pi / p[0], t, tolerance, work
+    )
     for k in range(limit + 1):
         path[k + 1, 0], path[k + 1, 1:] = strobe + k, y
         ring[k % RING] = y
@@ -145,7 +148,7 @@ def control(on, off, state, draws, known, tolerance, hold, limit, periods, path,
         Gets a row (forcing periods, state) at each strobe and switching; long enough.
     log : array of SWITCHING, shape (m,)
         Filled, times in forcing periods from the first strobe.
-    out : array of motion.MOTION, shape (1,)
+    out : array of recording.MOTION, shape (1,)
         Room for a record.
 
     Returns
@@ -181,16 +184,18 @@ def control(on, off, state, draws, known, tolerance, hold, limit, periods, path,
 
 
 @kernel
-def control_many(on, off, state, draws, known, tolerance, hold, limit, periods, path, logs, counts,
-                 out):
+def control_many(
+    on, off, state, draws, known, tolerance, hold, limit, periods, path, logs, counts, out
+):
     """`control` for draws (n, m, 3): logs (n, m) and counts of switchings (n,).
 
     Returns the rows of `path`, which is that of the last run.
     """
     rows = 0
     for i in range(len(draws)):
-        counts[i], rows = control(on, off, state, draws[i], known, tolerance, hold, limit, periods,
-                                  path, logs[i], out)
+        counts[i], rows = control(
+            on, off, state, draws[i], known, tolerance, hold, limit, periods, path, logs[i], out
+        )
     return rows
 
 
@@ -232,8 +237,9 @@ def life(p, path, out, tolerance):
 
 
 @kernel
-def transients(on, off, state, draws, known, tolerance, lead, lifetime, limit, lives, motions,
-               entries, out):
+def transients(
+    on, off, state, draws, known, tolerance, lead, lifetime, limit, lives, motions, entries, out
+):
     """Runs with the damper on from the free resonance motion, each released once on its way.
 
     Of the draws (n, 4) the first two are as in `control`; the others give the instant of a
@@ -245,12 +251,32 @@ def transients(on, off, state, draws, known, tolerance, lead, lifetime, limit, l
     rest = np.empty((limit + 2, 5))
     for i in range(len(draws)):
         y = state.copy()
-        leg(off, on, y, draws[i, 0], 2.0 * draws[i, 1] - 1.0, 0.0, tolerance, lifetime,
-            path, motions[i])
+        leg(
+            off,
+            on,
+            y,
+            draws[i, 0],
+            2.0 * draws[i, 1] - 1.0,
+            0.0,
+            tolerance,
+            lifetime,
+            path,
+            motions[i],
+        )
         lives[i] = lifetime
         if motions[i].outcome == SETTLED:
             lives[i] = life(on, path, motions[i], tolerance)
         if lives[i] > lead:
             k = lead + int(draws[i, 2] * (lives[i] - lead))
-            release(on, off, path[k + 1, 1:], draws[i, 3], known, tolerance, limit, rest,
-                    entries[i], out)
+            release(
+                on,
+                off,
+                path[k + 1, 1:],
+                draws[i, 3],
+                known,
+                tolerance,
+                limit,
+                rest,
+                entries[i],
+                out,
+            )

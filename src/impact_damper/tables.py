@@ -11,8 +11,14 @@ from impact_damper.claims import extract
 from impact_damper.claims.claim import Missing
 from impact_damper.datasets import flag
 
-PARAMETERS = {"damping": "h", "linear_frequency": "omega_l", "mass_ratio": "rm",
-              "clearance": "d0", "restitution": "e", "frequency": "W"}
+PARAMETERS = {
+    "damping": "h",
+    "linear_frequency": "omega_l",
+    "mass_ratio": "rm",
+    "clearance": "d0",
+    "restitution": "e",
+    "frequency": "W",
+}
 DIGITS = 6
 
 
@@ -23,8 +29,10 @@ def save(frame, csv_path, markdown_path) -> None:
     """
     shown = frame.map(_rounded).astype(object)
     text = shown.map(lambda value: str(value).replace("|", r"\|"))
-    texts = {csv_path: shown.to_csv(index=False, lineterminator="\n"),
-             markdown_path: text.to_markdown(index=False, disable_numparse=True) + "\n"}
+    texts = {
+        csv_path: shown.to_csv(index=False, lineterminator="\n"),
+        markdown_path: text.to_markdown(index=False, disable_numparse=True) + "\n",
+    }
     for path, content in texts.items():
         path = Path(path)
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -53,30 +61,42 @@ def _parameters(data, *names):
 def design(datasets) -> pd.DataFrame:
     """What rule (19) and harmonic balance give for each curve at its peak frequency."""
     rows = []
-    for name, data in datasets["design"].items():
+    for name, data in datasets.get("design", {}).items():
         peak = float(data.peak_frequency)
         given = _parameters(data, "damping", "linear_frequency", "mass_ratio", "clearance")
         inertia = given["rm"] * peak**2
-        rows.append({"curve": name} | given | {
-            "Wp": peak, "free |a| at Wp": float(data.peak_amplitude),
-            "d0 of (19)": 1 / inertia, "rm Wp^2 d0": inertia * given["d0"],
-            "|a| at Wp": float(data.quiet_amplitude), "reduction at Wp": float(data.reduction)})
+        rows.append(
+            {"curve": name}
+            | given
+            | {
+                "Wp": peak,
+                "free |a| at Wp": float(data.peak_amplitude),
+                "d0 of (19)": 1 / inertia,
+                "rm Wp^2 d0": inertia * given["d0"],
+                "|a| at Wp": float(data.quiet_amplitude),
+                "reduction at Wp": float(data.reduction),
+            }
+        )
     return pd.DataFrame(rows)
 
 
 def bands(datasets) -> pd.DataFrame:
     """Suppression bands by harmonic balance and by the motions that exist, and where chaos is."""
+    designs, responses = datasets.get("design", {}), datasets.get("response", {})
     rows = []
-    for name in dict.fromkeys([*datasets["design"], *datasets["response"]]):
-        row = {"curve": name}
-        for stage in ("design", "response"):
-            if name in datasets[stage]:
-                row |= _parameters(datasets[stage][name], "damping", "linear_frequency",
-                                   "mass_ratio", "clearance", "restitution")
-        if name in datasets["design"]:
-            row |= _balance_band(datasets["design"][name])
-        if name in datasets["response"]:
-            row |= _simulated_band(datasets, datasets["response"][name])
+    for name in dict.fromkeys([*designs, *responses]):
+        row = {"curve": name} | _parameters(
+            designs.get(name, responses.get(name)),
+            "damping",
+            "linear_frequency",
+            "mass_ratio",
+            "clearance",
+            "restitution",
+        )
+        if name in designs:
+            row |= _balance_band(designs[name])
+        if name in responses:
+            row |= _simulated_band(datasets, responses[name])
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -84,73 +104,107 @@ def bands(datasets) -> pd.DataFrame:
 def _balance_band(data):
     events = [extract.meaning("edge_event", value) for value in data.edge_event.values]
     return {
-        "lower, balance": float(data.edge_frequency[0]), "ended by": events[0],
-        "upper, balance": float(data.edge_frequency[1]), "ended above by": events[1],
+        "lower, balance": float(data.edge_frequency[0]),
+        "ended by": events[0],
+        "upper, balance": float(data.edge_frequency[1]),
+        "ended above by": events[1],
         "width, balance": float(data.band_width),
         "least reduction": float(data.edge_reduction.min()),
-        "no better than free from W": float(data.break_even_frequency)}
+        "no better than free from W": float(data.break_even_frequency),
+    }
 
 
 def _simulated_band(datasets, response):
-    free = extract.free_of(datasets, response)
-    band = extract.simulated_band(response, free)
+    try:
+        free = extract.free_of(datasets, response)
+        band = extract.simulated_band(response, free)
+    except Missing:
+        return {}
     motions = extract.touching(response).sum("motion")
-    inside = response.frequency.values[(response.frequency > band.lower + band.resolution)
-                                       & (response.frequency <= band.upper)]
+    inside = response.frequency.values[
+        (response.frequency > band.lower + band.resolution) & (response.frequency <= band.upper)
+    ]
     chaotic = extract.chaotic_high(response, free)
     frequency, step = response.frequency.values, extract.spacing(response)
     starts = response.sizes["start"]
     high = extract.high(response, free) & extract.is_outcome(response, "chaotic")
     share = response.share.where(high, 0).sum("motion").values[chaotic] / starts
     return {
-        "lower, simulated": band.lower, "or up to": band.lower + band.resolution,
-        "upper, simulated": band.upper, "width, simulated": band.width,
-        "share of it with a single motion":
-            float((motions.sel(frequency=inside) == 1).mean()) if len(inside) else np.nan,
+        "lower, simulated": band.lower,
+        "or up to": band.lower + band.resolution,
+        "upper, simulated": band.upper,
+        "width, simulated": band.width,
+        "share of it with a single motion": float((motions.sel(frequency=inside) == 1).mean())
+        if len(inside)
+        else np.nan,
         "high chaos from W": frequency[chaotic].min() if chaotic.any() else np.nan,
         "to W": frequency[chaotic].max() if chaotic.any() else np.nan,
         "width of high chaos": chaotic.sum() * step,
         "widest range of it": extract.longest_run(chaotic) * step,
-        "share of starts there": np.mean(share) if chaotic.any() else np.nan}
+        "share of starts there": np.mean(share) if chaotic.any() else np.nan,
+    }
 
 
 def optima(datasets) -> pd.DataFrame:
     """Optimum clearances by simulation against (7) and rule (19), and what explains the excess."""
     rows = []
-    for name, data in datasets["optimum"].items():
+    for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)
         lower, upper = data.near_clearance.values
-        rows.append({"sweep": name} | _parameters(
-            data, "damping", "frequency", "mass_ratio", "restitution") | {
-            "d0 of (19) at W": rule, "d0 of (19) at Wp": float(data.peak_rule_clearance),
-            "optimum d0 of (7)": float(data.analytical_optimum),
-            "optimum d0": best, "least max |Z1|": float(data.optimum_displacement),
-            "kind": extract.meaning("optimum_kind", data.optimum_kind),
-            "within 10 % from d0": lower, "to d0": upper,
-            "excess over (19)": best / rule - 1, "rm W^2 d0": float(data.optimum_ratio),
-            "rm W^2 d0 of straight flight": float(data.straight_flight_ratio)})
+        rows.append(
+            {"sweep": name}
+            | _parameters(data, "damping", "frequency", "mass_ratio", "restitution")
+            | {
+                "d0 of (19) at W": rule,
+                "d0 of (19) at Wp": float(data.peak_rule_clearance),
+                "optimum d0 of (7)": float(data.analytical_optimum),
+                "optimum d0": best,
+                "least max |Z1|": float(data.optimum_displacement),
+                "kind": extract.meaning("optimum_kind", data.optimum_kind),
+                "within 10 % from d0": lower,
+                "to d0": upper,
+                "excess over (19)": best / rule - 1,
+                "rm W^2 d0": float(data.optimum_ratio),
+                "rm W^2 d0 of straight flight": float(data.straight_flight_ratio),
+            }
+        )
     return pd.DataFrame(rows)
 
 
 def subharmonics(datasets) -> pd.DataFrame:
     """Where the one-third subharmonic exists without the damper, and each branch of it with."""
-    rows = [{"data": name, "damper": "off"} | _parameters(free, "damping", "linear_frequency")
-            | _free_subharmonic(free) for name, free in datasets["free"].items()]
-    for name, curve in datasets["subharmonic"].items():
+    rows = [
+        {"data": name, "damper": "off"}
+        | _parameters(free, "damping", "linear_frequency")
+        | _free_subharmonic(free)
+        for name, free in datasets.get("free", {}).items()
+    ]
+    for name, curve in datasets.get("subharmonic", {}).items():
         given = _parameters(curve, "damping", "linear_frequency", "mass_ratio", "clearance")
-        shared = extract.in_free_range(curve)
+        shared = curve.where(curve.free_subharmonic.notnull())
         runs = shared.switched_share.sel(switched_motion="subharmonic")
         summary = {"data": name, "damper": "on"} | given
-        rows.append(summary | {
-            "branch": "all", "largest max |Z1|": float(shared.damped_subharmonic.max()),
-            "over that without damper": float(shared.subharmonic_ratio.max()),
-            "share of runs from the free one": float(runs.mean())})
+        rows.append(
+            summary
+            | {
+                "branch": "all",
+                "largest max |Z1|": float(shared.damped_subharmonic.max()),
+                "over that without damper": float(shared.subharmonic_ratio.max()),
+                "share of runs from the free one": float(runs.mean()),
+            }
+        )
         for k in range(curve.sizes["subharmonic"]):
             lower, upper = curve.subharmonic_frequency.values[k]
-            rows.append(summary | {
-                "branch": f"{k + 1}", "period": int(curve.subharmonic_period[k]),
-                "from W": lower, "to W": upper,
-                "largest max |Z1|": float(curve.subharmonic_displacement[k])})
+            rows.append(
+                summary
+                | {
+                    "branch": f"{k + 1}",
+                    "period": int(curve.subharmonic_period[k]),
+                    "from W": lower,
+                    "to W": upper,
+                    "largest max |Z1|": float(curve.subharmonic_displacement[k]),
+                }
+            )
     return pd.DataFrame(rows)
 
 
@@ -161,14 +215,19 @@ def _free_subharmonic(free):
     except Missing:
         return {"branch": "none"}
     size = free.maximum_displacement.where(extract.free_subharmonic(free))
-    return {"branch": "1", "period": 3, "from W": lower, "to W": upper,
-            "largest max |Z1|": float(size.max())}
+    return {
+        "branch": "1",
+        "period": 3,
+        "from W": lower,
+        "to W": upper,
+        "largest max |Z1|": float(size.max()),
+    }
 
 
 def migration(datasets) -> pd.DataFrame:
     """Where releases of each damped motion lead, and how the runs of the controller end."""
     rows = []
-    for name, case in datasets["migration"].items():
+    for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
         runs = {
             "runs that arrive": float(reached.mean()),
@@ -177,16 +236,28 @@ def migration(datasets) -> pd.DataFrame:
             "median cycles, damper on": float(case.damper_time.median()),
             "median cycles": float(case.total_time.median()),
             "most cycles": float(case.total_time.max()),
-            "captures per cycle before settling": float(case.escape_rate.sel(bound="share"))}
+            "captures per cycle before settling": float(case.escape_rate.sel(bound="share")),
+        }
         for k in range(case.sizes["damped"]):
             shares = case.release_share.isel(damped=k)
-            rows.append({"case": name} | _parameters(case, "frequency") | {
-                "released from": extract.meaning("damped_kind", case.damped_kind[k]),
-                "period": int(case.damped_period[k]),
-                "max |Z1|": float(case.damped_displacement[k])} | {
-                f"to {end}".replace("_", "-"): float(shares.sel(free_motion=end, bound="share"))
-                for end in case.free_motion.values} | {
-                "to non-resonance at least": float(
-                    shares.sel(free_motion="non_resonance", bound="lower")),
-                "at most": float(shares.sel(free_motion="non_resonance", bound="upper"))} | runs)
+            rows.append(
+                {"case": name}
+                | _parameters(case, "frequency")
+                | {
+                    "released from": extract.meaning("damped_kind", case.damped_kind[k]),
+                    "period": int(case.damped_period[k]),
+                    "max |Z1|": float(case.damped_displacement[k]),
+                }
+                | {
+                    f"to {end}".replace("_", "-"): float(shares.sel(free_motion=end, bound="share"))
+                    for end in case.free_motion.values
+                }
+                | {
+                    "to non-resonance at least": float(
+                        shares.sel(free_motion="non_resonance", bound="lower")
+                    ),
+                    "at most": float(shares.sel(free_motion="non_resonance", bound="upper")),
+                }
+                | runs
+            )
     return pd.DataFrame(rows)

@@ -2,12 +2,25 @@
 
 import pandas as pd
 
-from impact_damper.claims import balance, contact, migration, motions, optimum, slips, subharmonic
+from impact_damper.claims import (
+    balance,
+    bands,
+    contact,
+    migration,
+    motions,
+    optimum,
+    phases,
+    slips,
+    subharmonic,
+)
 
-CLAIMS = tuple(sorted(
-    (claim for module in (balance, contact, migration, motions, optimum, slips, subharmonic)
-     for claim in module.CLAIMS),
-    key=lambda claim: (claim.number.startswith("S"), int(claim.number.removeprefix("S")))))
+MODULES = (balance, bands, contact, migration, motions, optimum, phases, slips, subharmonic)
+CLAIMS = tuple(
+    sorted(
+        (claim for module in MODULES for claim in module.CLAIMS),
+        key=lambda claim: (claim.number.startswith("S"), int(claim.number.removeprefix("S"))),
+    )
+)
 
 
 def claims(datasets) -> pd.DataFrame:

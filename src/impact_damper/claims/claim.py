@@ -101,8 +101,11 @@ class Claim:
         """What is asked of the numbers: what decides, and what full agreement takes."""
         parts = []
         for lead, decisive in (("Decided by", True), ("In full", False)):
-            asked = [f"{number.words} {number.asked}" for number in self.numbers
-                     if number.asked and number.decisive == decisive]
+            asked = [
+                f"{number.words} {number.asked}"
+                for number in self.numbers
+                if number.asked and number.decisive == decisive
+            ]
             if asked:
                 parts.append(f"{lead}: {'; '.join(asked)}.")
         return " ".join(parts)
@@ -120,13 +123,21 @@ class Claim:
 
     def judge(self, datasets) -> dict:
         """The claim's row of the table."""
-        row = {"number": self.number, "claim": self.text, "source": self.source,
-               "reading": self.reading, "criterion": self.criterion()}
+        row = {
+            "number": self.number,
+            "claim": self.text,
+            "source": self.source,
+            "reading": self.reading,
+            "criterion": self.criterion(),
+        }
         try:
             values = self.evidence(datasets)
         except Missing as missing:
             return row | {"evidence": "", "verdict": NOT_DECIDABLE, "difference": f"{missing}."}
         words = {number.name: number.words for number in self.numbers}
         evidence = "; ".join(f"{text}: {readable(values[name])}" for name, text in words.items())
-        return row | {"evidence": evidence, "verdict": self.verdict(values),
-                      "difference": self.difference(values)}
+        return row | {
+            "evidence": evidence,
+            "verdict": self.verdict(values),
+            "difference": self.difference(values),
+        }

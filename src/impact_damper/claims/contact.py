@@ -31,25 +31,37 @@ def pull_free_error(restitution):
 
 def model(datasets):
     """Numbers of claim 15: the e that the datasets use, and a low one."""
-    used = [extract.parameter(data, "restitution")
-            for stage in ("response", "optimum") for data in datasets.get(stage, {}).values()]
+    used = [
+        extract.parameter(data, "restitution")
+        for stage in ("response", "optimum")
+        for data in datasets.get(stage, {}).values()
+    ]
     used = [value for value in used if value < 1]
     if not used:
         raise Missing("There is no dataset with inelastic contact")
-    return {"high": max(map(pull_free_error, used)), "low": pull_free_error(LOW),
-            "pulling": 2 * math.asin(relative_damping(LOW)) / math.pi,
-            "duration": duration(LOW)}
+    return {
+        "high": max(map(pull_free_error, used)),
+        "low": pull_free_error(LOW),
+        "pulling": 2 * math.asin(relative_damping(LOW)) / math.pi,
+        "duration": duration(LOW),
+    }
 
 
 CLAIMS = (
     Claim(
-        "15", "The contact model with (25) is good for high e and fails for low e.",
-        "appendix B", "Good: walls that cannot pull would return nearly the same share of the "
+        "15",
+        "The contact model with (25) is good for high e and fails for low e.",
+        "appendix B",
+        "Good: walls that cannot pull would return nearly the same share of the "
         "velocity. From the closed form of an isolated contact, for the e < 1 of the datasets "
         f"and for e = {LOW}. The paper's reason is that a contact takes longer.",
         (
-            Number("high", "largest relative excess of the restitution without pull, e of the "
-                   "datasets", most=0.05, decisive=True),
+            Number(
+                "high",
+                "largest relative excess of the restitution without pull, e of the datasets",
+                most=0.05,
+                decisive=True,
+            ),
             Number("low", f"the same for e = {LOW}", least=0.2, decisive=True),
             Number("duration", f"time in contact for e = {LOW} over that for e = 1", least=1.2),
             Number("pulling", f"share of it in which the wall pulls, e = {LOW}"),

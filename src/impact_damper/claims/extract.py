@@ -3,10 +3,19 @@
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from impact_damper.claims.claim import Missing
 from impact_damper.datasets import flag, parameters_of
 from impact_damper.variables import VARIABLES
+
+# Curves of the configuration: by omega_l upward, with the clearance of the caption and of (19);
+# by mass ratio; all elastic ones that are simulated; the inelastic twin of BY_MASS[1].
+CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
+RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
+BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
+ELASTIC = (*BY_MASS, "figure_08")
+INELASTIC = "figure_10"
 
 SYMMETRIC = 1e-6
 HALF = 0.5  # a motion is high if it exceeds this share of the free resonance branch
@@ -28,7 +37,8 @@ def parameter(data, name):
 def meaning(name, value):
     """Meaning of a flag by its value, in words."""
     return next(key for key, known in VARIABLES[name].flags.items() if known == value).replace(
-        "_", " ")
+        "_", " "
+    )
 
 
 def free_of(datasets, data, stage="free"):
@@ -58,19 +68,24 @@ def quiet(response):
     return response[names].isel(motion=size.argmin("motion")).where(mask.any("motion"))
 
 
-def resonance_end(free):
-    """Frequency at which the free resonance branch ends, its upper fold, or raise Missing."""
+def resonance_fold(free):
+    """Frequency and size at which the free resonance branch ends, or raise Missing."""
     up = free.end_direction.values == flag("end_direction", "up")
     if not up.any():
         raise Missing("The free resonance branch has no upper end")
     k = np.argmax(np.where(up, free.end_displacement.values, -np.inf))
-    return float(free.end_value.values[k])
+    return float(free.end_value.values[k]), float(free.end_displacement.values[k])
 
 
 def resonance(free, frequency):
     """Largest settled free motion at each frequency, NaN above the resonance branch's end."""
+    end, size = resonance_fold(free)
     largest = free.maximum_displacement.where(is_outcome(free, "settled")).max("motion")
-    return largest.interp(frequency=frequency).where(frequency <= resonance_end(free))
+    known = largest.sel(frequency=slice(None, end)).dropna("frequency")
+    between = np.interp(
+        frequency, [*known.frequency.values, end], [*known.values, size], right=np.nan
+    )
+    return xr.DataArray(between, {"frequency": frequency.values})
 
 
 def high(response, free):
@@ -122,7 +137,7 @@ def simulated_band(response, free):
     The lower edge is where the last high motion is lost: the end of its branch if it is
     settled; a chaotic one is only known to be gone at the next frequency.
     """
-    upper = resonance_end(free)
+    upper, _ = resonance_fold(free)
     motions = high(response, free)
     frequency = response.frequency.values
     there = motions.any("motion").values
@@ -133,7 +148,8 @@ def simulated_band(response, free):
     ends = response.end_value.values[
         (response.end_direction.values == flag("end_direction", "up"))
         & (response.end_displacement.values > level.values)
-        & (response.end_value.values <= upper)]
+        & (response.end_value.values <= upper)
+    ]
     lower = max([frequency[last], *ends])
     settled = is_outcome(response, "settled") | ~motions
     certain = bool(settled.isel(frequency=last).all()) and lower > frequency[last]
@@ -181,8 +197,9 @@ def band_edges(design):
 
 def stable_impacting(design):
     """Amplitudes a of the stable solutions of (7), NaN elsewhere."""
-    keep = ((design.stability == flag("stability", "stable"))
-            & (design.kind == flag("kind", "impacting")))
+    keep = (design.stability == flag("stability", "stable")) & (
+        design.kind == flag("kind", "impacting")
+    )
     return design.amplitude.where(keep)
 
 
@@ -196,7 +213,8 @@ def quiet_balance(design):
 def free_resonance_balance(design):
     """Largest free amplitude at each frequency up to the peak, NaN above."""
     return design.free_amplitude.max("free_solution").where(
-        design.frequency <= design.peak_frequency)
+        design.frequency <= design.peak_frequency
+    )
 
 
 def crossing(x, y, level):
@@ -212,11 +230,3 @@ def crossing(x, y, level):
 def select(datasets, stage, names):
     """Several datasets of a stage, or raise Missing."""
     return [get(datasets, stage, name) for name in names]
-
-
-def in_free_range(curve):
-    """The part of a subharmonic dataset in which the free one exists, or raise Missing."""
-    lower, upper = curve.free_subharmonic_frequency.values
-    if not upper > lower:
-        raise Missing("There is no one-third subharmonic without the damper")
-    return within(curve, lower, upper)

@@ -30,10 +30,12 @@ def cases(datasets):
 def any_phase(datasets):
     """Numbers of claim 12."""
     case = extract.get(datasets, "migration", "figure_13")
-    return {"quiet": only(case, "quiet", "non_resonance", min),
-            "unsettled": only(case, "unsettled", "non_resonance", min),
-            "unsettled_subharmonic": only(case, "unsettled", "subharmonic", max),
-            "unsettled_resonance": only(case, "unsettled", "resonance", max)}
+    return {
+        "quiet": only(case, "quiet", "non_resonance", min),
+        "unsettled": only(case, "unsettled", "non_resonance", min),
+        "unsettled_subharmonic": only(case, "unsettled", "subharmonic", max),
+        "unsettled_resonance": only(case, "unsettled", "resonance", max),
+    }
 
 
 def both_outcomes(case, kind):
@@ -46,14 +48,23 @@ def release_phase(datasets):
     """Numbers of claim 13."""
     case = extract.get(datasets, "migration", "figure_15")
     lower, upper = extract.subharmonic_range(extract.free_of(datasets, case))
-    numbers = {"frequency": extract.parameter(case, "frequency"), "lower": lower, "upper": upper,
-               "inside": min(extract.parameter(case, "frequency") - lower,
-                             upper - extract.parameter(case, "frequency"))}
+    numbers = {
+        "frequency": extract.parameter(case, "frequency"),
+        "lower": lower,
+        "upper": upper,
+        "inside": min(
+            extract.parameter(case, "frequency") - lower,
+            upper - extract.parameter(case, "frequency"),
+        ),
+    }
     for kind in ("quiet", "unsettled"):
         numbers[f"{kind}_goal"] = only(case, kind, "non_resonance", max)
         numbers[f"{kind}_subharmonic"] = only(case, kind, "subharmonic", max)
-        there = [extract.parameter(each, "frequency") for each in cases(datasets)
-                 if both_outcomes(each, kind)]
+        there = [
+            extract.parameter(each, "frequency")
+            for each in cases(datasets)
+            if both_outcomes(each, kind)
+        ]
         numbers[f"{kind}_first"] = min(there, default=np.nan)
         numbers[f"{kind}_last"] = max(there, default=np.nan)
     return numbers
@@ -64,10 +75,13 @@ def total_cycles(datasets):
     runs = cases(datasets)
     within = [float(run.within_share.sel(bound="share")) for run in runs]
     reached = [run.trial_outcome == flag("trial_outcome", "reached") for run in runs]
-    medians = [float(run.switchings.where(there).median())
-               for run, there in zip(runs, reached, strict=True)]
+    medians = [
+        float(run.switchings.where(there).median())
+        for run, there in zip(runs, reached, strict=True)
+    ]
     return {
-        "most": np.mean(np.array(within) >= 0.5), "within": min(within),
+        "most": np.mean(np.array(within) >= 0.5),
+        "within": min(within),
         "worst": extract.parameter(runs[int(np.argmin(within))], "frequency"),
         "never": max(1 - float(there.mean()) for there in reached),
         "switchings": max((median for median in medians if median > 0), default=np.nan),
@@ -93,12 +107,18 @@ def early_release(datasets):
 
 CLAIMS = (
     Claim(
-        "12", "W = 1.95: released at any phase, the motion goes to the non-resonance branch.",
-        "section 5 (i), figure 13", "Released from the steady state, taken as the quiet damped "
+        "12",
+        "W = 1.95: released at any phase, the motion goes to the non-resonance branch.",
+        "section 5 (i), figure 13",
+        "Released from the steady state, taken as the quiet damped "
         "motion, at even phases; beside it the motion before it has settled.",
         (
-            Number("quiet", "share of releases of the quiet motion to the non-resonance branch",
-                   least=1, decisive=True),
+            Number(
+                "quiet",
+                "share of releases of the quiet motion to the non-resonance branch",
+                least=1,
+                decisive=True,
+            ),
             Number("unsettled", "share of releases of the unsettled motion to it", least=1),
             Number("unsettled_subharmonic", "share of those to the one-third subharmonic"),
             Number("unsettled_resonance", "share of those to the resonance branch"),
@@ -106,38 +126,63 @@ CLAIMS = (
         any_phase,
     ),
     Claim(
-        "13", "W = 1.7: the release phase decides between the period-1 and the period-3 motion.",
-        "section 5 (ii), figure 14", "Releases of the quiet damped motion at even phases, and of "
+        "13",
+        "W = 1.7: the release phase decides between the period-1 and the period-3 motion.",
+        "section 5 (ii), figure 14",
+        "Releases of the quiet damped motion at even phases, and of "
         "the motion before it has settled; the free period-3 motion must exist at that W.",
         (
-            Number("inside", "distance in W from the ends of the free one-third subharmonic, "
-                   "negative outside", least=0, decisive=True),
+            Number(
+                "inside",
+                "distance in W from the ends of the free one-third subharmonic, negative outside",
+                least=0,
+                decisive=True,
+            ),
             Number("lower", "W at which the free one-third subharmonic begins"),
             Number("upper", "W at which it ends"),
             Number("frequency", "W of the case"),
-            Number("quiet_goal", "share of releases of the quiet motion to the non-resonance "
-                   "branch", least=0.01, most=0.99, decisive=True),
-            Number("quiet_subharmonic", "share of them to period 3", least=0.01, most=0.99,
-                   decisive=True),
-            Number("unsettled_goal", "share of releases of the unsettled motion to the "
-                   "non-resonance branch"),
+            Number(
+                "quiet_goal",
+                "share of releases of the quiet motion to the non-resonance branch",
+                least=0.01,
+                most=0.99,
+                decisive=True,
+            ),
+            Number(
+                "quiet_subharmonic",
+                "share of them to period 3",
+                least=0.01,
+                most=0.99,
+                decisive=True,
+            ),
+            Number(
+                "unsettled_goal",
+                "share of releases of the unsettled motion to the non-resonance branch",
+            ),
             Number("unsettled_subharmonic", "share of those to period 3"),
-            Number("quiet_first", "lowest W of all cases with both outcomes from the quiet "
-                   "motion"),
+            Number("quiet_first", "lowest W of all cases with both outcomes from the quiet motion"),
             Number("quiet_last", "highest such W"),
-            Number("unsettled_first", "lowest W of all cases with both outcomes from the "
-                   "unsettled motion"),
+            Number(
+                "unsettled_first",
+                "lowest W of all cases with both outcomes from the unsettled motion",
+            ),
             Number("unsettled_last", "highest W of those"),
         ),
         release_phase,
     ),
     Claim(
-        "14", "Several switchings, in total not more than 350 cycles, reach the non-resonance "
-        "branch.", "section 5", "Forcing periods from the first switching on until the free "
+        "14",
+        "Several switchings, in total not more than 350 cycles, reach the non-resonance branch.",
+        "section 5",
+        "Forcing periods from the first switching on until the free "
         "motion has settled; the worst of the cases.",
         (
-            Number("most", "share of cases in which half of the runs arrive within 350 cycles",
-                   least=0.5, decisive=True),
+            Number(
+                "most",
+                "share of cases in which half of the runs arrive within 350 cycles",
+                least=0.5,
+                decisive=True,
+            ),
             Number("within", "least share of runs that arrive within 350 cycles", least=1),
             Number("worst", "W of that case"),
             Number("never", "largest share of runs that never arrive"),
@@ -149,12 +194,15 @@ CLAIMS = (
         total_cycles,
     ),
     Claim(
-        "19", "W = 1.85: released before the steady state, the motion goes to the period-3 "
-        "branch; several switchings then lead to period 1.", "section 5 (iii), figure 16",
+        "19",
+        "W = 1.85: released before the steady state, the motion goes to the period-3 "
+        "branch; several switchings then lead to period 1.",
+        "section 5 (iii), figure 16",
         "Switchings with the damper held for a few cycles only.",
         (
-            Number("early", "share of early releases that lead to period 3", least=0.01,
-                   decisive=True),
+            Number(
+                "early", "share of early releases that lead to period 3", least=0.01, decisive=True
+            ),
             Number("early", "share of early releases that lead to period 3", least=0.5),
             Number("goal", "share of early releases that lead to the non-resonance branch"),
             Number("reached", "share of runs that arrive in the end", least=0.5, decisive=True),

@@ -4,7 +4,7 @@ import numpy as np
 
 from impact_damper.claims import extract
 from impact_damper.claims.claim import Claim, Missing, Number
-from impact_damper.claims.motions import BY_MASS, INELASTIC, in_bands
+from impact_damper.claims.motions import in_bands
 
 AWAY = 0.1
 
@@ -31,10 +31,16 @@ def near_width(sweep):
 def displaced(sweep):
     """Largest displacement 10 % off the optimum d0, over that of the free resonance."""
     best = float(sweep.optimum_clearance)
-    sizes = np.interp([best * (1 - AWAY), best * (1 + AWAY)], sweep.clearance,
-                      sweep.quiet_displacement, left=np.nan, right=np.nan)
-    return np.max(sizes) * extract.parameter(sweep, "damping") * extract.parameter(
-        sweep, "frequency")
+    sizes = np.interp(
+        [best * (1 - AWAY), best * (1 + AWAY)],
+        sweep.clearance,
+        sweep.quiet_displacement,
+        left=np.nan,
+        right=np.nan,
+    )
+    return (
+        np.max(sizes) * extract.parameter(sweep, "damping") * extract.parameter(sweep, "frequency")
+    )
 
 
 def excess(datasets):
@@ -47,7 +53,10 @@ def excess(datasets):
         sizes = [float(sweep.optimum_displacement) for sweep in group]
         spreads.append(max(sizes) / min(sizes) - 1)
     return {
-        "dampings": len(groups), "least": min(over), "most": max(over), "spread": max(spreads),
+        "dampings": len(groups),
+        "least": min(over),
+        "most": max(over),
+        "spread": max(spreads),
         "displaced": max(displaced(sweep) for sweep in members),
         "near": min(near_width(sweep) for sweep in members),
         "first_harmonic": np.mean([sweep.first_harmonic_share for sweep in members]),
@@ -57,11 +66,13 @@ def excess(datasets):
 
 def restitution(datasets):
     """Numbers of claim 11."""
-    elastic, inelastic = extract.select(datasets, "response", (BY_MASS[1], INELASTIC))
+    elastic, inelastic = extract.select(
+        datasets, "response", (extract.BY_MASS[1], extract.INELASTIC)
+    )
     free = extract.free_of(datasets, elastic)
     bands = [extract.simulated_band(response, free) for response in (elastic, inelastic)]
-    design = extract.get(datasets, "design", BY_MASS[1])
-    (sharp,) = in_bands(datasets, BY_MASS[1:2])
+    design = extract.get(datasets, "design", extract.BY_MASS[1])
+    (sharp,) = in_bands(datasets, extract.BY_MASS[1:2])
     soft = extract.quiet(extract.within(inelastic, *extract.band_edges(design)))
     ratio = soft.maximum_displacement / sharp.maximum_displacement
     clearances, steps, widths = [], [], []
@@ -72,50 +83,79 @@ def restitution(datasets):
         clearances.append(best[-1] / best[0])
         steps.append(np.max(best[1:] / best[:-1]))
         widths.append(np.min(near[1:] / near[:-1]))
-    return {"band": bands[1].least_width / bands[0].width, "amplitude": float(ratio.min()),
-            "most": float(ratio.max()), "clearance": max(clearances),
-            "step": max(steps), "flat": min(widths)}
+    return {
+        "band": bands[1].least_width / bands[0].width,
+        "amplitude": float(ratio.min()),
+        "most": float(ratio.max()),
+        "clearance": max(clearances),
+        "step": max(steps),
+        "flat": min(widths),
+    }
 
 
 CLAIMS = (
     Claim(
-        "9", "The numerical optimum d0 is slightly higher than (19); near it the response is "
-        "insensitive to rm and d0; this holds for other h.", "section 3, figures 6 and 7",
+        "9",
+        "The numerical optimum d0 is slightly higher than (19); near it the response is "
+        "insensitive to rm and d0; this holds for other h.",
+        "section 3, figures 6 and 7",
         "(19) at the paper's Wp. Slightly: by a fifth at most. Insensitive to rm: the least max "
         "|Z1| varies by a fifth at most; to d0: 10 % off the optimum it stays below 5 % of the "
         "free resonance.",
         (
             Number("dampings", "values of h compared", least=2),
-            Number("least", "least relative excess of the optimum d0 over (19)", least=0,
-                   decisive=True),
+            Number(
+                "least", "least relative excess of the optimum d0 over (19)", least=0, decisive=True
+            ),
             Number("most", "largest relative excess", most=0.2),
             Number("spread", "largest relative spread of the least max |Z1| over rm", most=0.2),
-            Number("displaced", "largest max |Z1| 10 % off the optimum d0 over the free "
-                   "resonance", most=0.05, decisive=True),
+            Number(
+                "displaced",
+                "largest max |Z1| 10 % off the optimum d0 over the free resonance",
+                most=0.05,
+                decisive=True,
+            ),
             Number("near", "least width of the range of d0 within 10 % of the minimum, over d0"),
-            Number("first_harmonic", "share of the excess that the first harmonic of a straight "
-                   "flight explains (rm W^2 d0 = pi^2/8), mean"),
-            Number("straight_flight", "share that the least maximum for a straight flight "
-                   "explains, mean"),
+            Number(
+                "first_harmonic",
+                "share of the excess that the first harmonic of a straight "
+                "flight explains (rm W^2 d0 = pi^2/8), mean",
+            ),
+            Number(
+                "straight_flight",
+                "share that the least maximum for a straight flight explains, mean",
+            ),
         ),
         excess,
     ),
     Claim(
-        "11", "Inelastic collisions widen the band and raise the amplitude in it; the lower e, "
-        "the lower the optimum d0 and the flatter the response.", "section 4, figures 10 and 11",
+        "11",
+        "Inelastic collisions widen the band and raise the amplitude in it; the lower e, "
+        "the lower the optimum d0 and the flatter the response.",
+        "section 4, figures 10 and 11",
         "Widths by the motions that exist; amplitudes of the quiet motion in the elastic band. "
         "Flatter: a wider range of d0 within 10 % of the minimum, over d0.",
         (
-            Number("band", "width for e = 0.75, at least, over that for e = 1", least=1,
-                   decisive=True),
-            Number("amplitude", "least ratio of the amplitude for e = 0.75 to that for e = 1",
-                   least=1, decisive=True),
+            Number(
+                "band", "width for e = 0.75, at least, over that for e = 1", least=1, decisive=True
+            ),
+            Number(
+                "amplitude",
+                "least ratio of the amplitude for e = 0.75 to that for e = 1",
+                least=1,
+                decisive=True,
+            ),
             Number("most", "largest ratio, where the paper says marginally higher", most=1.5),
-            Number("clearance", "largest ratio of the optimum d0 at the least e to that at the "
-                   "largest", most=1, decisive=True),
+            Number(
+                "clearance",
+                "largest ratio of the optimum d0 at the least e to that at the largest",
+                most=1,
+                decisive=True,
+            ),
             Number("step", "largest ratio of an optimum d0 to that at the e above", most=1),
-            Number("flat", "least ratio of the range near the minimum to that at the e above",
-                   least=1),
+            Number(
+                "flat", "least ratio of the range near the minimum to that at the e above", least=1
+            ),
         ),
         restitution,
     ),

@@ -1,0 +1,179 @@
+"""Records of motions: extremum, contacts and harmonics of an orbit, traces, first collisions."""
+
+import math
+
+import numpy as np
+
+from impact_damper.accelerate import kernel
+from impact_damper.kernel import polynomial, side_of, step, workspace
+from impact_damper.orbits import distance, strobe_time
+from impact_damper.series import CONTACT_ORDER, FLIGHT_ORDER
+
+SAMPLES = 64
+
+MOTION = np.dtype(
+    [
+        ("outcome", "i1"),
+        ("period", "i2"),
+        ("periods_run", "i4"),
+        ("multiplier", "c16"),
+        ("residual", "f8"),
+        ("lyapunov_exponent", "f8"),
+        ("lyapunov_error", "f8"),
+        ("state", "f8", 4),
+        ("maximum_displacement", "f8"),
+        ("contacts", "f8"),
+        ("asymmetry", "f8"),
+        ("harmonic_displacement", "c16"),
+        ("harmonic_relative", "c16"),
+    ]
+)
+
+
+@kernel
+def extremum(c, order, length, start):
+    """Largest |polynomial| over [0, length], at least `start`: eight points, then Newton's."""
+    best = start
+    for i in range(9):
+        t = length * i / 8.0
+        value, slope = polynomial(c, order, t)
+        if abs(value) > best - 0.1:
+            for _ in range(6):
+                bend = 0.0
+                for k in range(order, 1, -1):
+                    bend = bend * t + k * (k - 1) * c[k]
+                if bend == 0.0:
+                    break
+                t = min(max(t - slope / bend, 0.0), length)
+                value, slope = polynomial(c, order, t)
+        best = max(best, abs(value))
+    return best
+
+
+@kernel
+def series_of_step(work, side, y, t):
+    """Z1, its rate, Z2 or the signed penetration, and its rate, at time t into a step from y."""
+    if side == 0:
+        x, v = polynomial(work[0], FLIGHT_ORDER, t)
+        return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
+    x, v = polynomial(work[0], CONTACT_ORDER, t)
+    q, w = polynomial(work[1], CONTACT_ORDER, t)
+    return x, v, q, w
+
+
+@kernel
+def measure(p, y, periods, tolerance, out):
+    """Record of `periods` periods from a strobe on: extremum, contacts, symmetry, first harmonics.
+
+    `maximum_displacement` is the extremum of |Z1|; `contacts` is per forcing period;
+    `asymmetry` the distance of the state half the time later from the mirrored start, which
+    vanishes for a symmetric motion of odd period; the harmonics are complex amplitudes c of
+    Re(c exp(i W T)) in Z1 and Z2, by the trapezoidal rule.
+    """
+    work = workspace()
+    none = np.empty((0, 4))
+    period = 2.0 * math.pi / p[0]
+    begin = strobe_time(p)
+    end = begin + periods * period
+    spacing = period / SAMPLES
+    start = y.copy()
+    state = y.copy()
+    half = begin + 0.5 * periods * period if periods % 2 == 1 else math.inf
+    side = side_of(p, y)
+    largest, contacts, t, sample = abs(y[0]), 0, begin, 0
+    first, second = 0.0j, 0.0j
+    out.asymmetry = np.nan
+    while t < end:
+        stop = min(end, half) if t < half else end
+        start[:] = state
+        before = side
+        length, side = step(p, state, none, side, t, stop - t, tolerance, work)
+        order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
+        largest = extremum(work[0], order, length, largest)
+        contacts += before == 0 and side != 0
+        while begin + sample * spacing < t + length and sample < periods * SAMPLES:
+            x, _, z, _ = series_of_step(work, before, start, begin + sample * spacing - t)
+            z += before * p[3] if before != 0 else 0.0
+            angle = p[0] * (begin + sample * spacing)
+            turn = complex(math.cos(angle), -math.sin(angle))
+            first += x * turn
+            second += z * turn
+            sample += 1
+        t = stop if length >= stop - t else t + length
+        if t == half:
+            weight = 1.0 / math.sqrt(1.0 + p[4] * (1.0 + p[5])) if side != 0 else 1.0
+            out.asymmetry = distance(-state, y, weight)
+    out.maximum_displacement = largest
+    out.contacts = contacts / periods
+    out.harmonic_displacement = first * (2.0 / sample)
+    out.harmonic_relative = second * (2.0 / sample)
+
+
+def measured(p, y, periods, tolerance):
+    """Record of `measure` alone, for a state on an orbit."""
+    records = np.zeros(1, MOTION)
+    measure(p, y, periods, tolerance, records[0])
+    return records[0]
+
+
+@kernel
+def trace(p, y, t, times, tolerance, states, log):
+    """States (len(times), 4) at increasing times from t on, and a log of the contacts.
+
+    A row of `log` is a contact: wall, beginning, end, and Z2' at both. The last state is left
+    in y. Returns the number of contacts; those beyond the log's length are counted only.
+    """
+    work = workspace()
+    none = np.empty((0, 4))
+    start = y.copy()
+    side = side_of(p, y)
+    contacts = 0
+    if side != 0:
+        contacts = record_beginning(log, contacts, side, t, y[3])
+    sample = 0
+    while sample < len(times) and times[sample] <= t:
+        states[sample] = y
+        sample += 1
+    while sample < len(times):
+        start[:] = y
+        before = side
+        # the last sample is an end of a step, so that y is the state there
+        left = times[-1] - t
+        length, side = step(p, y, none, side, t, left, tolerance, work)
+        while sample < len(times) and (times[sample] - t < length or length >= left):
+            x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
+            states[sample, 0], states[sample, 1] = x, v
+            states[sample, 2], states[sample, 3] = z + (before * p[3] if before != 0 else 0.0), w
+            sample += 1
+        t += length
+        if before == 0 and side != 0:
+            contacts = record_beginning(log, contacts, side, t, y[3])
+        elif before != 0 and side == 0 and contacts <= len(log):
+            log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
+    return contacts
+
+
+@kernel
+def record_beginning(log, contacts, side, t, speed):
+    """Open a row of the contact log; returns the number of contacts."""
+    if contacts < len(log):
+        log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
+        log[contacts, 3], log[contacts, 4] = speed, np.nan
+    return contacts + 1
+
+
+@kernel
+def first_collisions(parameters, states, limit, tolerance, periods):
+    """Forcing periods from T = 0 to the first contact of each motion, infinite if none by then."""
+    none = np.empty((0, 4))
+    work = workspace()
+    for i in range(len(states)):
+        p = parameters[i]
+        y = states[i].copy()
+        t = 0.0
+        side = side_of(p, y)
+        end = limit * 2.0 * math.pi / p[0]
+        while side == 0 and t < end:
+            length, side = step(p, y, none, side, t, end - t, tolerance, work)
+            t += length
+        periods[i] = t * p[0] / (2.0 * math.pi) if side != 0 else np.inf
