@@ -32,6 +32,12 @@ def test_bands(data):
     assert np.isnan(table.loc["figure_10", "width, balance"])
 
 
+def test_no_band_is_read_off_without_the_resonance_branch(data):
+    table = tables.bands(data | {"free": {}}).set_index("curve")
+    assert table.loc["figure_05b", "width, balance"] > 0
+    assert "width, simulated" not in table
+
+
 def test_optima(data):
     table = tables.optima(data).set_index("sweep")
     assert len(table) == len(data["optimum"])

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper import harmonic_balance as balance
-from impact_damper import orbits
+from impact_damper import orbits, recording
 from impact_damper.datasets import dataset, flag
 from impact_damper.design import optimum_clearance
 from impact_damper.ensemble import Settling

@@ -41,13 +41,13 @@ def meaning(name, value):
     )
 
 
-def free_of(datasets, data, stage="free"):
+def free_of(datasets, data):
     """The free oscillator that a damper of `data` is attached to, or raise Missing."""
     wanted = [parameter(data, name) for name in ("damping", "linear_frequency")]
-    for free in datasets.get(stage, {}).values():
+    for free in datasets.get("free", {}).values():
         if [parameter(free, name) for name in ("damping", "linear_frequency")] == wanted:
             return free
-    raise Missing(f"There is no dataset of the stage {stage} with h = {wanted[0]:g}")
+    raise Missing(f"There is no dataset of the stage free with h = {wanted[0]:g}")
 
 
 def is_outcome(data, *meanings):
@@ -99,9 +99,9 @@ def chaotic_high(response, free):
     return (high(response, free) & is_outcome(response, "chaotic")).any("motion").values
 
 
-def spacing(data, dimension="frequency"):
-    """Step of an even grid."""
-    return float(data[dimension][1] - data[dimension][0])
+def spacing(data):
+    """Step of an even grid of frequencies."""
+    return float(data.frequency[1] - data.frequency[0])
 
 
 def longest_run(mask):
@@ -137,17 +137,16 @@ def simulated_band(response, free):
     The lower edge is where the last high motion is lost: the end of its branch if it is
     settled; a chaotic one is only known to be gone at the next frequency.
     """
-    upper, _ = resonance_fold(free)
+    upper, size = resonance_fold(free)
     motions = high(response, free)
     frequency = response.frequency.values
     there = motions.any("motion").values
     if not there.any():
         return Band(np.nan, upper, np.nan)
     last = np.flatnonzero(there)[-1]
-    level = HALF * resonance(free, free.frequency).max()
     ends = response.end_value.values[
         (response.end_direction.values == flag("end_direction", "up"))
-        & (response.end_displacement.values > level.values)
+        & (response.end_displacement.values > HALF * size)
         & (response.end_value.values <= upper)
     ]
     lower = max([frequency[last], *ends])

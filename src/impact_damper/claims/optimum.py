@@ -51,14 +51,14 @@ def excess(datasets):
     spreads = []
     for group in groups.values():
         sizes = [float(sweep.optimum_displacement) for sweep in group]
-        spreads.append(max(sizes) / min(sizes) - 1)
+        spreads.append(np.max(sizes) / np.min(sizes) - 1)
     return {
         "dampings": len(groups),
-        "least": min(over),
-        "most": max(over),
-        "spread": max(spreads),
-        "displaced": max(displaced(sweep) for sweep in members),
-        "near": min(near_width(sweep) for sweep in members),
+        "least": np.min(over),
+        "most": np.max(over),
+        "spread": np.max(spreads),
+        "displaced": np.max([displaced(sweep) for sweep in members]),
+        "near": np.min([near_width(sweep) for sweep in members]),
         "first_harmonic": np.mean([sweep.first_harmonic_share for sweep in members]),
         "straight_flight": np.mean([sweep.straight_flight_share for sweep in members]),
     }
@@ -87,9 +87,9 @@ def restitution(datasets):
         "band": bands[1].least_width / bands[0].width,
         "amplitude": float(ratio.min()),
         "most": float(ratio.max()),
-        "clearance": max(clearances),
-        "step": max(steps),
-        "flat": min(widths),
+        "clearance": np.max(clearances),
+        "step": np.max(steps),
+        "flat": np.min(widths),
     }
 
 

@@ -29,15 +29,15 @@ def phases(datasets):
         balance.append(extract.crossing(around.frequency.values, around.values, 0.0) / peak)
 
     def farthest(ratios):
-        return max(ratios, key=lambda ratio: abs(ratio - 1))
+        return ratios[np.argmax(np.abs(np.array(ratios) - 1))]
 
     return {
-        "below": max(below),
-        "above": max(above),
+        "below": np.max(below),
+        "above": np.max(above),
         "turn_balance": farthest(balance),
         "turn": farthest(turns),
-        "loose_below": max(loose_below),
-        "loose_above": max(loose_above),
+        "loose_below": np.max(loose_below),
+        "loose_above": np.max(loose_above),
         "loose_turn": farthest(loose_turns),
     }
 
