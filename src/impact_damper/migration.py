@@ -13,22 +13,33 @@ from impact_damper import ensemble, recording, switching
 from impact_damper.datasets import dataset, flag
 from impact_damper.parameters import check_count, describe
 from impact_damper.releases import (
-    BOUNDS,
     DESTINATIONS,
     KINDS,
+    destination,
     kinds,
     release_data,
     scene,
     settled_motions,
     transient_data,
     watch,
-    wilson,
 )
+from impact_damper.survival import BOUNDS, wilson
 from impact_damper.variables import DAMPED_MOTION, FREE_MOTION
 
 PAPER_CYCLES = 350
 LEAD = 10
 SAMPLES = 40
+SWITCHING = np.dtype(
+    [
+        ("on_time", "f8"),
+        ("off_time", "f8"),
+        ("end_time", "f8"),
+        ("released_period", "i2"),
+        ("released_displacement", "f8"),
+        ("destination", "i1"),
+        ("destination_displacement", "f8"),
+    ]
+)
 
 
 def _draws(seed, switchings):
@@ -36,29 +47,51 @@ def _draws(seed, switchings):
     return np.random.default_rng(seed).random((switchings, 3))
 
 
+def _blank(shape):
+    """Log of switchings that are not made."""
+    log = np.zeros(shape, SWITCHING)
+    for name in SWITCHING.names:
+        if SWITCHING[name].kind == "f":
+            log[name] = np.nan
+    log["destination"] = FREE_MOTION["none"]
+    return log
+
+
 def _control(here, draws, longest_hold, settling, periods):
-    """Runs for draws (n, m, 3): path of the last, logs (n, m) and counts of switchings (n,)."""
-    number, switchings = draws.shape[:2]
-    # a run may end after `periods` by a hold, a settling and their waits
-    path = np.empty((periods + longest_hold + settling.limit + 4 * switchings + 100, 5))
-    logs = np.zeros((number, switchings), switching.SWITCHING)
-    counts = np.zeros(number, int)
-    rows = switching.control_many(
-        here.on,
-        here.off,
-        here.state,
-        draws,
-        here.known,
-        settling.tolerance,
-        longest_hold,
-        settling.limit,
-        periods,
-        path,
-        logs,
-        counts,
-        np.zeros(1, recording.MOTION),
-    )
-    return path[:rows], logs, counts
+    """One run of the controller: rows of its path, and its log.
+
+    A row of `draws` holds for one switching the phase of switching on, the place of the loose
+    mass and the phase of release, phases as a share of the period of the motion before. A row of
+    the path is (forcing periods from the first strobe, state), at each strobe and switching.
+    """
+    y = here.state.copy()
+    record = np.zeros(1, recording.MOTION)[0]
+    record["period"] = 1
+    log = _blank(len(draws))
+    rest = np.empty((max(longest_hold, settling.limit) + 2, 5))
+    path, strobe = [], 0.0
+
+    def leg(before, after, phase, place, limit):
+        nonlocal strobe
+        wait = phase * max(int(record["period"]), 1)
+        instant = strobe + wait
+        strobe = switching.leg(
+            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, record
+        )
+        path.append(rest[: record["periods_run"] + 2].copy())
+        return instant
+
+    for entry, draw in zip(log, draws, strict=True):
+        entry["on_time"] = leg(here.off, here.on, draw[0], 2 * draw[1] - 1, longest_hold)
+        entry["released_period"] = record["period"]
+        entry["released_displacement"] = record["maximum_displacement"]
+        entry["off_time"] = leg(here.on, here.off, draw[2], 0.0, settling.limit)
+        entry["end_time"] = strobe
+        entry["destination"] = destination(here.known, record)
+        entry["destination_displacement"] = record["maximum_displacement"]
+        if entry["destination"] == FREE_MOTION["non_resonance"] or strobe >= periods:
+            break
+    return np.concatenate(path), log
 
 
 def _trace(here, path, log, tolerance):
@@ -71,6 +104,7 @@ def _trace(here, path, log, tolerance):
     path = np.vstack([np.append(-LEAD, here.state), path])
     ends = np.append(path[1:, 0], path[-1, 0] + LEAD)
     times = np.arange(-LEAD * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
+    log = log[log["destination"] != FREE_MOTION["none"]]
     switched = np.stack([log["on_time"], log["off_time"]], axis=-1).ravel()
     damped = np.searchsorted(switched, (path[:, 0] + ends) / 2) % 2 == 1
     cuts = np.searchsorted(times, np.append(path[:, 0], ends[-1]))
@@ -88,45 +122,28 @@ def _trace(here, path, log, tolerance):
     return (times + 0.25) * period, states[:, 0]
 
 
-def _log_data(logs, counts, here):
-    """Registered variables of each switching, over (..., switching), absent ones marked."""
-    absent = np.arange(logs.shape[-1]) >= np.asarray(counts)[..., None]
+def _log_data(logs, here):
+    """Registered variables of each switching, over (..., switching)."""
     period = 2 * np.pi / here.on[0]
     kind = kinds(logs["released_period"], logs["released_displacement"], here.known)
-    data = {
-        name: np.where(absent, np.nan, (logs[name] + 0.25) * period)
-        for name in ("on_time", "off_time", "end_time")
-    }
-    data |= {
-        name: np.where(absent, np.nan, logs[name])
-        for name in ("released_displacement", "destination_displacement")
-    }
-    return data | {
-        "released_from": np.where(absent, DAMPED_MOTION["none"], kind),
-        "released_period": np.where(absent, 0, logs["released_period"]),
-        "destination": np.where(absent, FREE_MOTION["none"], logs["destination"]),
-    }
+    absent = logs["destination"] == FREE_MOTION["none"]
+    data = {name: (logs[name] + 0.25) * period for name in ("on_time", "off_time", "end_time")}
+    data["released_from"] = np.where(absent, DAMPED_MOTION["none"], kind)
+    return data | {name: logs[name] for name in SWITCHING.names[3:]}
 
 
-def _totals(logs, counts):
+def _totals(logs):
     """Registered variables of whole runs, in forcing periods from the first switching."""
-    absent = np.arange(logs.shape[-1]) >= np.asarray(counts)[..., None]
-    last = np.asarray(counts)[..., None] - 1
-
-    def final(name):
-        return np.take_along_axis(logs[name], last, axis=-1)[..., 0]
-
     first = logs["on_time"][..., 0]
-    held = np.where(absent, 0.0, logs["off_time"] - logs["on_time"])
-    reached = final("destination") == FREE_MOTION["non_resonance"]
+    reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     return {
         "trial_outcome": np.where(
             reached, flag("trial_outcome", "reached"), flag("trial_outcome", "not_reached")
         ),
-        "switchings": np.asarray(counts),
-        "damper_time": np.sum(held, axis=-1),
-        "release_time": final("off_time") - first,
-        "total_time": final("end_time") - first,
+        "switchings": np.sum(logs["destination"] != FREE_MOTION["none"], axis=-1),
+        "damper_time": np.nansum(logs["off_time"] - logs["on_time"], axis=-1),
+        "release_time": np.nanmax(logs["off_time"], axis=-1) - first,
+        "total_time": np.nanmax(logs["end_time"], axis=-1) - first,
     }
 
 
@@ -190,16 +207,13 @@ def migrate(
     here, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )
-    path, logs, counts = _control(
-        here, _draws(seed, switchings)[None], longest_hold, settling, periods
-    )
-    log = logs[0, : counts[0]]
+    path, log = _control(here, _draws(seed, switchings), longest_hold, settling, periods)
+    totals = _totals(log)
+    log = log[: totals["switchings"]]
     times, displacement = _trace(here, path, log, settling.tolerance)
     data = {"displacement": displacement}
-    data |= {
-        name: ("switching", values) for name, values in _log_data(log, counts[0], here).items()
-    }
-    data |= {name: ((), values) for name, values in _totals(log, counts[0]).items()}
+    data |= {name: ("switching", values) for name, values in _log_data(log, here).items()}
+    data |= {name: ((), value) for name, value in totals.items()}
     return dataset(data, {"time": times}, made, "Migration control, one run")
 
 
@@ -295,19 +309,19 @@ def trials(
         )
     )
     draws = np.array([_draws(child, switchings) for child in runs])
-    logs = np.zeros(draws.shape[:2], switching.SWITCHING)
-    counts = np.zeros(trials, int)
+    logs = _blank(draws.shape[:2])
 
     def work(part):
-        _, logs[part], counts[part] = _control(here, draws[part], longest_hold, settling, periods)
+        for i in range(part.start, part.stop):
+            _, logs[i] = _control(here, draws[i], longest_hold, settling, periods)
 
     ensemble.run_chunks(work, trials, workers, progress)
-    logs = logs[:, : np.max(counts)]
-    data = _log_data(logs, counts, here)
-    totals = _totals(logs, counts)
+    totals = _totals(logs)
+    logs = logs[:, : np.max(totals["switchings"])]
+    data = _log_data(logs, here)
     example = _example(totals)
-    path, _, _ = _control(here, draws[example, None], longest_hold, settling, periods)
-    times, displacement = _trace(here, path, logs[example, : counts[example]], settling.tolerance)
+    path, log = _control(here, draws[example], longest_hold, settling, periods)
+    times, displacement = _trace(here, path, log, settling.tolerance)
     data |= totals | _summary(data, totals) | {"example": example, "displacement": displacement}
     lives, motions, entries = watch(here, watched, lifetime, settling, workers, progress)
     life, coordinates = transient_data(lives, motions, lifetime, here.known)

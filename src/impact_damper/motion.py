@@ -114,7 +114,8 @@ def settle(p, y, start, tolerance, patience, limit, out):
     (CONFIDENCE standard errors, its last batches included, since a transient may just have
     ended) is let go after `patience` periods, or at the limit if its exponent is WEAK: a slow
     spiral can look like weak chaos for a while. One in doubt is not let go. A loose mass that
-    has not touched a wall for `patience` periods is taken as non-colliding.
+    has not touched a wall for `patience` periods and drifts by less than 1 % of the clearance
+    within the limit is taken as non-colliding, and so is a settled motion without contacts.
 
     To the record `out` go outcome, period, residual, dominant multiplier, periods_run, and the
     exponent per unit time.
@@ -141,9 +142,12 @@ def settle(p, y, start, tolerance, patience, limit, out):
         n = nearby_period(ring, k, weight if side != 0 else 1.0, 20.0 * tolerance, near)
         if n > 0:
             if land(p, y, n, near, out):
+                if quiet >= out.period and p[3] < math.inf:
+                    out.outcome = NON_COLLIDING
                 break
             near = max(0.1 * near, NEAREST)
-        if quiet >= patience and p[3] < math.inf:
+        drift = abs(y[3] - y[1]) * limit * period
+        if quiet >= patience and drift < 0.01 * p[3] < math.inf:
             out.outcome = NON_COLLIDING
             break
         if k == half:
@@ -170,7 +174,7 @@ def settle_and_measure(p, y, start, tolerance, patience, limit, watched, out):
     settle(p, y, start, tolerance, patience, limit, out)
     out.state[:] = y
     if out.outcome != DIVERGED:
-        measure(p, y, out.period if out.outcome == SETTLED else watched, tolerance, out)
+        measure(p, y, out.period if out.period > 0 else watched, tolerance, out)
 
 
 @kernel

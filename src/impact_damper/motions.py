@@ -19,7 +19,7 @@ def check_state(state, damper):
     ValueError
         If the state is not four finite numbers, or two without a damper.
     """
-    state = np.asarray(state, float)
+    state = np.array(state, float)
     if damper is None and state.shape == (2,):
         state = np.concatenate([state, state])
     if state.shape != (4,) or not np.isfinite(state).all():

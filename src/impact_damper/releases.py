@@ -9,19 +9,19 @@ from itertools import count
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import binomtest, chi2
 
 from impact_damper import ensemble, orbits, recording, switching
-from impact_damper.datasets import dataset, flag
 from impact_damper.harmonic_balance import free_solutions, impacting_solutions
 from impact_damper.motions import is_settled, random_states
-from impact_damper.parameters import check_count, describe, pack
-from impact_damper.response import frequency_response
+from impact_damper.parameters import pack
+from impact_damper.survival import LEAD, escape_rate, survival, wilson
 from impact_damper.sweep import FREQUENCY, RESOLUTION, Catalogue
-from impact_damper.variables import DAMPED_MOTION, FREE_MOTION, VARIABLES
+from impact_damper.variables import DAMPED_MOTION, FREE_MOTION
 
-LEAD = 20
-BOUNDS = ["share", "lower", "upper"]
+ALIKE = 1e-6
+RELEASE = np.dtype(
+    [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
+)
 KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
@@ -79,49 +79,12 @@ def scene(oscillator, damper, frequency, settling) -> Scene:
             for record in (goal, resonance)
         ]
     )
-    if not known[0] + switching.ALIKE < known[1]:
+    if not known[0] + ALIKE < known[1]:
         raise ValueError(
             f"frequency = {frequency:g}: the free oscillator must have a non-resonance and a "
             "resonance motion here, since migration leads from one to the other"
         )
     return Scene(on, off, resonance["state"].copy(), known)
-
-
-def wilson(successes, total):
-    """Share, and Wilson's 95 % interval for it; NaN of nothing."""
-    if total == 0:
-        return np.full(3, np.nan)
-    interval = binomtest(int(successes), int(total)).proportion_ci(method="wilson")
-    return np.array([successes / total, interval.low, interval.high])
-
-
-def survival(lives, horizon, times):
-    """Share of runs that live longer than each of the times, shape (n, 3) with its interval.
-
-    Lives beyond the horizon count only as longer than that. No run is lost earlier, so this is
-    Kaplan and Meier's estimate, and each value a binomial share.
-
-    Raises
-    ------
-    ValueError
-        If a time lies beyond the horizon.
-    """
-    if np.max(times) > horizon:
-        raise ValueError(f"times: must be at most the horizon {horizon}, {np.max(times)} given")
-    return np.array([wilson(np.sum(lives > time), len(lives)) for time in times])
-
-
-def escape_rate(lives, horizon, lead=LEAD):
-    """Rate of an exponential life beyond `lead`, with its 95 % interval, per unit of time.
-
-    Captures over time at risk, and the chi-squared limits for a Poisson count of captures.
-    """
-    captures = np.sum((lives > lead) & (lives <= horizon))
-    exposure = np.sum(np.clip(np.minimum(lives, horizon) - lead, 0, None))
-    if exposure == 0:
-        return np.full(3, np.nan)
-    lower = chi2.ppf(0.025, 2 * captures) / 2 if captures else 0.0
-    return np.array([captures, lower, chi2.ppf(0.975, 2 * captures + 2) / 2]) / exposure
 
 
 def kinds(period, displacement, known):
@@ -131,32 +94,80 @@ def kinds(period, displacement, known):
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
+def destination(known, record):
+    """Flag of the free motion that a record is of, `known` as in `Scene`."""
+    if not is_settled(record):
+        return FREE_MOTION["unresolved"]
+    if record["period"] == 3:
+        return FREE_MOTION["subharmonic"]
+    for name, displacement in zip(("non_resonance", "resonance"), known, strict=True):
+        if record["period"] == 1 and abs(record["maximum_displacement"] - displacement) < ALIKE:
+            return FREE_MOTION[name]
+    return FREE_MOTION["other"]
+
+
+def _release(here, state, wait, settling, path, entry):
+    """Switch the damper off `wait` forcing periods after a strobe, and see where that leads."""
+    record = np.zeros(1, recording.MOTION)[0]
+    switching.leg(
+        here.on,
+        here.off,
+        state.copy(),
+        wait,
+        0.0,
+        0.0,
+        settling.tolerance,
+        settling.limit,
+        path,
+        record,
+    )
+    entry["phase"], entry["displacement"], entry["velocity"] = wait, path[0, 1], path[0, 2]
+    entry["destination"] = destination(here.known, record)
+
+
+def _watch_one(here, draws, lifetime, settling, path, record, entry):
+    """A run with the damper on, released once on its way. Returns its life.
+
+    The draws give the phase of switching on, the place of the loose mass, the instant of the
+    release, uniform from LEAD strobes on until the run is captured, if it lives so long, and
+    the phase of the release in its forcing period.
+    """
+    switching.leg(
+        here.off,
+        here.on,
+        here.state.copy(),
+        draws[0],
+        2 * draws[1] - 1,
+        0.0,
+        settling.tolerance,
+        lifetime,
+        path,
+        record,
+    )
+    life = lifetime
+    if is_settled(record):
+        life = switching.life(here.on, path, record, settling.tolerance)
+    if life > LEAD:
+        k = LEAD + int(draws[2] * (life - LEAD))
+        rest = np.empty((settling.limit + 2, 5))
+        _release(here, path[k + 1, 1:], draws[3], settling, rest, entry)
+    return life
+
+
 def watch(here, seeds, lifetime, settling, workers, progress):
     """Runs from the resonance branch, each released once: lives, records and releases."""
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     lives = np.empty(len(draws))
     motions = np.zeros(len(draws), recording.MOTION)
-    entries = np.zeros(len(draws), switching.RELEASE)
+    entries = np.zeros(len(draws), RELEASE)
     for name in ("phase", "displacement", "velocity"):
         entries[name] = np.nan
-    entries["destination"] = flag("destination", "none")
+    entries["destination"] = FREE_MOTION["none"]
 
     def work(part):
-        switching.transients(
-            here.on,
-            here.off,
-            here.state,
-            draws[part],
-            here.known,
-            settling.tolerance,
-            LEAD,
-            lifetime,
-            settling.limit,
-            lives[part],
-            motions[part],
-            entries[part],
-            np.zeros(1, recording.MOTION),
-        )
+        path = np.empty((lifetime + 2, 5))
+        for i in range(part.start, part.stop):
+            lives[i] = _watch_one(here, draws[i], lifetime, settling, path, motions[i], entries[i])
 
     ensemble.run_chunks(work, len(draws), workers, progress)
     return lives, motions, entries
@@ -187,23 +198,17 @@ def release_data(here, motions, entries, settling):
     """Registered variables of releases: of the unsettled motion, then of each settled one.
 
     Settled motions are released at as many phases as there are `entries`, evenly over the period.
+    Between contacts the primary moves as it does without the damper, so that all releases within
+    one flight are one: a share counts the flights, and the short contacts, that lead somewhere.
     """
     number = len(entries)
     rows = [entries]
+    path = np.empty((settling.limit + 2, 5))
     for record in motions:
-        waits = np.arange(number) * record["period"] / number
-        rows.append(np.zeros(number, switching.RELEASE))
-        switching.release_many(
-            here.on,
-            here.off,
-            record["state"].copy(),
-            waits,
-            here.known,
-            settling.tolerance,
-            settling.limit,
-            rows[-1],
-            np.zeros(1, recording.MOTION),
-        )
+        rows.append(np.zeros(number, RELEASE))
+        for k, entry in enumerate(rows[-1]):
+            wait = k * record["period"] / number
+            _release(here, record["state"], wait, settling, path, entry)
     table = np.array(rows)
     valid = np.sum(table["destination"] >= 0, axis=1)
     shares = [
@@ -247,110 +252,3 @@ def settled_motions(oscillator, damper, frequency, seed, settling, workers, foun
         if is_settled(record):
             catalogue.add(record, "random_start")
     return sorted(catalogue.records, key=lambda record: record["maximum_displacement"])
-
-
-def _scan_records(response):
-    """Records of the settled motions at one frequency of a frequency response."""
-    keep = response["outcome"].values == flag("outcome", "settled")
-    found = np.zeros(np.sum(keep), recording.MOTION)
-    for name in ("period", "maximum_displacement", "contacts", "state"):
-        found[name] = response[name].values[keep]
-    return found[::-1]
-
-
-def _padded(values, length):
-    """Array with its first axis filled up to a length by what stands for nothing."""
-    missing = np.full(
-        (length - len(values), *values.shape[1:]),
-        np.nan if values.dtype.kind == "f" else -1,
-        values.dtype,
-    )
-    return np.concatenate([values, missing])
-
-
-def release_scan(
-    oscillator,
-    damper,
-    frequencies,
-    *,
-    starts=24,
-    releases=100,
-    lifetime=200,
-    seed=1995,
-    settling=None,
-    workers=1,
-    progress=None,
-):
-    """Where releases lead from every damped motion, at each frequency.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-    frequencies : sequence of float
-        Increasing forcing frequencies at which both free period-1 motions exist.
-    starts : int
-        Random starts a frequency; the motions found are followed in frequency as well.
-    releases : int
-        Releases of each motion.
-    lifetime : int
-        Forcing periods within which the motion that has not settled is released.
-    seed : int
-    settling : Settling, optional
-    workers, progress
-        As in `response.frequency_response`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (frequency, damped) the damped motions, first the one that has not settled, and
-        over (frequency, damped, free_motion, bound) the shares of their releases.
-
-    Raises
-    ------
-    ValueError
-        If the free oscillator has not both motions at a frequency, or an argument is out of range.
-    """
-    settling = settling or ensemble.Settling()
-    check_count("releases", releases, most=10**6)
-    check_count("lifetime", lifetime, least=2 * LEAD, most=10**7)
-    scenes = [scene(oscillator, damper, frequency, settling) for frequency in frequencies]
-    response = frequency_response(
-        oscillator,
-        damper,
-        frequencies,
-        starts=starts,
-        seed=seed,
-        settling=settling,
-        workers=workers,
-        progress=progress,
-    )
-    seeds = np.random.SeedSequence(seed).spawn(len(scenes))
-    rows = []
-    for i, here in enumerate(scenes):
-        _, _, entries = watch(here, seeds[i].spawn(releases), lifetime, settling, workers, None)
-        rows.append(
-            release_data(here, _scan_records(response.isel(frequency=i)), entries, settling)
-        )
-    width = max(len(row["damped_kind"]) for row in rows)
-    names = (
-        "damped_kind",
-        "damped_period",
-        "damped_displacement",
-        "damped_contacts",
-        "release_share",
-    )
-    data = {name: np.array([_padded(row[name], width) for row in rows]) for name in names}
-    data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
-    made = describe(oscillator, damper, settling) | {
-        "starts": starts,
-        "releases": releases,
-        "lifetime": lifetime,
-        "seed": seed,
-    }
-    coordinates = {
-        "frequency": response["frequency"].values,
-        "free_motion": DESTINATIONS,
-        "bound": BOUNDS,
-    }
-    return dataset(data, coordinates, made, "Where releases of the damper lead")

@@ -60,6 +60,7 @@ def release_phase(datasets):
     for kind in ("quiet", "unsettled"):
         numbers[f"{kind}_goal"] = only(case, kind, "non_resonance", max)
         numbers[f"{kind}_subharmonic"] = only(case, kind, "subharmonic", max)
+        numbers[f"{kind}_resonance"] = only(case, kind, "resonance", max)
         there = [
             extract.parameter(each, "frequency")
             for each in cases(datasets)
@@ -160,6 +161,7 @@ CLAIMS = (
                 "share of releases of the unsettled motion to the non-resonance branch",
             ),
             Number("unsettled_subharmonic", "share of those to period 3"),
+            Number("unsettled_resonance", "share of those back to the resonance branch"),
             Number("quiet_first", "lowest W of all cases with both outcomes from the quiet motion"),
             Number("quiet_last", "highest such W"),
             Number(

@@ -17,29 +17,28 @@ def in_free_range(curve):
     return extract.within(curve, lower, upper)
 
 
-def width(curve):
-    """Width of W in which a subharmonic exists with the damper."""
-    return float(curve.damped_subharmonic.notnull().sum()) * extract.spacing(curve)
+def width(curve, part):
+    """Width of W in which, in a part of a dataset, a subharmonic exists with the damper."""
+    return float(part.damped_subharmonic.notnull().sum()) * extract.spacing(curve)
 
 
 def reappearance(datasets):
     """Numbers of claim 10."""
-
-    def in_band(name):
-        curve = extract.get(datasets, "subharmonic", name)
-        lower, upper = extract.band_edges(extract.get(datasets, "design", name))
-        band = curve.where((curve.frequency >= lower) & (curve.frequency <= upper))
-        return band.assign_coords(frequency=curve.frequency)
-
-    light = [extract.get(datasets, "subharmonic", name) for name in LIGHT]
-    heavy = in_band(HEAVY)
-    ratio = heavy.subharmonic_ratio.where(heavy.subharmonic_ratio > 0)
+    curves = extract.select(datasets, "subharmonic", (*LIGHT, HEAVY))
+    bands = [
+        extract.within(curve, *extract.band_edges(design))
+        for curve, design in zip(
+            curves, extract.select(datasets, "design", (*LIGHT, HEAVY)), strict=True
+        )
+    ]
+    widths = [width(curve, band) for curve, band in zip(curves, bands, strict=True)]
+    light, heavy = curves[: len(LIGHT)], bands[-1]
     return {
-        "light": max(width(in_band(name)) for name in LIGHT),
-        "light_anywhere": max(width(curve) for curve in light),
-        "light_ratio": float(max(curve.subharmonic_ratio.max() for curve in light)),
-        "heavy": width(heavy),
-        "ratio": float(ratio.max()),
+        "light": max(widths[: len(LIGHT)]),
+        "light_anywhere": max(width(curve, curve) for curve in light),
+        "light_ratio": float(np.max([curve.subharmonic_ratio.max() for curve in light])),
+        "heavy": widths[-1],
+        "ratio": float(heavy.subharmonic_ratio.where(heavy.subharmonic_ratio > 0).max()),
         "reached": float(heavy.switched_share.sel(switched_motion="subharmonic").max()),
     }
 

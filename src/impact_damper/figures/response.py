@@ -59,7 +59,6 @@ def draw_motions(axes, motions):
     draw_settled(axes, motions, ["period_1", "higher_period", "subharmonic_damped"], prefix)
     outcome = motions["outcome"].values
     chosen = {status: outcome == flag("outcome", status) for status in STATUSES}
-    chosen["non_colliding"] |= is_settled(motions) & (motions["contacts"].values == 0)
     for status in STATUSES:
         row, column = chosen[status].nonzero()
         if len(row):
