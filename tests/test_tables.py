@@ -6,6 +6,7 @@ import pytest
 from made_up import world
 
 from impact_damper import tables
+from impact_damper.table_files import save
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +75,7 @@ def test_migration(data):
 def test_files(tmp_path):
     table = pd.DataFrame({"name": ["a|b", "c"], "number": [1 / 3, np.nan], "count": [10, 2000000]})
     csv, markdown = tmp_path / "new" / "table.csv", tmp_path / "new" / "table.md"
-    tables.save(table, csv, markdown)
+    save(table, csv, markdown)
     assert csv.read_bytes() == b"name,number,count\na|b,0.333333,10\nc,,2000000\n"
     assert markdown.read_text().splitlines()[2].split() == [
         "|",
@@ -86,7 +87,7 @@ def test_files(tmp_path):
         "|",
     ]
     before = csv.read_bytes(), markdown.read_bytes()
-    tables.save(table, csv, markdown)
+    save(table, csv, markdown)
     assert (csv.read_bytes(), markdown.read_bytes()) == before
     assert sorted(path.name for path in csv.parent.iterdir()) == ["table.csv", "table.md"]
 
@@ -94,5 +95,5 @@ def test_files(tmp_path):
 def test_failed_table_leaves_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr("os.replace", lambda *paths: (_ for _ in ()).throw(OSError("full")))
     with pytest.raises(OSError, match="full"):
-        tables.save(pd.DataFrame({"a": [1]}), tmp_path / "a.csv", tmp_path / "a.md")
+        save(pd.DataFrame({"a": [1]}), tmp_path / "a.csv", tmp_path / "a.md")
     assert list(tmp_path.iterdir()) == []

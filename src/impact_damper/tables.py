@@ -1,9 +1,5 @@
 """Tables of the results: designs, bands, optima, subharmonics and migration."""
 
-import numbers
-import os
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
@@ -19,38 +15,6 @@ PARAMETERS = {
     "restitution": "e",
     "frequency": "W",
 }
-DIGITS = 6
-
-
-def save(frame, csv_path, markdown_path) -> None:
-    """Write a table as CSV and as Markdown; each file appears only when it is whole.
-
-    Numbers are rounded to six significant digits; what is not known is left empty.
-    """
-    shown = frame.map(_rounded).astype(object)
-    text = shown.map(lambda value: str(value).replace("|", r"\|"))
-    texts = {
-        csv_path: shown.to_csv(index=False, lineterminator="\n"),
-        markdown_path: text.to_markdown(index=False, disable_numparse=True) + "\n",
-    }
-    for path, content in texts.items():
-        path = Path(path)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        part = path.with_name(f"{path.name}.part-{os.getpid()}")
-        try:
-            part.write_text(content)
-            os.replace(part, path)
-        finally:
-            part.unlink(missing_ok=True)
-
-
-def _rounded(value):
-    """A cell as it is written."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, numbers.Integral):
-        return str(value)
-    return "" if value is None or np.isnan(value) else f"{value:.{DIGITS}g}"
 
 
 def _parameters(data, *names):

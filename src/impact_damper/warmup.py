@@ -1,9 +1,10 @@
-"""Compile every kernel that the package calls, on a problem of no size, and cache it."""
+"""Compile every kernel that the package calls, on problems of no size, and cache it."""
 
 import numpy as np
 
 from impact_damper.ensemble import Settling
-from impact_damper.motions import simulate, steady_motion
+from impact_damper.migration import trials
+from impact_damper.motions import simulate
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.response import collisions, frequency_response
 
@@ -13,6 +14,6 @@ def warm_up() -> None:
     oscillator, damper = Oscillator(damping=0.215), Damper(mass_ratio=0.12, clearance=2.0)
     settling = Settling(patience=100, limit=100, watched=1)
     simulate(oscillator, damper, 2.0, periods=1, samples=2)
-    steady_motion(oscillator, damper, 2.0, settling=settling)
     frequency_response(oscillator, damper, np.array([2.0, 2.01]), starts=1, settling=settling)
     collisions(oscillator, damper, 2.0, starts=1, periods=1)
+    trials(oscillator, damper, 1.95, trials=1, releases=1, lifetime=100, longest_hold=5)

@@ -3,9 +3,9 @@
 import sys
 from pathlib import Path
 
-from impact_damper.claims import claims
+from impact_damper.claims import claims, document
 from impact_damper.datasets import load
-from impact_damper.tables import save
+from impact_damper.table_files import save
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
 datasets = {
@@ -13,4 +13,4 @@ datasets = {
     for stage, paths in snakemake.input.items()
     if stage != "code"
 }
-save(claims(datasets), snakemake.output.csv, snakemake.output.markdown)
+save(claims(datasets), snakemake.output.csv, snakemake.output.markdown, document)

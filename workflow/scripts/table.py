@@ -5,6 +5,7 @@ from pathlib import Path
 
 from impact_damper import tables
 from impact_damper.datasets import load
+from impact_damper.table_files import save
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
 datasets = {
@@ -13,4 +14,4 @@ datasets = {
     if stage != "code"
 }
 make = getattr(tables, snakemake.wildcards.table)
-tables.save(make(datasets), snakemake.output.csv, snakemake.output.markdown)
+save(make(datasets), snakemake.output.csv, snakemake.output.markdown)

@@ -8,6 +8,7 @@ REPRODUCED = "reproduced"
 DIFFERENT = "reproduced with a difference"
 NOT_REPRODUCED = "not reproduced"
 NOT_DECIDABLE = "not decidable"
+VERDICTS = (REPRODUCED, DIFFERENT, NOT_REPRODUCED, NOT_DECIDABLE)
 
 
 class Missing(LookupError):
