@@ -22,7 +22,7 @@ MOTIONS = [  # outcome, period, contacts
     ("settled", 1, 2.0),
     ("settled", 2, 2.0),
     ("settled", 3, 2.0),
-    ("settled", 1, 0.0),
+    ("non_colliding", 1, 0.0),
     ("chaotic", 0, 3.0),
     ("unresolved", 0, 1.0),
     ("absent", 0, 0.0),
