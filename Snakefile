@@ -28,6 +28,7 @@ include: "workflow/rules/response.smk"
 include: "workflow/rules/optimum.smk"
 include: "workflow/rules/subharmonic.smk"
 include: "workflow/rules/migration.smk"
+include: "workflow/rules/release_scan.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -41,5 +42,6 @@ rule all:
         rules.optimum.input,
         rules.subharmonic.input,
         rules.migration.input,
+        rules.release_scan.input,
         rules.figures.input,
         rules.tables.input,

@@ -316,6 +316,29 @@ def migration(frequency, subharmonic_share):
     )
 
 
+def release_scan(frequency, subharmonic_share):
+    """Releases from the unsettled and from the quiet motion; no third motion exists."""
+    destinations = list(FREE_MOTION)[1:]
+    share = np.array(subharmonic_share)[:, None, None]
+    shares = np.zeros((len(frequency), 3, len(destinations), 3))
+    shares[:, :, destinations.index("subharmonic")] = share
+    shares[:, :, destinations.index("non_resonance")] = 1 - share
+    shares[:, 2] = np.nan
+    kinds = [DAMPED_MOTION[kind] for kind in ("unsettled", "quiet", "none")]
+    rows = {
+        "damped_kind": np.tile(kinds, (len(frequency), 1)),
+        "damped_period": np.tile([0, 1, -1], (len(frequency), 1)),
+    }
+    data = {name: (("frequency", "damped"), values) for name, values in rows.items()}
+    data["release_share"] = (("frequency", "damped", "free_motion", "bound"), shares)
+    coordinates = {
+        "frequency": frequency,
+        "bound": ["share", "lower", "upper"],
+        "free_motion": destinations,
+    }
+    return dataset(data, coordinates, parameters(**damper(0.12, 2.0)), "made up")
+
+
 def world():
     """Datasets by stage and name, in which every claim is reproduced."""
     linear = {"a": 1.5, "b": 1.0}
@@ -365,5 +388,9 @@ def world():
             "figure_13": migration(1.95, 0.0),
             "figure_15": migration(1.7, 0.5),
             "figure_16": migration(1.85, 0.6),
+        },
+        "release_scan": {
+            "wide": release_scan([1.5, 1.6, 1.7, 1.8, 1.9], [0.5, 0.0, 0.5, 0.5, 1.0]),
+            "close": release_scan([1.65, 1.75], [0.2, 0.5]),
         },
     }

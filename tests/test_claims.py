@@ -289,6 +289,21 @@ def test_quiet_motion_touches_and_has_settled(data):
     assert extract.quiet(response).maximum_displacement[-1] < 0.2
 
 
+def test_release_phase_decides_in_the_nearest_range_of_all_scans(data):
+    values = BY_NUMBER["13"].evidence(data)
+    assert (values["quiet_first"], values["quiet_last"]) == (1.65, 1.8)
+    assert (values["unsettled_first"], values["unsettled_last"]) == (1.5, 1.8)
+    assert values["quiet_there"] == pytest.approx(0.8)
+
+
+def test_release_scans_of_another_damper_tell_nothing(data):
+    for name in ("wide", "close"):
+        renamed("release_scan", name, clearance=1.0)(data)
+    row = BY_NUMBER["13"].judge(data)
+    assert row["verdict"] == REPRODUCED
+    assert "lead to both: none" in row["evidence"]
+
+
 def test_unknown_dataset_is_named():
     with pytest.raises(Missing, match="no dataset design/figure_05a"):
         extract.get({}, "design", "figure_05a")

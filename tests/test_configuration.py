@@ -12,6 +12,7 @@ from impact_damper.configuration import (
     ConfigurationError,
     check_configuration,
     check_unique_keys,
+    without_left_out,
 )
 from impact_damper.figures import schematics
 
@@ -111,6 +112,9 @@ def test_unknown_keys_are_rejected(section):
         ("oscillators/h215/damping", -0.1, "greater than 0"),
         ("oscillators/h215/frequencies/first", 3, "less than last = 2.6"),
         ("optima/h215_rm012/clearances/last", 0.5, "less than last = 0.5"),
+        ("release_scans/wide/frequencies/first", 2, "less than last = 2"),
+        ("release_scans/wide/lifetime", 39, "at least 40, at most"),
+        ("release_scans/wide/oscillator", "h216", "one of h215, h150, h107, l100, l150"),
         ("curves/figure_05a/mass_ratio", 0, "greater than 0"),
         ("curves/figure_05a/clearance", "Rule", "of the form rule"),
         ("curves/figure_05a/clearance", "rule", "a number with stages beside design"),
@@ -182,3 +186,22 @@ def test_our_own_files_repeat_no_key(name):
 
 def test_every_schematic_has_its_drawing():
     assert all(callable(getattr(schematics, name)) for name in SCHEMATICS)
+
+
+def test_entries_set_to_null_are_left_out_with_what_only_they_are_drawn_for():
+    config = {
+        "curves": {"a": {"mass_ratio": 0.1}, "b": None},
+        "figures": {
+            "both": {"kind": "design", "data": ["a", "b"]},
+            "none": {"kind": "design", "data": ["b"]},
+            "dropped": None,
+        },
+    }
+    kept = without_left_out(config)
+    assert kept["curves"] == {"a": {"mass_ratio": 0.1}}
+    assert kept["figures"] == {"both": {"kind": "design", "data": ["a"]}}
+
+
+@pytest.mark.parametrize("config", [{"figures": {"a": 5}}, {"figures": {"a": {"kind": "design"}}}])
+def test_leaving_out_passes_on_what_the_schema_rejects(config):
+    assert without_left_out(config | {"curves": 5}) == config | {"curves": 5}

@@ -141,3 +141,23 @@ def test_no_band_where_the_damper_is_too_light():
     assert band.band_status == flag("band_status", "no_single_motion")
     assert np.all(np.isnan(band.edge_frequency))
     assert np.all(band.edge_event == flag("edge_event", "not_found"))
+
+
+@pytest.mark.parametrize(
+    "damper, frequencies, error, message",
+    [
+        (PAPER, [], ValueError, "frequencies: must be increasing, and at least one"),
+        (PAPER, [2.0, 1.0], ValueError, "frequencies: must be increasing"),
+        (PAPER, [[2.0]], TypeError, "frequency = .*: must be a number"),
+        (0.12, [2.0], TypeError, "damper = 0.12: must be a Damper"),
+        (Damper(0.12, 2.0, 0.9), [2.0], ValueError, "restitution = 0.9: must be 1"),
+    ],
+)
+def test_arguments_of_the_response(damper, frequencies, error, message):
+    with pytest.raises(error, match=message):
+        harmonic_balance_response(CUBIC, damper, frequencies)
+
+
+def test_a_band_needs_a_damper():
+    with pytest.raises(TypeError, match="damper = None: must be a Damper"):
+        suppression_band(CUBIC, None)

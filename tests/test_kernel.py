@@ -210,7 +210,7 @@ def test_contact_steps_never_pass_a_release(tolerance):
         damper = Damper(0.12, 2.0, 1.0, stiffness)
         p = pack(PAPER, damper, 2.0)
         _, log = sample(p, [0.0, 0.0, 2.0, 1.0], math.pi / 4, [math.pi / 4 + 1.0], tolerance)
-        half = math.pi / damper.contact_frequency
+        half = math.pi / math.sqrt(stiffness * (1 + 1 / damper.mass_ratio))
         assert abs(log[0, 2] - log[0, 1] - half) < 0.2 * half
 
 

@@ -185,6 +185,11 @@ def test_release_scan():
     assert_array_equal(shares.sel(free_motion="subharmonic"), [0, 1])
 
 
+def test_nothing_to_switch():
+    with pytest.raises(TypeError, match="damper = None"):
+        migrate(CUBIC, None, 1.95)
+
+
 @pytest.mark.parametrize("name", ["longest_hold", "periods", "switchings"])
 def test_bad_counts(name):
     with pytest.raises(ValueError, match=name):

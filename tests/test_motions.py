@@ -10,7 +10,14 @@ from scipy import stats
 
 from impact_damper import ensemble, orbits, recording
 from impact_damper.datasets import flag, parameters_of
-from impact_damper.motions import random_states, simulate, steady_motion, tabulate
+from impact_damper.motions import (
+    COMPONENTS,
+    random_states,
+    simulate,
+    steady_motion,
+    steady_orbit,
+    tabulate,
+)
 from impact_damper.parameters import Damper, pack
 
 ON_ORBIT = (0.00572, 0.187394, 0.001944, -2.407912)
@@ -72,15 +79,16 @@ def test_simulation_without_a_damper():
         ({"state": (1, 0.5, 0)}, "state = .*four finite numbers"),
         ({"state": (1, 0.5, 0, math.nan)}, "state = .*four finite numbers"),
         ({"periods": 0}, "periods = 0: must be finite and greater than 0"),
+        ({"damper": None, "state": (1, 0.5, 0)}, "state = .*or two without a damper"),
         ({"samples": 1}, "samples = 1: must be from 2"),
         ({"tolerance": 0.1}, "tolerance = 0.1"),
-        ({"start": math.inf}, "start = inf"),
+        ({"start": math.inf}, "start = inf: must be finite$"),
         ({"frequency": -2.0}, "frequency = -2"),
     ],
 )
 def test_arguments_are_checked(wrong, message):
     with pytest.raises(ValueError, match=message):
-        simulate(PAPER, DESIGN, **{"frequency": 2.0} | wrong)
+        simulate(PAPER, **{"damper": DESIGN, "frequency": 2.0} | wrong)
 
 
 @pytest.mark.parametrize("damper", [None, DESIGN, Damper(0.4, 0.625)])
@@ -117,6 +125,8 @@ def test_random_states_depend_on_the_seed_only():
     assert random_states(0, 2.0, DESIGN, 1).shape == (0, 4)
     with pytest.raises(ValueError, match="radius = 0"):
         random_states(5, 0.0, DESIGN, 1)
+    with pytest.raises(ValueError, match="radius = 2: .*within the gap"):
+        random_states(5, 2.0, Damper(0.12, 1e-6), 1)
 
 
 def test_steady_motion_of_the_design():
@@ -185,3 +195,19 @@ def test_settling_is_checked(wrong):
         ensemble.Settling(**wrong)
     with pytest.raises(ValueError, match="workers = 0"):
         ensemble.settle(np.empty((0, 7)), np.empty((0, 4)), workers=0)
+    with pytest.raises(ValueError, match="shapes"):
+        ensemble.settle(np.empty((1, 7)), np.empty((2, 4)))
+
+
+def test_steady_orbit_closes():
+    orbit = steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0))
+    ends = [orbit[name].values[[0, -1]] for name in COMPONENTS]
+    assert_allclose(*np.transpose(ends), atol=1e-8)
+    assert_allclose(np.ptp(orbit.time), np.pi)
+    assert orbit.sizes["contact"] == 2
+
+
+def test_steady_orbit_says_that_a_motion_has_not_settled():
+    with pytest.raises(ArithmeticError, match="limit = 120"):
+        settling = ensemble.Settling(patience=100, limit=120)
+        steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0), settling=settling)

@@ -9,14 +9,13 @@ from impact_damper.datasets import flag, load, save
 from impact_damper.harmonic_balance import contact_amplitude
 from impact_damper.motions import simulate
 from impact_damper.optimum import (
-    FIRST_HARMONIC_RATIO,
     NEAR_MINIMUM,
     _Branch,
     _near,
     _optimum_table,
     clearance_sweep,
-    straight_flight_ratio,
 )
+from impact_damper.optimum_theory import FIRST_HARMONIC_RATIO, straight_flight_ratio
 from impact_damper.parameters import Damper, Oscillator
 
 PAPER = Oscillator(0.215)
@@ -185,3 +184,9 @@ def test_optimum_at_the_end_of_the_branch():
 def test_clearances_are_checked(clearances):
     with pytest.raises(ValueError, match="clearances"):
         clearance_sweep(PAPER, ELASTIC, 2.0, clearances)
+
+
+@pytest.mark.parametrize("damper", [Damper(0.12, 2.0), ELASTIC | {"clearance": 2.0}])
+def test_damper_has_no_clearance(damper):
+    with pytest.raises(TypeError, match="without the clearance"):
+        clearance_sweep(PAPER, damper, 2.0, [1.0, 2.0])

@@ -73,8 +73,8 @@ def test_damping_of_the_contact_gives_the_restitution(mass_ratio, restitution):
     assert_allclose(math.exp(-math.pi * z / math.sqrt(1 - z**2)), restitution, rtol=1e-14)
     # the relative motion: q'' + (1 + 1/rm)(dashpot q' + r1 q) = 0
     inverse = 1 + 1 / mass_ratio
-    assert_allclose(damper.contact_frequency**2, damper.contact_stiffness * inverse)
-    assert_allclose(damper.dashpot * inverse, 2 * z * damper.contact_frequency, atol=1e-14)
+    natural = math.sqrt(damper.contact_stiffness * inverse)
+    assert_allclose(damper.dashpot * inverse, 2 * z * natural, atol=1e-14)
 
 
 def test_pack():
@@ -86,6 +86,10 @@ def test_pack():
     assert np.array_equal(off[4:], np.zeros(3))
     with pytest.raises(ValueError, match="frequency = -1"):
         pack(Oscillator(0.1), None, -1.0)
+    with pytest.raises(TypeError, match="oscillator = 0.1: must be an Oscillator"):
+        pack(0.1, None, 1.0)
+    with pytest.raises(TypeError, match="damper = 0.2: must be a Damper"):
+        pack(Oscillator(0.1), 0.2, 1.0)
 
 
 def test_describe():

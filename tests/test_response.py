@@ -62,6 +62,8 @@ def test_response_does_not_depend_on_threads(response):
         ({"frequencies": [2.0, 1.0]}, "frequencies: must be increasing"),
         ({"frequencies": []}, "at least one"),
         ({"frequencies": [0.0, 1.0]}, "frequency = 0"),
+        ({"frequencies": math.nan}, "frequency = nan"),
+        ({"frequencies": [1.0], "seed": -1}, "seed = -1"),
         ({"frequencies": [1.0], "starts": 0}, "starts = 0"),
         ({"frequencies": [1.0], "radius": -1.0}, "radius = -1"),
     ],
@@ -69,6 +71,22 @@ def test_response_does_not_depend_on_threads(response):
 def test_arguments_are_checked(wrong, message):
     with pytest.raises(ValueError, match=message):
         frequency_response(PAPER, DESIGN, **wrong)
+
+
+def test_one_frequency_has_no_ends():
+    """A number will do; with nothing to follow to, each motion is a branch by itself."""
+    data = frequency_response(PAPER, None, 2.0, starts=12)
+    assert data.sizes["frequency"] == 1 and data.sizes["end"] == 0
+    branches = data.branch.values[data.branch.values >= 0]
+    assert len(np.unique(branches)) == len(branches) > 1
+    assert np.isnan(data.phase_loose).all()
+
+
+@pytest.mark.parametrize("wrong", [{"starts": 0}, {"periods": 0}, {"tolerance": 0.0}])
+def test_arguments_of_collisions(wrong):
+    (name,) = wrong
+    with pytest.raises(ValueError, match=f"{name} = 0"):
+        collisions(PAPER, DESIGN, 1.8, **wrong)
 
 
 def test_collisions():

@@ -11,7 +11,7 @@ from impact_damper.subharmonic import (
     SWITCHED_MOTIONS,
     _suppression,
     free_subharmonic,
-    suppression,
+    subharmonic_suppression,
     switched_on,
 )
 
@@ -26,7 +26,7 @@ def free():
 
 @pytest.fixture(scope="module")
 def damped():
-    return suppression(PAPER, DAMPER, np.linspace(1.6, 2.2, 21), starts=32)
+    return subharmonic_suppression(PAPER, DAMPER, np.linspace(1.6, 2.2, 21), starts=32)
 
 
 def from_strobe(state, damper, frequency, periods=1):
@@ -150,7 +150,7 @@ def test_suppression_by_size():
 def test_no_free_subharmonic(tmp_path):
     """Heavy damping leaves none; the frequencies stay as given and the file is whole."""
     frequencies = np.linspace(1.6, 2.2, 3)
-    data = suppression(Oscillator(1.0), DAMPER, frequencies, starts=4)
+    data = subharmonic_suppression(Oscillator(1.0), DAMPER, frequencies, starts=4)
     assert_allclose(data.frequency, frequencies)
     assert np.all(data.suppression == flag("suppression", "no_subharmonic_without_damper"))
     assert np.isnan(data.free_subharmonic_frequency).all()
@@ -161,4 +161,9 @@ def test_no_free_subharmonic(tmp_path):
 @pytest.mark.parametrize("frequencies", [[2.0], [2.0, 1.0]])
 def test_frequencies_are_checked(frequencies):
     with pytest.raises(ValueError, match="frequencies"):
-        suppression(PAPER, DAMPER, frequencies)
+        subharmonic_suppression(PAPER, DAMPER, frequencies)
+
+
+def test_a_damper_is_needed():
+    with pytest.raises(TypeError, match="damper = None"):
+        subharmonic_suppression(PAPER, None, [1.6, 2.2])

@@ -11,7 +11,7 @@ from impact_damper import ensemble, orbits, recording
 from impact_damper.datasets import flag
 from impact_damper.motions import random_states
 from impact_damper.parameters import Damper, pack
-from impact_damper.sweep import CLEARANCE, FREQUENCY, Catalogue, sweep
+from impact_damper.sweep import CLEARANCE, FREQUENCY, Catalogue, _end_event, sweep
 
 FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 
@@ -142,3 +142,19 @@ def test_sweep_of_the_clearance():
         column = int(np.flatnonzero(data["contacts"][1][i] == 2)[0])
         back, _, _ = orbits.period_map(p, data["state"][1][i, column], 1, 1e-13)
         assert_allclose(back, data["state"][1][i, column], atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    "multiplier, event",
+    [
+        (0.5, "not_smooth"),
+        (complex(math.nan, math.nan), "not_smooth"),
+        (-0.999, "period_doubling"),
+        (0.6 + 0.8j, "neimark_sacker"),
+        (0.999, "fold"),
+    ],
+)
+def test_event_by_the_multiplier(multiplier, event):
+    record = np.zeros(2, recording.MOTION)
+    record["maximum_displacement"] = 1, 2
+    assert _end_event(record[0], complex(multiplier), record[1]) == event

@@ -72,6 +72,19 @@ def test_migration(data):
     assert row["median cycles"] == pytest.approx(150)
 
 
+def test_releases(data):
+    table = tables.releases(data).set_index(["scan", "released from", "leads to"])
+    both = table.loc["wide", "quiet", "non-resonance, subharmonic"]
+    assert both["at W"] == "1.5, 1.7 to 1.8"
+    assert both["frequencies"] == 3
+    assert both["to subharmonic"] == 0.5
+    assert table.loc["wide", "quiet", "non-resonance"]["at W"] == "1.6"
+    assert table.loc["wide", "unsettled", "subharmonic"]["at W"] == "1.9"
+    assert set(table.index.get_level_values("released from")) == {"unsettled", "quiet"}
+    shares = table[[name for name in table if name.startswith("to ")]]
+    assert shares.sum(axis=1).to_list() == pytest.approx([1] * len(table))
+
+
 def test_files(tmp_path):
     table = pd.DataFrame({"name": ["a|b", "c"], "number": [1 / 3, np.nan], "count": [10, 2000000]})
     csv, markdown = tmp_path / "new" / "table.csv", tmp_path / "new" / "table.md"

@@ -74,6 +74,7 @@ def finished(tmp_path_factory):
             "collisions": ["figure_05a"],
             "optima": ["h215_rm012", "h215_rm018"],
             "migration": ["figure_13"],
+            "release_scans": ["close"],
             "figures": ["figure_01", "figure_02", "figure_05a", "figure_08", "figure_13"],
         },
     )
@@ -111,7 +112,7 @@ def test_every_script_serves_the_paper_and_the_smoke_run(arguments, tmp_path):
 
 
 def test_each_stage_is_a_target():
-    stages = ("design", "free", "response", "optimum", "subharmonic", "migration")
+    stages = ("design", "free", "response", "optimum", "subharmonic", "migration", "release_scan")
     found = jobs(snakemake(ROOT, *stages, "figures", "tables", "-n", "--forceall"))
     assert {*stages, "figures", "tables"} < found.keys()
 
@@ -215,6 +216,15 @@ def test_a_script_reruns_its_own_jobs(edit):
         "Migration control, the case figure_13",
         "Drawing figure_13",
         "Table of migration",
+        "Table of claims",
+    }
+
+
+def test_a_release_scan_reruns_itself_and_its_tables(edit):
+    plan = edit("config/config.yaml", lambda text: text.replace("last: 1.76", "last: 1.77"))
+    assert plan == {
+        "Where releases lead over frequency, the scan close",
+        "Table of releases",
         "Table of claims",
     }
 

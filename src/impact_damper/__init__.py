@@ -18,7 +18,7 @@ _HOMES = {
     "suppression_band": "design",
     "optimum_clearance": "design",
     "clearance_sweep": "optimum",
-    "suppression": "subharmonic",
+    "subharmonic_suppression": "subharmonic",
     "migrate": "migration",
 }
 

@@ -85,9 +85,10 @@ def without_left_out(config) -> dict:
     }
     for name, figure in list(kept.get("figures", {}).items()):
         section = SECTIONS.get(figure.get("kind")) if isinstance(figure, dict) else None
-        if section is None or not isinstance(figure.get("data"), list):
+        entries = config.get(section)
+        if not isinstance(entries, dict) or not isinstance(figure.get("data"), list):
             continue
-        left_out = {key for key, entry in config.get(section, {}).items() if entry is None}
+        left_out = {key for key, entry in entries.items() if entry is None}
         data = [key for key in figure["data"] if key not in left_out]
         if data:
             kept["figures"][name] = figure | {"data": data}
@@ -163,7 +164,7 @@ def _lines(error):
 
 def _contradictions(config):
     """Problems between values that are each allowed."""
-    for section in ("curves", "motions", "collisions", "optima", "migration"):
+    for section in ("curves", "motions", "collisions", "optima", "migration", "release_scans"):
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -176,6 +177,8 @@ def _contradictions(config):
         yield from _reversed(["oscillators", name, "frequencies"], oscillator["frequencies"])
     for name, optimum in config["optima"].items():
         yield from _reversed(["optima", name, "clearances"], optimum["clearances"])
+    for name, scan in config["release_scans"].items():
+        yield from _reversed(["release_scans", name, "frequencies"], scan["frequencies"])
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, figure in config["figures"].items():

@@ -41,6 +41,15 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
         What made the data; kept as a JSON attribute.
     title : str
         One line that says what the dataset is.
+
+    Returns
+    -------
+    xarray.Dataset
+
+    Raises
+    ------
+    KeyError
+        If the registry does not hold a name.
     """
 
     def labelled(items):

@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper import harmonic_balance as balance
 from impact_damper.datasets import dataset, flag
-from impact_damper.parameters import check_number, describe
+from impact_damper.parameters import check_frequencies, check_number, describe
 from impact_damper.slow_flow import fixed_points, growth_rate, stability
 
 MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6  # six impacting ones seen at most
@@ -22,7 +22,12 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     ----------
     oscillator : Oscillator
     mass_ratio : float
-        rm.
+        rm, dimensionless.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the mass ratio is not a number or out of range.
     """
     mass_ratio = check_number("mass_ratio", mass_ratio, above=0.0, most=10.0)
     return float(1 / (mass_ratio * balance.peak_frequency(oscillator) ** 2))
@@ -37,7 +42,7 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     damper : Damper or None
         Elastic; without a damper only the free response is returned.
     frequencies : array_like, shape (n,)
-        Forcing frequencies W.
+        Increasing forcing frequencies W, dimensionless.
 
     Returns
     -------
@@ -51,9 +56,9 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     Raises
     ------
     ValueError
-        If the damper is not elastic or a frequency is not positive.
+        If the damper is not elastic, or frequencies are not positive and increasing.
     """
-    frequencies = np.atleast_1d(np.asarray(frequencies, float))
+    frequencies = check_frequencies(frequencies)
     tables = [_free_table(oscillator, frequencies)]
     if damper is not None:
         tables += [
@@ -174,6 +179,8 @@ def suppression_band(oscillator, damper):
     ------
     ValueError
         If the damper is not elastic.
+    ArithmeticError
+        If (7) could not be resolved at a frequency.
     """
     peak = balance.peak_frequency(oscillator)
     resonance = 1 / (oscillator.damping * peak)
@@ -236,7 +243,7 @@ def _look(oscillator, damper, frequency, last):
     solutions = balance.impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
     free = balance.free_solutions(oscillator, frequency).amplitude
-    stable = np.sort(np.abs(solutions.amplitude[stability(growth) == 1]))
+    stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
     return _Look(len(growth), stable, free[-1] if frequency <= last else np.nan, free[0])
 
 

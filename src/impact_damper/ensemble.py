@@ -26,11 +26,18 @@ class Settling:
     tolerance : float
         Local error allowed in a step of the integrator, dimensionless.
     patience : int
-        Forcing periods after which a motion that is chaotic beyond doubt is let go.
+        Forcing periods after which a motion that is chaotic beyond doubt is let go, and so is
+        one in which the loose mass hardly moves and has met no wall for as long.
     limit : int
-        Forcing periods after which a motion is stored as unresolved.
+        Forcing periods after which any motion is stopped: chaotic, if that is certain by then,
+        or unresolved.
     watched : int
-        Forcing periods over which a motion that has not settled is measured.
+        Further forcing periods over which a motion that has not settled is measured.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is not a number or out of range.
     """
 
     tolerance: float = 1e-9
@@ -41,7 +48,7 @@ class Settling:
     def __post_init__(self):
         check_number("tolerance", self.tolerance, least=1e-14, most=1e-3)
         check_count("patience", self.patience, least=100, most=10**7)
-        check_count("limit", self.limit, least=self.patience, most=10**8)
+        check_count("limit", self.limit, least=self.patience, most=10**8, why="not below patience")
         check_count("watched", self.watched, most=10**6)
 
 
@@ -67,6 +74,8 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
     states : array, shape (m, 4)
         First states Z1, Z1', Z2, Z2', at T = 0 or, with `from_strobe`, at W T = pi/2.
     settling : Settling, optional
+    from_strobe : bool
+        Whether the states are given at W T = pi/2.
     workers : int
         Threads.
     progress : str, optional
@@ -75,10 +84,20 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
     Returns
     -------
     numpy.ndarray of recording.MOTION, shape (m,)
+
+    Raises
+    ------
+    ValueError
+        If parameters or states are not of these shapes.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
     states = np.ascontiguousarray(states, float)
+    if states.shape[1:] != (4,) or parameters.shape != (len(states), 7):
+        raise ValueError(
+            f"parameters and states: must be of shapes (m, 7) and (m, 4), "
+            f"{parameters.shape} and {states.shape} given"
+        )
     found = np.zeros(len(states), MOTION)
 
     def work(part):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from impact_damper.parameters import check_frequency
+from impact_damper.parameters import check_damper, check_frequency
 from impact_damper.roots import polynomial_roots, smooth_roots
 
 
@@ -88,7 +88,13 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
-    """All real roots of (14), ascending, and what they mean in (13)."""
+    """All real roots of (14), ascending, and what they mean in (13).
+
+    Raises
+    ------
+    ValueError
+        If the contact is not elastic, or the frequency out of range.
+    """
     _check_elastic(damper)
     frequency = check_frequency(frequency)
     inertia = damper.mass_ratio * frequency**2
@@ -140,6 +146,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
     """Motions that touch no wall, the loose mass at rest: the free ones with |a| < d0."""
+    check_damper(damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
     return Solutions(free.amplitude[inside], free.amplitude[inside], free.phase[inside])
@@ -299,6 +306,7 @@ def _excess(angle):
 
 
 def _check_elastic(damper):
+    check_damper(damper)
     if damper.restitution != 1:
         raise ValueError(
             f"restitution = {damper.restitution:g}: must be 1, "

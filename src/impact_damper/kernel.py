@@ -23,8 +23,8 @@ from impact_damper.series import (
 )
 
 ROUNDING = 2.0**-50
-# A step no longer than this fraction of the contact's natural period cannot step
-# over a whole contact's end, whatever the tolerance.
+# Share of the contact's natural period that a step may take. A contact lasts half a period:
+# a series beyond that is cut at the release, and only loosens the bound that certifies it.
 CONTACT_CAP = 0.4
 TINY = 1e-300
 # Local errors pass through contacts, which amplify them; this share of the tolerance

@@ -11,7 +11,7 @@ import numpy as np
 
 from impact_damper import ensemble, recording, switching
 from impact_damper.datasets import dataset, flag
-from impact_damper.parameters import check_count, describe
+from impact_damper.parameters import check_count, check_damper, describe
 from impact_damper.releases import (
     DESTINATIONS,
     KINDS,
@@ -27,7 +27,7 @@ from impact_damper.survival import BOUNDS, wilson
 from impact_damper.variables import DAMPED_MOTION, FREE_MOTION
 
 PAPER_CYCLES = 350
-LEAD = 10
+MARGIN = 10
 SAMPLES = 40
 SWITCHING = np.dtype(
     [
@@ -95,15 +95,15 @@ def _control(here, draws, longest_hold, settling, periods):
 
 
 def _trace(here, path, log, tolerance):
-    """Times T and Z1 along a run, from LEAD periods before its first strobe to LEAD after its end.
+    """Times T and Z1 along a run, and MARGIN periods before its first strobe and after its end.
 
     Each stretch between two rows of the path is integrated by itself, so that a chaotic motion
     is the very one that was controlled.
     """
     period = 2 * np.pi / here.on[0]
-    path = np.vstack([np.append(-LEAD, here.state), path])
-    ends = np.append(path[1:, 0], path[-1, 0] + LEAD)
-    times = np.arange(-LEAD * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
+    path = np.vstack([np.append(-MARGIN, here.state), path])
+    ends = np.append(path[1:, 0], path[-1, 0] + MARGIN)
+    times = np.arange(-MARGIN * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
     log = log[log["destination"] != FREE_MOTION["none"]]
     switched = np.stack([log["on_time"], log["off_time"]], axis=-1).ravel()
     damped = np.searchsorted(switched, (path[:, 0] + ends) / 2) % 2 == 1
@@ -149,6 +149,7 @@ def _totals(logs):
 
 def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
     """The scene, and the parameters of the dataset, or an error that names a bad argument."""
+    check_damper(damper)
     check_count("longest_hold", longest_hold, most=10**6)
     check_count("periods", periods, most=10**6)
     check_count("switchings", switchings, most=10**4)

@@ -61,6 +61,8 @@ def land(p, y, periods, near, out):
     """Take a motion onto the stable orbit that it is near; false if there is none.
 
     A motion that spirals in seems to repeat after several periods: its divisors are tried first.
+    Within NEAREST a motion counts as the orbit even where Newton's method fails, for the map may
+    not be smooth there; its residual and multiplier are then NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):

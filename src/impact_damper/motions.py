@@ -6,6 +6,8 @@ from impact_damper import ensemble, recording
 from impact_damper.datasets import dataset, flag
 from impact_damper.parameters import check_count, check_number, describe, pack
 
+# Below this share of the first harmonic of Z1 another one is rounding and has no phase.
+PHASELESS = 1e-9
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 
 
@@ -20,11 +22,14 @@ def check_state(state, damper):
         If the state is not four finite numbers, or two without a damper.
     """
     state = np.array(state, float)
+    allowed = "four finite numbers Z1, Z1', Z2, Z2'"
+    if damper is None:
+        allowed += ", or two without a damper"
     if damper is None and state.shape == (2,):
         state = np.concatenate([state, state])
     if state.shape != (4,) or not np.isfinite(state).all():
         raise ValueError(
-            f"state = {state.tolist()}: must be four finite numbers Z1, Z1', Z2, Z2' "
+            f"state = {state.tolist()}: must be {allowed} "
             "(the paper's figure 4 gives three; a state of this system has four)"
         )
     return state
@@ -37,7 +42,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     ----------
     count : int
     radius : float
-        Dimensionless; 2 in the paper.
+        Dimensionless; 2 in the paper. Within the gap at most 1000 clearances.
     damper : Damper or None
         Without a damper the ball is that of (Z1, Z1'), and Z2 = Z1.
     seed : int or sequence of int
@@ -48,9 +53,19 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     Returns
     -------
     numpy.ndarray, shape (count, 4)
+
+    Raises
+    ------
+    TypeError, ValueError
+        If count, radius or seed is out of range.
     """
     check_count("count", count, least=0, most=10**8)
     check_number("radius", radius, above=0.0, most=1e3)
+    if damper is not None and within_gap:
+        most = 1e3 * damper.clearance
+        check_number("radius", radius, above=0.0, most=most, why="hardly a draw is within the gap")
+    for value in np.atleast_1d(seed):
+        check_count("seed", value, least=0, most=2**63 - 1)
     generator = np.random.default_rng(seed)
     size = 2 if damper is None else 4
     states = np.empty((0, size))
@@ -100,7 +115,12 @@ def simulate(
     -------
     xarray.Dataset
         The state over `time`, and over `contact` the log of contacts: wall, beginning, end,
-        and approach and departure speeds (NaN for an end after the last sample).
+        and Z2' at both (NaN for an end after the last sample).
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
     """
     p = pack(oscillator, damper, frequency)
     y = check_state(state, damper)
@@ -135,7 +155,8 @@ def tabulate(records):
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
 
     def phase(reference):
-        return np.where(reference == 0, np.nan, np.angle(first * np.conj(reference)))
+        phaseless = np.abs(reference) <= PHASELESS * np.abs(first)
+        return np.where(phaseless, np.nan, np.angle(first * np.conj(reference)))
 
     return {
         "outcome": records["outcome"],
@@ -157,12 +178,27 @@ def tabulate(records):
 def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
     """The steady motion that a state at T = 0 leads to.
 
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        Forcing frequency W, dimensionless.
+    state : sequence of 4 floats, or 2 without a damper
+        Z1, Z1', Z2, Z2' at T = 0.
+    settling : Settling, optional
+
     Returns
     -------
     xarray.Dataset
         Scalars: outcome, period (in forcing periods), contacts per forcing period, extremum of
         |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent; and `state`,
         a state of the motion at W T = pi/2.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
     """
     settling = settling or ensemble.Settling()
     p = pack(oscillator, damper, frequency)
@@ -171,6 +207,45 @@ def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, 
     data["state"] = (("component",), record["state"])
     made = describe(oscillator, damper, settling) | {"frequency": float(frequency)}
     return dataset(data, {"component": list(COMPONENTS)}, made, "Steady motion of the oscillator")
+
+
+def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=None):
+    """One period, sampled, of the steady motion that a state at T = 0 settles to.
+
+    Parameters
+    ----------
+    oscillator, damper, frequency, state, settling
+        As in `steady_motion`.
+    samples : int
+        Samples per forcing period.
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `simulate`, from W T = pi/2 on.
+
+    Raises
+    ------
+    ArithmeticError
+        If the motion does not settle.
+    """
+    settling = settling or ensemble.Settling()
+    steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
+    if not is_settled(steady):
+        raise ArithmeticError(
+            f"settling.limit = {settling.limit}: the motion has not settled by then; a larger limit "
+            "lets it run on, and steady_motion tells what it came to"
+        )
+    return simulate(
+        oscillator,
+        damper,
+        frequency,
+        steady["state"].values,
+        periods=int(steady["period"]),
+        samples=samples,
+        start=np.pi / (2 * frequency),
+        tolerance=settling.tolerance,
+    )
 
 
 def is_settled(records):

@@ -5,23 +5,27 @@ branch that holds it at the clearance nearest to rule (18) is followed over the 
 its largest displacement is what the figures draw.
 """
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from impact_damper import harmonic_balance as balance
 from impact_damper import orbits, recording
 from impact_damper.datasets import dataset, flag
 from impact_damper.design import optimum_clearance
 from impact_damper.ensemble import Settling
 from impact_damper.motions import COMPONENTS, random_states
-from impact_damper.parameters import Damper, check_count, check_frequency, describe, pack
-from impact_damper.slow_flow import fixed_points, growth_rate, stability
+from impact_damper.optimum_theory import analytical_table, excess_table
+from impact_damper.parameters import (
+    Damper,
+    check_count,
+    check_frequency,
+    check_increasing,
+    describe,
+    pack,
+)
 from impact_damper.sweep import CLEARANCE, RESOLUTION, SAME, sweep
 
-FIRST_HARMONIC_RATIO = np.pi**2 / 8
 NEAR_MINIMUM = 1.1
 
 
@@ -61,20 +65,26 @@ def clearance_sweep(
         minimum it is, both for the motion and for (7); rules (18) and (19); rm W^2 d0 at the
         optimum and which shares of its excess over 1 two corrections of (18) explain: that
         of the first harmonic for a loose mass that flies straight, pi^2/8, and
-        `straight_flight_ratio`. Over `edge` the range of clearance within 10 % of the minimum.
+        `optimum_theory.straight_flight_ratio`. Over `edge` the range of clearance within 10 % of
+        the minimum.
 
     Raises
     ------
+    TypeError
+        If `damper` is not such a dictionary.
     ValueError
         If clearances are not increasing, or a parameter is out of range.
     """
     settling = settling or Settling()
     check_count("starts", starts, most=10**6)
     frequency = check_frequency(frequency)
-    clearances = np.array(clearances, float)
-    if len(clearances) < 2 or np.any(np.diff(clearances) <= 0):
-        raise ValueError("clearances: must be increasing, and at least two")
-    dampers = [Damper(clearance=value, **damper) for value in clearances]
+    if not isinstance(damper, dict) or "clearance" in damper:
+        raise TypeError(
+            f"damper = {damper!r}: must be a dictionary of the arguments of Damper without the "
+            "clearance, which is swept"
+        )
+    dampers = [Damper(clearance=value, **damper) for value in np.atleast_1d(clearances)]
+    clearances = check_increasing("clearances", [each.clearance for each in dampers], "two")
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
     states = np.array(
         [random_states(starts, radius, each, [seed, i]) for i, each in enumerate(dampers)]
@@ -87,14 +97,14 @@ def clearance_sweep(
     data |= (
         _quiet_table(branch)
         | _optimum_table(branch)
-        | _analytical_table(oscillator, dampers, frequency)
+        | analytical_table(oscillator, dampers, frequency)
     )
     data |= {
         "largest_displacement": _largest(data),
         "rule_clearance": 1 / inertia,
         "peak_rule_clearance": optimum_clearance(oscillator, dampers[0].mass_ratio),
     }
-    data |= _excess_table(inertia * data["optimum_clearance"], dampers[0])
+    data |= excess_table(inertia * data["optimum_clearance"], dampers[0])
     made = (
         describe(oscillator, settling)
         | damper
@@ -106,33 +116,6 @@ def clearance_sweep(
         "edge": ["lower", "upper"],
     }
     return dataset(data, coordinates, made, "Largest displacement against clearance")
-
-
-def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
-    """rm W^2 d0 for which max |Z1| is least, in the limit of high frequency and rigid walls.
-
-    There spring and damping do not count, and the loose mass flies straight: with t from an
-    impact, W^2 Z1 = -cos(W t + s) + q (1 - 2 W t/pi) for half a period, and so on mirrored.
-    The impulses set q, and restitution their phase s behind the peak of the forcing,
-    sin(s) = (2 q/pi) (1 + 1/rm) (1 - e)/(1 + e); then rm W^2 d0 = (1 + rm) q - rm cos(s).
-    For e = 1 the least maximum is at q = 1.1382.
-
-    Parameters
-    ----------
-    mass_ratio, restitution : float
-        rm and e.
-    """
-    lag = 2 / np.pi * (1 + 1 / mass_ratio) * (1 - restitution) / (1 + restitution)
-
-    def largest(impulse):
-        phase = np.arcsin(lag * impulse)
-        turn = np.arcsin(2 * impulse / np.pi)
-        at = np.array([phase, max(phase, turn), np.pi - turn])
-        return np.max(np.abs(impulse * (1 - 2 * (at - phase) / np.pi) - np.cos(at)))
-
-    most = np.pi / 2 if lag == 0 else min(np.pi / 2, 1 / lag)
-    best = minimize_scalar(largest, bounds=(0, most), method="bounded", options={"xatol": 1e-10}).x
-    return float((1 + mass_ratio) * best - mass_ratio * np.sqrt(1 - (lag * best) ** 2))
 
 
 class _Branch(NamedTuple):
@@ -249,7 +232,8 @@ def _optimum_table(branch):
     )
     candidates = {value: branch.displacement(value) for value in bounds} | {inner.x: inner.fun}
     best = min(candidates, key=candidates.get)
-    kind = _kind(branch, best, candidates[best])
+    room = [abs(best - value) for value, event in limits if event == "branch_ends"]
+    kind = _kind(branch, best, candidates[best], min([1e-3 * best, *room]))
     for value, event in limits:
         if abs(best - value) < 1e-6 and event != "crossed":
             kind = "jump" if event == "branch_ends" else "edge"
@@ -263,11 +247,14 @@ def _optimum_table(branch):
     }
 
 
-def _kind(branch, best, least):
-    """Smooth or kink: as the step is halved the rise on both sides falls fourfold or twofold."""
+def _kind(branch, best, least, longest):
+    """Smooth or kink: as the step is halved the rise on both sides falls fourfold or twofold.
+
+    No step goes beyond `longest`, where the branch may end.
+    """
     rises = [
         branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
-        for step in (1e-3 * best, 5e-4 * best)
+        for step in (longest, longest / 2)
     ]
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
@@ -281,50 +268,3 @@ def _near(branch, best, level, step):
         if branch.displacement(outside) > level:
             return brentq(lambda x: branch.displacement(x) - level, inside, outside), "crossed"
     return outside, event
-
-
-def _analytical(oscillator, damper, frequency):
-    """Signed a of the stable solution of (7) with the smallest |a|, and how the search ended."""
-    if damper.restitution != 1:
-        return np.nan, "inelastic"
-    try:
-        solutions = balance.impacting_solutions(oscillator, damper, frequency)
-    except ArithmeticError:
-        return np.nan, "unresolved"
-    growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
-    stable = solutions.amplitude[stability(growth) == flag("stability", "stable")]
-    return (min(stable, key=abs), "found") if len(stable) else (np.nan, "absent")
-
-
-def _analytical_table(oscillator, dampers, frequency):
-    """|a| of (7) over the sweep, and the clearance where a vanishes."""
-    signed, status = zip(
-        *(_analytical(oscillator, each, frequency) for each in dampers), strict=True
-    )
-    signed = np.array(signed)
-    best, kind = np.nan, "not_found"
-    for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
-        best = brentq(
-            lambda x: _analytical(oscillator, replace(dampers[0], clearance=x), frequency)[0],
-            dampers[k].clearance,
-            dampers[k + 1].clearance,
-        )
-        kind = "kink"
-    return {
-        "analytical_amplitude": np.abs(signed),
-        "analytical_status": np.array([flag("analytical_status", each) for each in status]),
-        "analytical_optimum": best,
-        "analytical_kind": flag("optimum_kind", kind),
-    }
-
-
-def _excess_table(ratio, damper):
-    """rm W^2 d0 at the optimum, and the shares of its excess over 1 that are explained."""
-    straight = straight_flight_ratio(damper.mass_ratio, damper.restitution)
-    harmonic = FIRST_HARMONIC_RATIO if damper.restitution == 1 else np.nan
-    return {
-        "optimum_ratio": ratio,
-        "straight_flight_ratio": straight,
-        "first_harmonic_share": (harmonic - 1) / (ratio - 1),
-        "straight_flight_share": (straight - 1) / (ratio - 1),
-    }

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 
-def check_number(name, value, *, above=None, least=None, below=None, most=None, why=""):
+def check_number(name, value, *, above=None, least=None, most=None, why=""):
     """Return `value` as a float, or raise an error that names what is allowed.
 
     Raises
@@ -27,29 +27,52 @@ def check_number(name, value, *, above=None, least=None, below=None, most=None, 
     bounds = [
         (above, "greater than", lambda bound: value > bound),
         (least, "at least", lambda bound: value >= bound),
-        (below, "less than", lambda bound: value < bound),
         (most, "at most", lambda bound: value <= bound),
     ]
-    allowed = " and ".join(f"{word} {bound:g}" for bound, word, _ in bounds if bound is not None)
+    allowed = [f"{word} {bound:g}" for bound, word, _ in bounds if bound is not None]
     holds = all(test(bound) for bound, _, test in bounds if bound is not None)
     if not math.isfinite(value) or not holds:
         reason = f" ({why})" if why else ""
-        raise ValueError(f"{name} = {value:g}: must be finite and {allowed}{reason}")
+        raise ValueError(
+            f"{name} = {value:g}: must be {' and '.join(['finite', *allowed])}{reason}"
+        )
     return value
 
 
-def check_count(name, value, *, least=1, most=10**9):
+def check_count(name, value, *, least=1, most=10**9, why=""):
     """Return `value` as an int, or raise TypeError or ValueError naming what is allowed."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} = {value!r}: must be a whole number")
     if not least <= value <= most:
-        raise ValueError(f"{name} = {value}: must be from {least} to {most}")
+        reason = f" ({why})" if why else ""
+        raise ValueError(f"{name} = {value}: must be from {least} to {most}{reason}")
     return int(value)
 
 
 def check_frequency(value):
     """Return the forcing frequency W, or raise if it is not a positive number."""
     return check_number("frequency", value, above=0.0, most=1e3, why="the forcing is periodic")
+
+
+def check_increasing(name, values, least="one"):
+    """Return numbers as an array, or raise ValueError unless they increase; `least` one or two."""
+    values = np.array(values, float)
+    if len(values) < {"one": 1, "two": 2}[least] or np.any(np.diff(values) <= 0):
+        raise ValueError(f"{name}: must be increasing, and at least {least}; {values} given")
+    return values
+
+
+def check_frequencies(values, least="one"):
+    """Return increasing forcing frequencies as an array, or raise as `check_frequency` does."""
+    return check_increasing(
+        "frequencies", [check_frequency(w) for w in np.atleast_1d(values)], least
+    )
+
+
+def check_damper(damper):
+    """Raise TypeError if `damper` is not a Damper, where None would have no meaning."""
+    if not isinstance(damper, Damper):
+        raise TypeError(f"damper = {damper!r}: must be a Damper")
 
 
 @dataclass(frozen=True)
@@ -62,6 +85,11 @@ class Oscillator:
         h = c1/(m1 w0), dimensionless.
     linear_frequency : float
         omega_l = sqrt(kl/(m1 w0^2)), dimensionless; 0 for a purely cubic spring.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is not a number or out of range; so does `Damper`.
     """
 
     damping: float
@@ -116,11 +144,6 @@ class Damper:
         """Dashpot coefficient 2 zeta_c sqrt(r1 rm) of equation (22)."""
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
-    @property
-    def contact_frequency(self) -> float:
-        """Undamped frequency sqrt(r1 (1 + 1/rm)) of the loose mass on a wall."""
-        return math.sqrt(self.contact_stiffness * (1 + 1 / self.mass_ratio))
-
 
 def pack(oscillator, damper, frequency) -> np.ndarray:
     """Parameters as the kernels read them; `damper=None` switches the damper off.
@@ -129,11 +152,21 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     -------
     numpy.ndarray, shape (7,)
         W, h, omega_l^2, d0, r1, 1/rm, dashpot. Without a damper d0 is infinite.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not of its type.
+    ValueError
+        If the frequency is out of range.
     """
     frequency = check_frequency(frequency)
+    if not isinstance(oscillator, Oscillator):
+        raise TypeError(f"oscillator = {oscillator!r}: must be an Oscillator")
     stiffness = oscillator.linear_frequency**2
     if damper is None:
         return np.array([frequency, oscillator.damping, stiffness, np.inf, 0.0, 0.0, 0.0])
+    check_damper(damper)
     return np.array(
         [
             frequency,

@@ -36,6 +36,7 @@ def release_scan(
     frequencies,
     *,
     starts=24,
+    radius=2.0,
     releases=100,
     lifetime=200,
     seed=1995,
@@ -53,6 +54,8 @@ def release_scan(
         Increasing forcing frequencies at which both free period-1 motions exist.
     starts : int
         Random starts a frequency; the motions found are followed in frequency as well.
+    radius : float
+        Of the ball around rest from which the starts are drawn.
     releases : int
         Releases of each motion.
     lifetime : int
@@ -82,6 +85,7 @@ def release_scan(
         damper,
         frequencies,
         starts=starts,
+        radius=radius,
         seed=seed,
         settling=settling,
         workers=workers,
@@ -106,6 +110,7 @@ def release_scan(
     data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
     made = describe(oscillator, damper, settling) | {
         "starts": starts,
+        "radius": radius,
         "releases": releases,
         "lifetime": lifetime,
         "seed": seed,

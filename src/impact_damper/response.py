@@ -6,7 +6,13 @@ from impact_damper import recording
 from impact_damper.datasets import dataset
 from impact_damper.ensemble import Settling
 from impact_damper.motions import COMPONENTS, random_states
-from impact_damper.parameters import check_count, check_frequency, describe, pack
+from impact_damper.parameters import (
+    check_count,
+    check_frequencies,
+    check_number,
+    describe,
+    pack,
+)
 from impact_damper.sweep import FREQUENCY, sweep
 
 
@@ -22,7 +28,7 @@ def frequency_response(
     workers=1,
     progress=None,
 ):
-    """All motions found at each frequency, with and without following.
+    """All motions found at each frequency, from random starts and by following (section 3).
 
     Parameters
     ----------
@@ -45,8 +51,9 @@ def frequency_response(
     -------
     xarray.Dataset
         Over (frequency, motion) the distinct motions with outcome, period, contacts, extremum of
-        |Z1|, phases, multiplier, Lyapunov exponent, branch, and share of the random starts; over
-        (frequency, start) outcome and length of each run; over `end` the ends of branches.
+        |Z1|, phases, multiplier, Lyapunov exponent, branch, and number of the random starts that
+        lead there; over (frequency, start) outcome and length of each run; over `end` the ends
+        of branches.
 
     Raises
     ------
@@ -55,9 +62,7 @@ def frequency_response(
     """
     settling = settling or Settling()
     check_count("starts", starts, most=10**6)
-    frequencies = np.array([check_frequency(value) for value in frequencies])
-    if len(frequencies) == 0 or np.any(np.diff(frequencies) <= 0):
-        raise ValueError("frequencies: must be increasing, and at least one")
+    frequencies = check_frequencies(frequencies)
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
     states = np.array(
         [random_states(starts, radius, damper, [seed, i]) for i in range(len(frequencies))]
@@ -87,13 +92,38 @@ def collisions(
 ):
     """Whether starts in the literal ball, and in the ball within the gap, lead to a collision.
 
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+        Without a damper there is nothing to meet.
+    frequency : float
+        Forcing frequency W, dimensionless.
+    starts : int
+        Starts in each ball, at T = 0.
+    radius : float
+        Radius of the ball; 2 in the paper (section 3, iii).
+    seed : int
+    periods : int
+        Forcing periods within which a collision counts.
+    tolerance : float
+        Local error allowed.
+
     Returns
     -------
     xarray.Dataset
         Over `ball` (literal, within the gap): shares of starts that lie beyond a wall, that
         collide within the given forcing periods, and the longest wait for the first collision.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
     """
     p = pack(oscillator, damper, frequency)
+    check_count("starts", starts, most=10**7)
+    check_count("periods", periods, most=10**6)
+    check_number("tolerance", tolerance, least=1e-15, most=1e-2)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):
         states = random_states(starts, radius, damper, [seed, row], within_gap=within_gap)

@@ -12,7 +12,7 @@ from impact_damper import orbits, recording
 from impact_damper.datasets import dataset, flag
 from impact_damper.ensemble import Settling
 from impact_damper.motions import COMPONENTS, random_states
-from impact_damper.parameters import check_count, check_frequency, describe, pack
+from impact_damper.parameters import check_count, check_damper, check_frequencies, describe, pack
 from impact_damper.sweep import FREQUENCY, RESOLUTION, SAME, sweep
 
 SEARCHED = 81
@@ -29,7 +29,7 @@ SWITCHED_MOTIONS = (
 )
 
 
-def suppression(
+def subharmonic_suppression(
     oscillator,
     damper,
     frequencies,
@@ -71,14 +71,15 @@ def suppression(
 
     Raises
     ------
+    TypeError
+        If there is no damper.
     ValueError
         If frequencies are not increasing, or a parameter is out of range.
     """
     settling = settling or Settling()
     check_count("starts", starts, least=2, most=10**6)
-    frequencies = np.array([check_frequency(value) for value in frequencies])
-    if len(frequencies) < 2 or np.any(np.diff(frequencies) <= 0):
-        raise ValueError("frequencies: must be increasing, and at least two")
+    check_damper(damper)
+    frequencies = check_frequencies(frequencies, "two")
     free = free_subharmonic(
         oscillator,
         frequencies[0],
@@ -93,22 +94,7 @@ def suppression(
         margin = BEYOND * (free.ends[1] - free.ends[0])
         frequencies = np.linspace(free.ends[0] - margin, free.ends[1] + margin, len(frequencies))
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
-    states = np.array(
-        [random_states(starts, radius, damper, [seed, i]) for i in range(len(frequencies))]
-    )
-    size = np.full(len(frequencies), np.nan)
-    for i, p in enumerate(parameters):
-        record = free.at(p[FREQUENCY])
-        if record is not None:
-            size[i] = record["maximum_displacement"]
-            half = starts // 2
-            states[i, :half] = switched_on(
-                oscillator,
-                p,
-                record["state"],
-                states[i, :half],
-                np.random.default_rng([seed, i, half]),
-            )
+    states, size = _starts(oscillator, damper, parameters, free, starts, radius, seed)
     data = sweep(
         parameters, FREQUENCY, "frequency", states, settling, workers=workers, progress=progress
     )
@@ -221,6 +207,24 @@ def switched_on(oscillator, p, state, loose, generator):
         until = np.array([np.ceil(time / period) * period])
         recording.trace(p, y, time, until, orbits.POLISH_TOLERANCE, np.empty((1, 4)), log)
     return states
+
+
+def _starts(oscillator, damper, parameters, free, starts, radius, seed):
+    """Starts (n, starts, 4) of `subharmonic_suppression`, and max |Z1| (n,) of the free subharmonic or NaN."""
+    states = np.array(
+        [random_states(starts, radius, damper, [seed, i]) for i in range(len(parameters))]
+    )
+    size = np.full(len(parameters), np.nan)
+    half = starts // 2
+    for i, p in enumerate(parameters):
+        record = free.at(p[FREQUENCY])
+        if record is not None:
+            size[i] = record["maximum_displacement"]
+            generator = np.random.default_rng([seed, i, half])
+            states[i, :half] = switched_on(
+                oscillator, p, record["state"], states[i, :half], generator
+            )
+    return states, size
 
 
 def _is_subharmonic(data):

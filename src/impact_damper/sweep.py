@@ -53,7 +53,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Index of a motion, entered if it was not known."""
+        """Index of a motion, entered if it was not known; of two records the larger is kept."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -72,8 +72,11 @@ class Catalogue:
 
 
 def _end_event(record, multiplier, beyond):
-    """What ends a branch, from the dominant multiplier at its last orbit and what lies beyond."""
-    if abs(multiplier) < 0.98:
+    """What ends a branch, from the dominant multiplier at its last orbit and what lies beyond.
+
+    An orbit without a multiplier is one where Newton's method fails: the map is not smooth there.
+    """
+    if not abs(multiplier) >= 0.98:
         return "not_smooth"
     if abs(multiplier.imag) > 1e-3:
         return "neimark_sacker"

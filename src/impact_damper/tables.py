@@ -1,4 +1,4 @@
-"""Tables of the results: designs, bands, optima, subharmonics and migration."""
+"""Tables of the results: designs, bands, optima, subharmonics, migration and releases."""
 
 import numpy as np
 import pandas as pd
@@ -225,3 +225,38 @@ def migration(datasets) -> pd.DataFrame:
                 | runs
             )
     return pd.DataFrame(rows)
+
+
+def releases(datasets) -> pd.DataFrame:
+    """At which frequencies releases of each kind of damped motion lead to which free motions."""
+    rows = []
+    for name, scan in datasets.get("release_scan", {}).items():
+        shares = scan.release_share.sel(bound="share", drop=True).to_series().unstack().dropna()
+        shares["kind"] = scan.damped_kind.to_series()
+        shares["period"] = scan.damped_period.to_series()
+        shares = shares.groupby(["kind", "period", "frequency"])[list(scan.free_motion.values)]
+        for (kind, period), motion in shares.mean().groupby(level=["kind", "period"]):
+            motion = motion.droplevel(["kind", "period"])
+            ends = motion.apply(lambda row: ", ".join(row.index[row > 0]), axis=1)
+            for led, part in motion.groupby(ends, sort=False):
+                rows.append(
+                    {"scan": name}
+                    | _parameters(scan, "damping", "mass_ratio", "clearance", "restitution")
+                    | {
+                        "released from": extract.meaning("damped_kind", kind),
+                        "period": int(period),
+                        "leads to": led.replace("_", "-"),
+                        "at W": _ranges(scan.frequency.values, part.index),
+                        "frequencies": len(part),
+                    }
+                    | {f"to {end}".replace("_", "-"): part[end].mean() for end in part}
+                )
+    return pd.DataFrame(rows)
+
+
+def _ranges(grid, chosen):
+    """Chosen values of a grid in words, those that are neighbours as a range."""
+    there = np.isin(grid, chosen).astype(int)
+    edges = np.flatnonzero(np.diff(there, prepend=0, append=0)).reshape(-1, 2)
+    ends = [dict.fromkeys([f"{grid[first]:.5g}", f"{grid[last - 1]:.5g}"]) for first, last in edges]
+    return ", ".join(" to ".join(pair) for pair in ends)

@@ -131,7 +131,7 @@ VARIABLES = {
         "whether there is a suppression band at the peak frequency",
         flags={"found": 0, "no_single_motion": 1, "no_reduction": 2},
     ),
-    "edge": Variable(("edge",), "edge of the suppression band"),
+    "edge": Variable(("edge",), "lower or upper end of a range"),
     "edge_frequency": Variable(("edge",), "edge of the suppression band"),
     "edge_reduction": Variable(
         ("edge",), "1 - |a|/(amplitude without the damper) at the edge of the suppression band"

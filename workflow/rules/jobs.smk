@@ -11,6 +11,7 @@ STAGES = {
     "optimum": "optima",
     "subharmonic": "curves",
     "migration": "migration",
+    "release_scan": "release_scans",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -20,6 +21,7 @@ TABLES = {
     "optima": ["optimum"],
     "subharmonics": ["free", "subharmonic"],
     "migration": ["migration"],
+    "releases": ["release_scan"],
     "claims": list(STAGES),
 }
 
@@ -136,6 +138,19 @@ def migration_job(wildcards):
         "frequency": run["frequency"],
         "controller": config["controller"] | {"longest_hold": run["longest_hold"]},
         "seed": config["seed"],
+        "settling": config["settling"],
+    }
+
+
+def release_scan_job(wildcards):
+    scan = config["release_scans"][wildcards.scan]
+    return {
+        "oscillator": oscillator_of(scan["oscillator"]),
+        "damper": damper_of(scan),
+        "frequencies": grid(scan["frequencies"], "scanned"),
+        "search": search("scan_starts"),
+        "releases": config["controller"]["releases"],
+        "lifetime": scan["lifetime"],
         "settling": config["settling"],
     }
 

@@ -8,10 +8,10 @@ rule kernels:
         "<logs>/kernels.log",
     benchmark:
         "<benchmarks>/kernels.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
     threads: 1
     message:
         "Compiling the kernels, once for all jobs"
-    conda:
-        "../envs/impact-damper.yaml"
     script:
         "../scripts/kernels.py"

@@ -7,11 +7,11 @@ import numpy as np
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
 from impact_damper.parameters import Damper, Oscillator
-from impact_damper.subharmonic import suppression
+from impact_damper.subharmonic import subharmonic_suppression
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
 job = snakemake.params.job
-motions = suppression(
+motions = subharmonic_suppression(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),
     np.linspace(*job["frequencies"]),

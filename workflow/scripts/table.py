@@ -1,4 +1,4 @@
-"""Tables of designs, bands, optima, subharmonics and migration."""
+"""Tables of designs, bands, optima, subharmonics, migration and releases."""
 
 import sys
 from pathlib import Path

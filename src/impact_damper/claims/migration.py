@@ -44,30 +44,54 @@ def both_outcomes(case, kind):
     return bool(np.any((goal > 0) & (other > 0)))
 
 
+def scanned(datasets, case):
+    """Releases at each frequency of the scans of a case's oscillator and damper, in order."""
+    names = ("damping", "linear_frequency", "mass_ratio", "clearance", "restitution")
+    found = [
+        scan.isel(frequency=k)
+        for scan in datasets.get("release_scan", {}).values()
+        if all(extract.parameter(scan, name) == extract.parameter(case, name) for name in names)
+        for k in range(scan.sizes["frequency"])
+    ]
+    return sorted(found, key=lambda here: float(here.frequency))
+
+
+def nearest_range(scan, kind, frequency):
+    """The part of a scan nearest to a frequency in which each release may lead to either motion."""
+    both = np.array([both_outcomes(here, kind) for here in scan], int)
+    edges = np.flatnonzero(np.diff(both, prepend=0, append=0))
+    parts = [scan[first:last] for first, last in edges.reshape(-1, 2)]
+    return min(
+        parts,
+        key=lambda part: min(abs(float(here.frequency) - frequency) for here in part),
+        default=[],
+    )
+
+
 def release_phase(datasets):
     """Numbers of claim 13."""
     case = extract.get(datasets, "migration", "figure_15")
+    frequency = extract.parameter(case, "frequency")
     lower, upper = extract.subharmonic_range(extract.free_of(datasets, case))
+    scan = scanned(datasets, case)
+    near = nearest_range(scan, "quiet", frequency)
+    there = [here for here in scan if both_outcomes(here, "unsettled")]
     numbers = {
-        "frequency": extract.parameter(case, "frequency"),
+        "frequency": frequency,
         "lower": lower,
         "upper": upper,
-        "inside": min(
-            extract.parameter(case, "frequency") - lower,
-            upper - extract.parameter(case, "frequency"),
+        "inside": min(frequency - lower, upper - frequency),
+        "quiet_there": max(
+            (only(here, "quiet", "non_resonance", max) for here in near), default=np.nan
         ),
     }
+    for kind, found in (("quiet", near), ("unsettled", there)):
+        numbers[f"{kind}_first"] = float(found[0].frequency) if found else np.nan
+        numbers[f"{kind}_last"] = float(found[-1].frequency) if found else np.nan
     for kind in ("quiet", "unsettled"):
         numbers[f"{kind}_goal"] = only(case, kind, "non_resonance", max)
         numbers[f"{kind}_subharmonic"] = only(case, kind, "subharmonic", max)
         numbers[f"{kind}_resonance"] = only(case, kind, "resonance", max)
-        there = [
-            extract.parameter(each, "frequency")
-            for each in cases(datasets)
-            if both_outcomes(each, kind)
-        ]
-        numbers[f"{kind}_first"] = min(there, default=np.nan)
-        numbers[f"{kind}_last"] = max(there, default=np.nan)
     return numbers
 
 
@@ -131,7 +155,8 @@ CLAIMS = (
         "W = 1.7: the release phase decides between the period-1 and the period-3 motion.",
         "section 5 (ii), figure 14",
         "Releases of the quiet damped motion at even phases, and of "
-        "the motion before it has settled; the free period-3 motion must exist at that W.",
+        "the motion before it has settled; the free period-3 motion must exist at that W. "
+        "Beside it the frequencies of the release scans.",
         (
             Number(
                 "inside",
@@ -162,11 +187,15 @@ CLAIMS = (
             ),
             Number("unsettled_subharmonic", "share of those to period 3"),
             Number("unsettled_resonance", "share of those back to the resonance branch"),
-            Number("quiet_first", "lowest W of all cases with both outcomes from the quiet motion"),
-            Number("quiet_last", "highest such W"),
+            Number(
+                "quiet_first",
+                "lowest W of the nearest range in which releases of the quiet motion lead to both",
+            ),
+            Number("quiet_last", "highest W of that range"),
+            Number("quiet_there", "largest share of them there to the non-resonance branch"),
             Number(
                 "unsettled_first",
-                "lowest W of all cases with both outcomes from the unsettled motion",
+                "lowest scanned W at which releases of the unsettled motion lead to both",
             ),
             Number("unsettled_last", "highest W of those"),
         ),

@@ -1,0 +1,25 @@
+"""Where releases of the damper lead over frequency (section 5, figure 14)."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.parameters import Damper, Oscillator
+from impact_damper.release_scan import release_scan
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+scan = release_scan(
+    Oscillator(**job["oscillator"]),
+    Damper(**job["damper"]),
+    np.linspace(*job["frequencies"]),
+    **job["search"],
+    releases=job["releases"],
+    lifetime=job["lifetime"],
+    settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.scan,
+)
+save(scan, snakemake.output[0])
