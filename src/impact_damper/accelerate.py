@@ -45,3 +45,6 @@ numba.config.CACHE_DIR = str(CACHE_DIRECTORY)
 # cost both digits and speed. Kernels release the interpreter lock, so threads
 # spread them over cores without a parallel compilation of their own.
 kernel = partial(numba.njit, cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
+
+# For a function with few callers: compiled as part of them and not by itself as well.
+inlined = partial(kernel, inline="always")

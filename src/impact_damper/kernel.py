@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import inlined, kernel
 from impact_damper.series import (
     CONTACT_ORDER,
     FLIGHT_ORDER,
@@ -144,7 +144,7 @@ def dashpot_jump(p, tangent, direction):
     tangent[3] += jump * (1.0 + p[5])
 
 
-@kernel
+@inlined
 def flight_step(p, y, tangents, t, longest, tolerance, work):
     """One step in flight. Returns its length and the side on which a contact begins, or 0."""
     x, square, dx = work[0], work[2], work[3]
@@ -171,7 +171,7 @@ def flight_step(p, y, tangents, t, longest, tolerance, work):
     return length, side
 
 
-@kernel
+@inlined
 def contact_step(p, y, tangents, side, t, longest, tolerance, work):
     """One step in contact. Returns its length and the side after it: 0 if the contact ended."""
     x, q, square, dx, dq = work[0], work[1], work[2], work[3], work[4]

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import inlined, kernel
 from impact_damper.kernel import advance, side_of, workspace
 from impact_damper.orbits import (
     POLISH_TOLERANCE,
@@ -56,7 +56,7 @@ def nearby_period(ring, k, weight, floor, tolerance):
     return 0
 
 
-@kernel
+@inlined
 def land(p, y, periods, near, out):
     """Take a motion onto the stable orbit that it is near; false if there is none.
 
@@ -104,7 +104,7 @@ def exponent(rates):
     return mean, math.sqrt(squares / (count * (count - 1.0))), recent > 0.5 * mean
 
 
-@kernel
+@inlined
 def settle(p, y, start, tolerance, patience, limit, out):
     """Run a motion until it has settled, is certainly chaotic, or `limit` periods are gone.
 
@@ -170,7 +170,7 @@ def settle(p, y, start, tolerance, patience, limit, out):
         quiet = quiet + 1 if contacts == 0 and side == 0 else 0
 
 
-@kernel
+@inlined
 def settle_and_measure(p, y, start, tolerance, patience, limit, watched, out):
     """`settle`, then `measure` over one period of the motion, or `watched` periods if unsettled."""
     settle(p, y, start, tolerance, patience, limit, out)

@@ -233,8 +233,8 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
     steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
     if not is_settled(steady):
         raise ArithmeticError(
-            f"settling.limit = {settling.limit}: the motion has not settled by then; a larger limit "
-            "lets it run on, and steady_motion tells what it came to"
+            f"settling.limit = {settling.limit}: the motion has not settled by then; "
+            "a larger limit lets it run on, and steady_motion tells what it came to"
         )
     return simulate(
         oscillator,

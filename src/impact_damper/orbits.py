@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import inlined, kernel
 from impact_damper.kernel import advance, side_of, workspace
 
 CONVERGED = 1e-9
@@ -24,7 +24,7 @@ def strobe_time(p):
     return 0.5 * math.pi / p[0]
 
 
-@kernel
+@inlined
 def one_period(p, y, tangents, side, tolerance, work):
     """Integrate from strobe to strobe; returns what `advance` returns."""
     t = strobe_time(p)
@@ -38,7 +38,7 @@ def distance(a, b, weight):
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
 
-@kernel
+@inlined
 def period_map(p, y, periods, tolerance):
     """State and derivative (4, 4) of the map over whole periods, and the contacts begun."""
     state = y.copy()

@@ -5,6 +5,7 @@ forcing phase drawn uniformly; the loose mass is then somewhere in the gap, draw
 at rest relative to the primary, as if a clamp had held it there.
 """
 
+from dataclasses import replace
 from itertools import count
 from typing import NamedTuple
 
@@ -236,7 +237,8 @@ def settled_motions(oscillator, damper, frequency, seed, settling, workers, foun
     Among `found`, from random starts within the gap, and from harmonic balance.
     """
     on = pack(oscillator, damper, frequency)
-    balance = impacting_solutions(oscillator, damper, frequency)
+    # Starts only, so the solutions of the elastic damper will do for an inelastic one.
+    balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     angle = balance.phase + np.pi / 2
     columns = [
         part

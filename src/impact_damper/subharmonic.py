@@ -210,7 +210,7 @@ def switched_on(oscillator, p, state, loose, generator):
 
 
 def _starts(oscillator, damper, parameters, free, starts, radius, seed):
-    """Starts (n, starts, 4) of `subharmonic_suppression`, and max |Z1| (n,) of the free subharmonic or NaN."""
+    """Starts (n, starts, 4), and max |Z1| (n,) of the free subharmonic or NaN."""
     states = np.array(
         [random_states(starts, radius, damper, [seed, i]) for i in range(len(parameters))]
     )
