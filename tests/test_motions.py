@@ -203,7 +203,7 @@ def test_steady_orbit_closes():
     orbit = steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0))
     ends = [orbit[name].values[[0, -1]] for name in COMPONENTS]
     assert_allclose(*np.transpose(ends), atol=1e-8)
-    assert_allclose(np.ptp(orbit.time), np.pi)
+    assert_allclose(np.ptp(orbit.time.values), np.pi)
     assert orbit.sizes["contact"] == 2
 
 
