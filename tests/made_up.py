@@ -304,6 +304,7 @@ def migration(frequency, subharmonic_share):
         "total_time": np.array([60.0, 120.0, 180.0, 300.0]),
         "reached_share": np.ones(3),
         "within_share": np.ones(3),
+        "landed_on": ("run", [1, 1]),
         "escape_rate": np.full(3, 0.1),
     }
     coordinates = {

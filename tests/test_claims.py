@@ -157,7 +157,7 @@ DIFFERENCES = {
     "8": scale("collisions", "figure_05a", colliding=0.995),
     "9": scale("optimum", "0.215_0.12_1.0", optimum_displacement=2),
     "12": share("figure_13", "unsettled", 0.1),
-    "14": scale("migration", "figure_13", within_share=0.1),
+    "14": scale("migration", "figure_13", within_share=0.8),
     "18": assign("subharmonic", "figure_08", suppression=flag("suppression", "unchanged")),
     "19": early(1),
 }

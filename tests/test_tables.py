@@ -42,7 +42,7 @@ def test_no_band_is_read_off_without_the_resonance_branch(data):
 def test_optima(data):
     table = tables.optima(data).set_index("sweep")
     assert len(table) == len(data["optimum"])
-    assert table.loc["0.107_0.12_1.0", "excess over (19)"] == pytest.approx(0.05)
+    assert table.loc["0.107_0.12_1.0", "excess over (18)"] == pytest.approx(0.05)
     assert (table.kind == "kink").all()
 
 

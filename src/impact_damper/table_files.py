@@ -22,7 +22,11 @@ def save(frame, csv_path, markdown_path, document=None) -> None:
 
 def plain(frame) -> str:
     """A table of texts in Markdown."""
-    text = frame.map(lambda value: str(value).replace("|", r"\|"))
+
+    def escaped(value):
+        return str(value).replace("|", r"\|")
+
+    text = frame.map(escaped).rename(columns=escaped)
     return text.to_markdown(index=False, disable_numparse=True)
 
 

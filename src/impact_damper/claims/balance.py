@@ -75,7 +75,7 @@ CLAIMS = (
         (
             Number(
                 "vanishing",
-                "|rm W^2 d0 - 1| where a root of (14) passes a = 0, at worst",
+                "|rm W^2 d0 - 1| where a root of (14) passes a = 0",
                 most=0.005,
                 decisive=True,
             ),
@@ -87,7 +87,7 @@ CLAIMS = (
             ),
             Number(
                 "size",
-                "its amplitude over that of the free resonance, at most",
+                "its largest amplitude over that of the free resonance",
                 most=0.05,
                 decisive=True,
             ),

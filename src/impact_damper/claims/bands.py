@@ -102,7 +102,7 @@ CLAIMS = (
             ),
             Number(
                 "restitution",
-                "width for e = 0.75, at least, over that for e = 1",
+                "width for e = 0.75, its lower bound, over that for e = 1",
                 least=1,
                 decisive=True,
             ),
@@ -122,10 +122,8 @@ CLAIMS = (
             Number(
                 "typical",
                 "median relative difference of the widths over the dampers",
-                most=0.25,
-                decisive=True,
             ),
-            Number("width", "largest relative difference of the widths", most=0.25),
+            Number("width", "largest relative difference of the widths", most=0.25, decisive=True),
             Number(
                 "share",
                 "largest difference of the amplitudes over that of the free resonance",

@@ -137,7 +137,10 @@ CLAIMS = (
         "Flatter: a wider range of d0 within 10 % of the minimum, over d0.",
         (
             Number(
-                "band", "width for e = 0.75, at least, over that for e = 1", least=1, decisive=True
+                "band",
+                "width for e = 0.75, its lower bound, over that for e = 1",
+                least=1,
+                decisive=True,
             ),
             Number(
                 "amplitude",
