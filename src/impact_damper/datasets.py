@@ -78,6 +78,11 @@ def flag(name, meaning) -> int:
     return VARIABLES[name].flags[meaning]
 
 
+def is_settled(motions):
+    """True where a record or a dataset of motions says that they settled."""
+    return np.asarray(motions["outcome"]) == flag("outcome", "settled")
+
+
 def parameters_of(data) -> dict:
     """The parameters that made a dataset."""
     return json.loads(data.attrs["parameters"])

@@ -19,6 +19,7 @@ from impact_damper.orbits import (
     one_period,
     polish,
     repeats_sooner,
+    speed_weight,
     strobe_time,
 )
 from impact_damper.recording import measure
@@ -123,7 +124,6 @@ def settle(p, y, start, tolerance, patience, limit, out):
     exponent per unit time.
     """
     period = 2.0 * math.pi / p[0]
-    weight = 1.0 / math.sqrt(1.0 + p[4] * (1.0 + p[5]))
     work = workspace()
     ring = np.empty((RING, 4))
     tangents = np.empty((0, 4))
@@ -141,7 +141,7 @@ def settle(p, y, start, tolerance, patience, limit, out):
         if not abs(y[0]) + abs(y[1]) + abs(y[3]) < 1e6:
             out.outcome = DIVERGED
             break
-        n = nearby_period(ring, k, weight if side != 0 else 1.0, 20.0 * tolerance, near)
+        n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)
         if n > 0:
             if land(p, y, n, near, out):
                 if quiet >= out.period and p[3] < math.inf:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from impact_damper import ensemble, recording
-from impact_damper.datasets import dataset, flag
+from impact_damper.datasets import dataset, is_settled
 from impact_damper.parameters import check_count, check_number, describe, pack
 
 # Below this share of the first harmonic of Z1 another one is rounding and has no phase.
@@ -246,8 +246,3 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
         start=np.pi / (2 * frequency),
         tolerance=settling.tolerance,
     )
-
-
-def is_settled(records):
-    """True where a record is of a settled motion."""
-    return records["outcome"] == flag("outcome", "settled")

@@ -32,6 +32,12 @@ def one_period(p, y, tangents, side, tolerance, work):
 
 
 @kernel
+def speed_weight(p, side):
+    """Weight of Z2' in `distance`: 1 in flight; in contact it moves faster than Z2 by 1/weight."""
+    return 1.0 / math.sqrt(1.0 + p[4] * (1.0 + p[5])) if side != 0 else 1.0
+
+
+@kernel
 def distance(a, b, weight):
     """Largest difference of two states, the loose mass's speed multiplied by the weight."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))

@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.accelerate import kernel
 from impact_damper.kernel import polynomial, side_of, step, workspace
-from impact_damper.orbits import distance, strobe_time
+from impact_damper.orbits import distance, speed_weight, strobe_time
 from impact_damper.series import CONTACT_ORDER, FLIGHT_ORDER
 
 SAMPLES = 64
@@ -101,8 +101,7 @@ def measure(p, y, periods, tolerance, out):
             sample += 1
         t = stop if length >= stop - t else t + length
         if t == half:
-            weight = 1.0 / math.sqrt(1.0 + p[4] * (1.0 + p[5])) if side != 0 else 1.0
-            out.asymmetry = distance(-state, y, weight)
+            out.asymmetry = distance(-state, y, speed_weight(p, side))
     out.maximum_displacement = largest
     out.contacts = contacts / periods
     out.harmonic_displacement = first * (2.0 / sample)

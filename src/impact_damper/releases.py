@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper import ensemble, orbits, recording, switching
+from impact_damper.datasets import is_settled
 from impact_damper.harmonic_balance import free_solutions, impacting_solutions
-from impact_damper.motions import is_settled, random_states
+from impact_damper.motions import random_states
 from impact_damper.parameters import pack
 from impact_damper.survival import LEAD, escape_rate, survival, wilson
 from impact_damper.sweep import FREQUENCY, RESOLUTION, Catalogue

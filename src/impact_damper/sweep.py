@@ -12,8 +12,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from impact_damper import ensemble, orbits, recording
-from impact_damper.datasets import flag
-from impact_damper.motions import is_settled, tabulate
+from impact_damper.datasets import flag, is_settled
+from impact_damper.motions import tabulate
 
 SAME = 1e-6
 CHAOTIC_GAP = 1.5

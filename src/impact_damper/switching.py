@@ -20,7 +20,7 @@ from impact_damper.motion import (
     land,
     nearby_period,
 )
-from impact_damper.orbits import one_period, strobe_time
+from impact_damper.orbits import one_period, speed_weight, strobe_time
 from impact_damper.recording import measure
 
 # A run counts as captured by an orbit after the last strobe at which (Z1, Z1') is farther from
@@ -36,7 +36,6 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
     numbered `strobe`, and at each strobe: at most limit + 2. To the record `out` go outcome,
     period, periods_run and, of a settled motion, its orbit and what `measure` finds.
     """
-    weight = 1.0 / math.sqrt(1.0 + p[4] * (1.0 + p[5]))
     work = workspace()
     none = np.empty((0, 4))
     ring = np.empty((RING, 4))
@@ -51,7 +50,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
         path[k + 1, 0], path[k + 1, 1:] = strobe + k, y
         ring[k % RING] = y
         out.periods_run = k
-        n = nearby_period(ring, k, weight if side != 0 else 1.0, 20.0 * tolerance, near)
+        n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)
         if n > 0:
             orbit = y.copy()
             if land(p, orbit, n, near, out):

@@ -1,6 +1,6 @@
 """Frequency responses with and without a damper: figures 5, 8 and 10."""
 
-from impact_damper.datasets import flag, parameters_of
+from impact_damper.datasets import flag, is_settled, parameters_of
 from impact_damper.figures.branches import branch_lines, draw_lines
 from impact_damper.figures.design import draw_balance, draw_band
 from impact_damper.figures.free import draw_free_branches
@@ -81,8 +81,3 @@ def draw_settled(axes, motions, roles, prefix=""):
     for role in roles:
         found = branch_lines(motions, colliding & chosen[role])
         draw_lines(axes, found, ROLES[f"{prefix}{role}"] | JOINED)
-
-
-def is_settled(motions):
-    """True for settled motions."""
-    return motions["outcome"].values == flag("outcome", "settled")
