@@ -3,7 +3,7 @@
 import numpy as np
 
 from impact_damper.datasets import dataset, flag
-from impact_damper.variables import DAMPED_MOTION, FREE_MOTION
+from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION
 
 STIFFNESS = 2000.0
 PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}

@@ -24,7 +24,7 @@ from impact_damper.releases import (
     watch,
 )
 from impact_damper.survival import BOUNDS, wilson
-from impact_damper.variables import DAMPED_MOTION, FREE_MOTION
+from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION
 
 PAPER_CYCLES = 350
 MARGIN = 10

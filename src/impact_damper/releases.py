@@ -18,7 +18,7 @@ from impact_damper.motions import random_states
 from impact_damper.parameters import pack
 from impact_damper.survival import LEAD, escape_rate, survival, wilson
 from impact_damper.sweep import FREQUENCY, RESOLUTION, Catalogue
-from impact_damper.variables import DAMPED_MOTION, FREE_MOTION
+from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION
 
 ALIKE = 1e-6
 RELEASE = np.dtype(

@@ -12,7 +12,7 @@ from impact_damper.figures.motion import draw_motion
 from impact_damper.figures.optimum import draw_optimum
 from impact_damper.figures.response import draw_response
 from impact_damper.figures.style import ROLES, style
-from impact_damper.variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
+from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION, OUTCOME
 
 pytestmark = pytest.mark.filterwarnings("error")
 

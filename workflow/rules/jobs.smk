@@ -175,6 +175,8 @@ def drawn(kind, name):
     """Parameters of what a figure draws; a schematic has none."""
     if kind == "schematic":
         return {}
+    if kind == "schematic":
+        return {}
     if kind == "free":
         return {"oscillator": oscillator_of(name)}
     entry = config[SECTIONS[kind]][name]
@@ -190,6 +192,8 @@ def figure_data(wildcards):
     """Files that a figure draws, by stage."""
     figure = config["figures"][wildcards.figure]
     kind, chosen = figure["kind"], figure["data"]
+    if kind == "schematic":
+        return {}
     if kind == "free":
         return {stage: data(stage, chosen) for stage in ("free_design", "free")}
     if kind == "response":

@@ -1,0 +1,58 @@
+"""One entry of the registry, and the flags that several variables share."""
+
+from typing import NamedTuple
+
+
+class Variable(NamedTuple):
+    """One variable of the datasets.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        Usual dimensions.
+    long_name : str
+        What it is, in words.
+    symbol : str
+        The paper's symbol, or "".
+    units : str
+        "1" for dimensionless.
+    flags : dict or None
+        Value of each flag by its meaning.
+    """
+
+    dims: tuple
+    long_name: str
+    symbol: str = ""
+    units: str = "1"
+    flags: dict | None = None
+
+
+STABILITY = {"absent": -2, "unstable": -1, "marginal": 0, "stable": 1}
+OUTCOME = {
+    "absent": -1,
+    "unresolved": 0,
+    "settled": 1,
+    "chaotic": 2,
+    "diverged": 3,
+    "non_colliding": 4,
+}
+MINIMUM = {"not_found": 0, "smooth": 1, "kink": 2, "jump": 3, "edge": 4}
+# A damped period-1 motion is quiet below half the displacement of the free resonance motion.
+DAMPED_MOTION = {"none": -1, "unsettled": 0, "quiet": 1, "violent": 2, "subharmonic": 3}
+FREE_MOTION = {
+    "none": -1,
+    "unresolved": 0,
+    "non_resonance": 1,
+    "resonance": 2,
+    "subharmonic": 3,
+    "other": 4,
+}
+END = {
+    "not_smooth": 0,
+    "fold": 1,
+    "symmetry_breaking": 2,
+    "period_doubling": 3,
+    "neimark_sacker": 4,
+}
+SUBHARMONIC_END = END | {"sweep_ends": 5, "not_found": 6}
+SUPPRESSION = {"no_subharmonic_without_damper": 0, "removed": 1, "reduced": 2, "unchanged": 3}
