@@ -44,18 +44,32 @@ def distance(a, b, weight):
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
 
-@inlined
-def period_map(p, y, periods, tolerance):
-    """State and derivative (4, 4) of the map over whole periods, and the contacts begun."""
+@kernel
+def flow_map(p, y, begin, periods, tolerance):
+    """The map over whole forcing periods from the time `begin` on.
+
+    Returns the state, its derivative (4, 4), the contacts begun and the time in contact.
+    """
     state = y.copy()
     tangents = np.eye(4)
     work = workspace()
     side = side_of(p, y)
     contacts = 0
+    touching = 0.0
     for _ in range(periods):
-        side, begun, _ = one_period(p, state, tangents, side, tolerance, work)
+        side, begun, time = advance(
+            p, state, tangents, side, begin, begin + 2.0 * math.pi / p[0], tolerance, work
+        )
         contacts += begun
-    return state, tangents.T.copy(), contacts
+        touching += time
+    return state, tangents.T.copy(), contacts, touching
+
+
+@inlined
+def period_map(p, y, periods, tolerance):
+    """`flow_map` from the strobe on: state, derivative and contacts begun."""
+    state, matrix, contacts, _ = flow_map(p, y, strobe_time(p), periods, tolerance)
+    return state, matrix, contacts
 
 
 @kernel
