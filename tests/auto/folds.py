@@ -53,6 +53,7 @@ RUNS = {
 # AUTO's types of points. It calls 6 a branch point: of symmetric orbits it is where one parts
 # into two that are each other's mirror images.
 KINDS = {5: "fold", 6: "symmetry_breaking", 7: "period_doubling", 8: "neimark_sacker"}
+OUT_OF_STEPS = 9
 LAST_DIGIT = 1e-10
 FAILURES = re.compile("NOTE:(?:No convergence|Possible special point|Error)")
 
@@ -96,12 +97,11 @@ def points(folder, damping, run, setting):
     Raises
     ------
     RuntimeError
-        If AUTO lost a step or could not locate a point that it saw.
+        If AUTO lost the branch, ran out of steps, or could not locate a point that it saw.
     """
     branch, (periods, frequency, starts), stop, kinds, _ = RUNS[run]
-    np.savetxt(
-        folder / "first_orbit.dat", first_orbit(damping, frequency, starts[damping], periods)
-    )
+    orbit = first_orbit(damping, frequency, starts[damping], periods)
+    np.savetxt(folder / "first_orbit.dat", orbit)
     constants = (HERE / "constants.txt").read_text()
     values = setting | {"frequency": frequency, "damping": damping, "stop": stop}
     (folder / "fort.2").write_text(constants.format(**values))
@@ -112,9 +112,12 @@ def points(folder, damping, run, setting):
     failures = FAILURES.findall((folder / "fort.9").read_text())
     if failures:
         raise RuntimeError(f"AUTO, {run}, h = {damping}, {setting}: {', '.join(failures)}")
+    labelled = list(solutions(folder / "fort.8"))
+    if labelled[-1][0] == OUT_OF_STEPS:
+        raise RuntimeError(f"AUTO, {run}, h = {damping}, {setting}: not enough steps")
     found = [
         {"damping": damping, "branch": branch, "kind": KINDS[kind]} | measured(solution, periods)
-        for kind, solution in solutions(folder / "fort.8")
+        for kind, solution in labelled
         if kind in KINDS
     ]
     return [point for point in found if kinds is None or point["kind"] in kinds]
