@@ -25,6 +25,7 @@ include: "workflow/rules/kernels.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/free.smk"
 include: "workflow/rules/response.smk"
+include: "workflow/rules/branches.smk"
 include: "workflow/rules/optimum.smk"
 include: "workflow/rules/subharmonic.smk"
 include: "workflow/rules/migration.smk"
@@ -39,6 +40,7 @@ rule all:
         rules.design.input,
         rules.free.input,
         rules.response.input,
+        rules.branches.input,
         rules.optimum.input,
         rules.subharmonic.input,
         rules.migration.input,

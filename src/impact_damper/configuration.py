@@ -13,6 +13,7 @@ SECTIONS = {
     "free": "oscillators",
     "design": "curves",
     "response": "curves",
+    "branches": "curves",
     "motion": "motions",
     "optimum": "optima",
     "migration": "migration",
@@ -197,6 +198,9 @@ def _reversed(path, span):
 
 
 def _wrong_stages(path, curve):
+    if "branches" in curve["stages"] and "response" not in curve["stages"]:
+        reason = "must hold response with branches (orbits are followed from the motions found)"
+        yield _problem([*path, "stages"], curve["stages"], reason)
     if "design" in curve["stages"] and curve["restitution"] != 1:
         reason = "must be 1 with the stage design (harmonic balance knows elastic contact only)"
         yield _problem([*path, "restitution"], curve["restitution"], reason)
@@ -210,7 +214,11 @@ def _wrong_data(path, figure, config):
     known = SCHEMATICS if kind == "schematic" else config[SECTIONS[kind]]
     for name in figure["data"]:
         yield from _unknown(path, name, known)
-        if kind in ("design", "response") and name in known and kind not in known[name]["stages"]:
+        if (
+            kind in ("design", "response", "branches")
+            and name in known
+            and kind not in known[name]["stages"]
+        ):
             reason = f"must hold {kind} (what {'.'.join(path[:2])} draws)"
             yield _problem(["curves", name, "stages"], known[name]["stages"], reason)
 

@@ -19,8 +19,9 @@ NEWTON = 16
 CLOSE, ROUNDING = 1e-10, 1e-4
 SINGULAR = 1e-8
 SYMMETRIC = 1e-6
-FIRST_STEP, LONGEST_STEP, SHORTEST_STEP = 0.01, 0.05, 1e-7
-STRAIGHT = 0.97  # least cosine between the tangents at both ends of a step
+FIRST_STEP, LONGEST_STEP, SHORTEST_STEP = 0.01, 0.04, 1e-7
+STRAIGHT = 0.98  # least cosine between the tangents at both ends of a step
+ASIDE = 0.2  # a correction by more than this part of the step may have led to another branch
 
 
 class Point(NamedTuple):
@@ -130,7 +131,10 @@ class Problem:
 
     def step(self, point, length):
         """The point a step further along the branch, or None."""
-        return self.correct(point.x + length * point.tangent, point.tangent)
+        x = point.x + length * point.tangent
+        found = self.correct(x, point.tangent)
+        aside = ASIDE * abs(length) + ROUNDING
+        return None if found is None or np.linalg.norm(found.x - x) > aside else found
 
     def at_value(self, point, value):
         """The point at a value of the parameter close to a point's, or None."""

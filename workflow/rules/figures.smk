@@ -6,6 +6,7 @@ KINDS = {
     "design": "Harmonic balance",
     "motion": "Frequency responses",
     "response": "Frequency responses",
+    "branches": "Exact orbits",
     "optimum": "Optimum clearance",
     "migration": "Migration control",
     "release": "Migration control",

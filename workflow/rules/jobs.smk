@@ -6,6 +6,8 @@ STAGES = {
     "design": "curves",
     "free": "oscillators",
     "response": "curves",
+    "free_branches": "oscillators",
+    "branches": "curves",
     "motion": "motions",
     "collisions": "collisions",
     "optimum": "optima",
@@ -20,6 +22,8 @@ TABLES = {
     "bands": ["design", "free", "response"],
     "optima": ["optimum"],
     "subharmonics": ["free", "subharmonic"],
+    "orbits": ["free_branches", "branches"],
+    "bifurcations": ["free_branches", "branches"],
     "migration": ["migration"],
     "releases": ["release_scan"],
     "claims": list(STAGES),
@@ -95,6 +99,39 @@ def response_job(wildcards):
         "search": search("starts"),
         "settling": config["settling"],
     }
+
+
+def span_of(oscillator):
+    """Ends of an oscillator's range of frequencies."""
+    span = config["oscillators"][oscillator]["frequencies"]
+    return [span["first"], span["last"]]
+
+
+def free_branches_job(wildcards):
+    return {
+        "oscillator": oscillator_of(wildcards.oscillator),
+        "frequencies": span_of(wildcards.oscillator),
+    }
+
+
+def branches_job(wildcards):
+    curve = config["curves"][wildcards.curve]
+    return {
+        "oscillator": oscillator_of(curve["oscillator"]),
+        "damper": damper_of(curve),
+        "frequencies": span_of(curve["oscillator"]),
+    }
+
+
+def branch_motions(wildcards):
+    """Files of the motions from which the branches of a curve begin."""
+    stages = config["curves"][wildcards.curve]["stages"]
+    return [
+        path
+        for stage in ("response", "subharmonic")
+        if stage in stages
+        for path in data(stage, [wildcards.curve])
+    ]
 
 
 def motion_job(wildcards):
@@ -195,12 +232,13 @@ def figure_data(wildcards):
     if kind == "schematic":
         return {}
     if kind == "free":
-        return {stage: data(stage, chosen) for stage in ("free_design", "free")}
-    if kind == "response":
+        return {"free_branches": data("free_branches", chosen)}
+    if kind in ("response", "branches"):
         oscillators = sorted({config["curves"][name]["oscillator"] for name in chosen})
-        return {stage: data(stage, oscillators) for stage in ("free_design", "free")} | {
+        stages = ["branches"] if kind == "branches" else ["design", "response", "subharmonic"]
+        return {"free_branches": data("free_branches", oscillators)} | {
             stage: data(stage, [name for name in chosen if name in names(stage)])
-            for stage in ("design", "response", "subharmonic")
+            for stage in dict.fromkeys([*stages, "branches"])
         }
     stage = "migration" if kind == "release" else kind
     return {stage: data(stage, chosen)}

@@ -9,7 +9,6 @@ from impact_damper.figures.style import save
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
 drawing = draw_free(
-    free=[load(path) for path in snakemake.input.free],
-    free_design=[load(path) for path in snakemake.input.free_design],
+    free_branches=[load(path) for path in snakemake.input.free_branches],
 )
 save(drawing, Path(snakemake.output.pdf).with_suffix(""))

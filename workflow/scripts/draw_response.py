@@ -12,7 +12,7 @@ drawing = draw_response(
     response=[load(path) for path in snakemake.input.response],
     design=[load(path) for path in snakemake.input.design],
     subharmonic=[load(path) for path in snakemake.input.subharmonic],
-    free=[load(path) for path in snakemake.input.free],
-    free_design=[load(path) for path in snakemake.input.free_design],
+    branches=[load(path) for path in snakemake.input.branches],
+    free_branches=[load(path) for path in snakemake.input.free_branches],
 )
 save(drawing, Path(snakemake.output.pdf).with_suffix(""))

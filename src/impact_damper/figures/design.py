@@ -4,7 +4,6 @@ import numpy as np
 
 from impact_damper.datasets import flag, parameters_of
 from impact_damper.figures.branches import draw_lines, lines
-from impact_damper.figures.free import draw_unstable
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 
@@ -58,3 +57,23 @@ def draw_band(axes, balance):
     """The suppression band, shaded, where there is one."""
     if balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **ROLES["band"])
+
+
+def draw_unstable(axes, balance):
+    """Unstable solutions of harmonic balance without a damper, up to the folds.
+
+    The phase increases along the curve of all solutions: it puts them in order.
+    """
+    phase = balance["free_phase"].values
+    order = np.argsort(phase, axis=None)[: np.isfinite(phase).sum()]
+    frequency, amplitude, stability = (
+        np.broadcast_to(values.T, phase.T.shape).T.ravel()[order]
+        for values in (
+            balance["frequency"].values,
+            balance["free_amplitude"].values,
+            balance["free_stability"].values,
+        )
+    )
+    unstable = stability == flag("free_stability", "unstable")
+    shown = np.convolve(unstable, [1, 1, 1], "same") > 0
+    axes.plot(frequency, np.where(shown, amplitude, np.nan), **ROLES["free_unstable"])

@@ -3,7 +3,7 @@
 from impact_damper.datasets import flag, is_settled, parameters_of
 from impact_damper.figures.branches import branch_lines, draw_lines
 from impact_damper.figures.design import draw_balance, draw_band
-from impact_damper.figures.free import draw_free_branches
+from impact_damper.figures.orbits import draw_free_orbits, runs
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
@@ -11,7 +11,7 @@ STATUSES = ("chaotic", "non_colliding", "unresolved")
 
 
 @style()
-def draw_response(*, response, design, subharmonic, free, free_design):
+def draw_response(*, response, design, subharmonic, branches, free_branches):
     """Largest displacement against forcing frequency, all of one oscillator in one plot.
 
     Parameters
@@ -22,10 +22,8 @@ def draw_response(*, response, design, subharmonic, free, free_design):
         Harmonic balance of the elastic dampers and their suppression bands.
     subharmonic : list of xarray.Dataset
         Of `suppression`.
-    free : list of xarray.Dataset
-        Of `frequency_response` without a damper.
-    free_design : list of xarray.Dataset
-        Of `harmonic_balance_response` without a damper.
+    branches, free_branches : list of xarray.Dataset
+        Of `complete_branches` with and without a damper.
 
     Returns
     -------
@@ -33,8 +31,10 @@ def draw_response(*, response, design, subharmonic, free, free_design):
     """
     drawn = figure("double", 5.0)
     axes = drawn.subplots()
-    for motions, balance in zip(free, free_design, strict=True):
-        draw_free_branches(axes, motions, balance)
+    for orbits in free_branches:
+        draw_free_orbits(axes, orbits)
+    for orbits in branches:
+        draw_unstable_orbits(axes, orbits)
     for balance in design:
         draw_band(axes, balance)
         draw_balance(axes, balance)
@@ -55,7 +55,7 @@ def draw_response(*, response, design, subharmonic, free, free_design):
 
 def draw_motions(axes, motions):
     """Motions with a damper: settled ones along their branches, and those of any other status."""
-    prefix = "inelastic_" if parameters_of(motions)["restitution"] < 1 else ""
+    prefix = prefix_of(motions)
     draw_settled(axes, motions, ["period_1", "higher_period", "subharmonic_damped"], prefix)
     outcome = motions["outcome"].values
     chosen = {status: outcome == flag("outcome", status) for status in STATUSES}
@@ -67,6 +67,19 @@ def draw_motions(axes, motions):
                 motions["maximum_displacement"].values[row, column],
                 **ROLES[f"{prefix}{status}"],
             )
+
+
+def draw_unstable_orbits(axes, orbits):
+    """Unstable parts of the branches of orbits with a damper, of any period."""
+    role = ROLES[f"{prefix_of(orbits)}unstable_orbit"]
+    for value, size, stable in runs(orbits, lambda period: True):
+        if not stable:
+            axes.plot(value, size, **role)
+
+
+def prefix_of(data):
+    """Prefix of the roles of a dataset's damper."""
+    return "inelastic_" if parameters_of(data)["restitution"] < 1 else ""
 
 
 def draw_settled(axes, motions, roles, prefix=""):

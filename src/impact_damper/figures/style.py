@@ -74,9 +74,7 @@ def _shading(label, color):
 # Keywords for `plot` (the last two for `axvspan`); merge to change one: ROLES[name] | {...}.
 ROLES = {
     "free_stable": _line("free, stable", BLACK, zorder=2.2),
-    "free_unstable": _line(
-        "free, unstable (harmonic balance)", GREY, linestyle=(0, (4, 2)), zorder=2.1
-    ),
+    "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
     "free_higher": _line(
         "free, other periods", BLACK, marker="|", markersize=4.2, linewidth=0.6, zorder=2.2
     ),
@@ -93,6 +91,19 @@ ROLES = {
         markevery=0.025,
         linestyle="-",
         linewidth=0.5,
+    ),
+    "subharmonic_unstable": _line(
+        "free, one-third subharmonic, unstable",
+        PURPLE,
+        linestyle=(0, (4, 2)),
+        linewidth=0.8,
+        zorder=2.1,
+    ),
+    "unstable_orbit": _line(
+        "elastic, unstable orbit", BLUE, linestyle=(0, (1, 1.5)), linewidth=0.8, zorder=1.9
+    ),
+    "inelastic_unstable_orbit": _line(
+        "inelastic, unstable orbit", VERMILION, linestyle=(0, (1, 1.5)), linewidth=0.8, zorder=1.9
     ),
     "subharmonic_damped": _points("elastic, subharmonic (period $3n$)", PURPLE, "v"),
     "chaotic": _points("elastic, chaotic", ORANGE, ".", filled=True),

@@ -1,0 +1,126 @@
+"""Exact branches of periodic orbits, stable and unstable, with their bifurcations."""
+
+import numpy as np
+
+from impact_damper.datasets import flag
+from impact_damper.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    ROLES,
+    SKY,
+    VERMILION,
+    axis_label,
+    figure,
+    legend,
+    style,
+)
+
+EVENTS = {
+    "fold": ("fold", "o", BLACK),
+    "symmetry_breaking": ("loss of symmetry", "s", BLACK),
+    "period_doubling": ("period doubling", "^", VERMILION),
+    "neimark_sacker": ("Neimark-Sacker", "D", VERMILION),
+    "grazing": ("grazing: a contact is born", "P", SKY),
+    "merging": ("merging of two contacts", "X", SKY),
+}
+PERIODS = [
+    ("period 1", BLUE, lambda period: period == 1),
+    ("period 2", GREEN, lambda period: period == 2),
+    ("period 3", PURPLE, lambda period: period == 3),
+    ("longer periods", ORANGE, lambda period: period > 3),
+]
+
+
+@style()
+def draw_branches(*, free_branches, branches):
+    """Largest displacement of every orbit against forcing frequency, a panel for each damper.
+
+    Parameters
+    ----------
+    free_branches : list of xarray.Dataset
+        Of `complete_branches` without a damper.
+    branches : list of xarray.Dataset
+        Of the same with one.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 4.6 * len(branches))
+    panels = drawn.subplots(len(branches), squeeze=False)[:, 0]
+    for axes, data in zip(panels, branches, strict=True):
+        for each in free_branches:
+            for value, size, stable in runs(each, lambda period: True):
+                role = ROLES["free_stable" if stable else "free_unstable"]
+                axes.plot(value, size, **role | {"linewidth": 0.7})
+        for label, color, chosen in PERIODS:
+            for value, size, stable in runs(data, chosen):
+                look = {"label": f"damper, {label}"} if stable else {"linestyle": ":"}
+                axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.8, **look)
+        mark_events(axes, data)
+        axes.set(
+            xlabel="Forcing frequency, $\\Omega$",
+            ylabel=axis_label(data["orbit_displacement"]),
+        )
+        axes.set_ylim(bottom=0)
+    legend(drawn, 3)
+    return drawn
+
+
+def runs(data, chosen):
+    """Parts of branches of one stability: parameter, largest displacement, and whether stable.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of `complete_branches` or `orbit_branch`.
+    chosen : callable
+        Of the period of a branch, whether it is wanted.
+
+    Yields
+    ------
+    (array, array, bool)
+    """
+    stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
+    number, value = data["orbit_branch"].values, data["followed_value"].values
+    size = data["orbit_displacement"].values
+    for branch, period in enumerate(data["branch_period"].values):
+        if not chosen(period):
+            continue
+        at = np.flatnonzero(number == branch)
+        edges = [0, *(np.flatnonzero(np.diff(stable[at])) + 1), len(at)]
+        for first, last in zip(edges, edges[1:], strict=False):
+            # a run reaches to the first orbit of the next, so that no gap is left between
+            part = at[first : last + 1]
+            yield value[part], size[part], bool(stable[at[first]])
+
+
+def draw_free_orbits(axes, data):
+    """Free orbits: period 1 and 3 in roles of their own, unstable ones dashed."""
+    for role, unstable, chosen in (
+        ("free_stable", "free_unstable", lambda period: period == 1),
+        ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
+        ("free_higher", "free_unstable", lambda period: period not in (1, 3)),
+    ):
+        for value, size, stable in runs(data, chosen):
+            axes.plot(value, size, **ROLES[role if stable else unstable])
+
+
+def mark_events(axes, data):
+    """A marker at every located event, and at the ends where a contact is about to be born."""
+    for name, (label, marker, color) in EVENTS.items():
+        chosen = data["event_kind"].values == flag("event_kind", name)
+        if chosen.any():
+            axes.plot(
+                data["event_value"].values[chosen],
+                data["event_displacement"].values[chosen],
+                label=label,
+                marker=marker,
+                color=color,
+                markersize=3.4,
+                linestyle="none",
+                zorder=3,
+            )

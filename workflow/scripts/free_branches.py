@@ -1,0 +1,17 @@
+"""Every branch of periodic orbits without a damper, stable or not (figure 2)."""
+
+import sys
+
+from impact_damper.datasets import load, save
+from impact_damper.parameters import Oscillator
+from impact_damper.periodic import complete_branches
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+branches = complete_branches(
+    Oscillator(**job["oscillator"]),
+    None,
+    job["frequencies"],
+    [load(path) for path in snakemake.input.motions],
+)
+save(branches, snakemake.output[0])
