@@ -131,14 +131,15 @@ def without_pull(oscillator, damper, frequency, motion):
     contact stays that of the rule `zero_penetration`. NaN if the motion has not settled or
     cannot be followed there.
     """
-    p, y = pack(oscillator, damper, frequency), motion["state"].copy()
     returned = contact(damper.restitution, 0.0, "no_tension").departure
     goal = replace(damper, restitution=min(returned, 1.0)).dashpot
-    period = int(motion["period"])
+    p, y = pack(oscillator, damper, frequency), motion["state"].copy()
     if not is_settled(motion):
         return np.nan
-    if p[DASHPOT] != goal:
-        orbits.follow(p, y, period, DASHPOT, goal, RESOLUTION, orbits.POLISH_TOLERANCE)
+    if p[DASHPOT] == goal:
+        return motion["maximum_displacement"]
+    period = int(motion["period"])
+    orbits.follow(p, y, period, DASHPOT, goal, RESOLUTION, orbits.POLISH_TOLERANCE)
     if p[DASHPOT] != goal:
         return np.nan
     return recording.measured(p, y, period, orbits.POLISH_TOLERANCE)["maximum_displacement"]

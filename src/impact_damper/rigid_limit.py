@@ -5,7 +5,6 @@ contact is followed over the whole grid, that of the rigid model over frequency,
 or not; the two are compared cell by cell.
 """
 
-from collections import deque
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -14,6 +13,7 @@ import numpy as np
 from impact_damper import ensemble, orbits, recording
 from impact_damper.contact_scenes import extreme_motions
 from impact_damper.datasets import dataset, flag
+from impact_damper.flood import flood, march, point_of
 from impact_damper.parameters import (
     check_count,
     check_damper,
@@ -27,8 +27,6 @@ from impact_damper.rigid_orbit import IMPACTS, mended_orbit, rigid_orbit
 
 THRESHOLDS = (0.01, 0.1)
 REACH = 0.1
-# Between neighbouring cells a step is halved down to this part of their distance.
-SHORTEST = 1 / 32
 SAME = 1e-6
 # The order is observed where the contact is short.
 STIFF = 1e4
@@ -60,83 +58,6 @@ def compliant_orbit(oscillator, damper, frequency, guess, reach):
         return None, flag("compliant_status", "other_contacts")
     orbit = Orbit(y, multiplier, float(record["maximum_displacement"]))
     return orbit, flag("compliant_status", "found")
-
-
-def march(solve, start, goal, orbit):
-    """Follow an orbit from point to point, its steps halved down to SHORTEST where it must be.
-
-    Parameters
-    ----------
-    solve : callable
-        Maps a point and a guess of the state to an orbit or None, and a status.
-    start, goal : array
-        Points.
-    orbit : Orbit or RigidOrbit
-        At the start.
-
-    Returns
-    -------
-    orbit : or None
-        At the goal.
-    status : int
-        Of the last solution sought.
-    """
-    gone, step = 0.0, 1.0
-    while gone < 1.0:
-        ahead = min(1.0, gone + step)
-        found, status = solve(start + ahead * (goal - start), orbit.state)
-        if found is not None:
-            gone, orbit = ahead, found
-        elif step > SHORTEST:
-            step /= 2
-        else:
-            return None, status
-    return orbit, status
-
-
-def flood(solve, axes, cell, orbit, unseen):
-    """Orbits over a grid, from one cell to its neighbours and on, as far as they can be followed.
-
-    Parameters
-    ----------
-    solve
-        As in `march`.
-    axes : sequence of array
-        Coordinates of the cells along each dimension.
-    cell : tuple of int
-        Where the orbit is.
-    orbit : Orbit or RigidOrbit
-    unseen : int
-        Status of cells of which no neighbour has an orbit.
-
-    Returns
-    -------
-    found : dict
-        Orbits by cell.
-    status : array of int
-    """
-    status = np.full([len(axis) for axis in axes], unseen)
-    found, status[cell] = {cell: orbit}, 0
-    queue = deque([cell])
-    while queue:
-        here = queue.popleft()
-        for dimension in range(len(axes)):
-            for step in (-1, 1):
-                there = tuple(np.add(here, step * np.eye(len(axes), dtype=int)[dimension]))
-                inside = 0 <= there[dimension] < len(axes[dimension])
-                if not inside or there in found:
-                    continue
-                next_orbit, status[there] = march(
-                    solve, _point(axes, here), _point(axes, there), found[here]
-                )
-                if next_orbit is not None:
-                    found[there] = next_orbit
-                    queue.append(there)
-    return found, status
-
-
-def _point(axes, cell):
-    return np.array([axis[i] for axis, i in zip(axes, cell, strict=True)])
 
 
 def rigid_limit(
@@ -191,7 +112,7 @@ def rigid_limit(
     stiff = _reached(march(soft, here, np.array([frequency, axes[1][-1]]), quiet), "stiffnesses")
     own = _reached(rigid(here, stiff.state), "stiffnesses")
     cell = int(np.argmin(np.abs(axes[0] - here[0]))), int(np.argmin(np.abs(axes[1] - here[1])))
-    first = _reached(march(soft, here, _point(axes, cell), quiet), "frequencies")
+    first = _reached(march(soft, here, point_of(axes, cell), quiet), "frequencies")
     compliant = flood(soft, axes, cell, first, flag("compliant_status", "not_attempted"))
     first = _reached(march(rigid, here[:1], axes[0][cell[0] : cell[0] + 1], own), "frequencies")
     walls = flood(rigid, axes[:1], cell[:1], first, flag("rigid_status", "not_attempted"))
