@@ -106,11 +106,11 @@ def scene(oscillator, damper, frequency, motion, periods):
         "scene_without_pull": without_pull(oscillator, damper, frequency, motion),
         "scene_contacts": len(error),
         "scene_unreleased": np.sum(~released),
-        "scene_close": np.mean(error <= CLOSE),
-        "scene_fair": np.mean(error <= FAIR),
     }
     if released.any():
         table |= {
+            "scene_close": np.mean(error <= CLOSE),
+            "scene_fair": np.mean(error <= FAIR),
             "scene_load": np.quantile(np.abs(seen["load"]), MOST),
             "scene_restitution_low": seen["restitution"].min(),
             "scene_restitution_high": seen["restitution"].max(),
