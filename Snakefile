@@ -30,6 +30,8 @@ include: "workflow/rules/optimum.smk"
 include: "workflow/rules/subharmonic.smk"
 include: "workflow/rules/migration.smk"
 include: "workflow/rules/release_scan.smk"
+include: "workflow/rules/contact_model.smk"
+include: "workflow/rules/rigid_limit.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -45,5 +47,7 @@ rule all:
         rules.subharmonic.input,
         rules.migration.input,
         rules.release_scan.input,
+        rules.contact_model.input,
+        rules.rigid_limit.input,
         rules.figures.input,
         rules.tables.input,

@@ -101,7 +101,7 @@ def test_unknown_keys_are_rejected(section):
 @pytest.mark.parametrize(
     ("path", "value", "allowed"),
     [
-        ("tolerance", 1.0e-9, "unknown key; known: collisions, contact_stiffness"),
+        ("tolerance", 1.0e-9, "unknown key; known: collisions, contact_model"),
         ("seed", 0.5, "a whole number, at least 0"),
         ("contact_stiffness", 0, "greater than 0"),
         ("contact_stiffness", "2000", "a finite number"),
@@ -115,6 +115,12 @@ def test_unknown_keys_are_rejected(section):
         ("release_scans/wide/frequencies/first", 2, "less than last = 2"),
         ("release_scans/wide/lifetime", 39, "at least 40, at most"),
         ("release_scans/wide/oscillator", "h216", "one of h215, h150, h107, l100, l150"),
+        ("contact_model/figure_10/restitutions", [0.9, 0.3], "must increase"),
+        ("contact_model/figure_10/frequencies", [2, 2], "must increase"),
+        ("contact_model/figure_10/smallest_restitution", 1, "less than 1"),
+        ("contact_model/figure_10/oscillator", "h216", "one of h215, h150, h107, l100, l150"),
+        ("rigid_limit/figure_10/stiffnesses/first", 1.0e6, "less than last = 1000000.0"),
+        ("rigid_limit/figure_10/frequencies/last", 1, "less than last = 1"),
         ("curves/figure_05a/mass_ratio", 0, "greater than 0"),
         ("curves/figure_05a/clearance", "Rule", "of the form rule"),
         ("curves/figure_05a/clearance", "rule", "a number with stages beside design"),

@@ -18,7 +18,21 @@ SECTIONS = {
     "optimum": "optima",
     "migration": "migration",
     "release": "migration",
+    "contact_model": "contact_model",
+    "rigid_limit": "rigid_limit",
 }
+
+# Sections whose entries name an oscillator.
+WITH_OSCILLATOR = (
+    "curves",
+    "motions",
+    "collisions",
+    "optima",
+    "migration",
+    "release_scans",
+    "contact_model",
+    "rigid_limit",
+)
 
 # What a figure of the kind `schematic` may name instead.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
@@ -165,7 +179,7 @@ def _lines(error):
 
 def _contradictions(config):
     """Problems between values that are each allowed."""
-    for section in ("curves", "motions", "collisions", "optima", "migration", "release_scans"):
+    for section in WITH_OSCILLATOR:
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -180,6 +194,15 @@ def _contradictions(config):
         yield from _reversed(["optima", name, "clearances"], optimum["clearances"])
     for name, scan in config["release_scans"].items():
         yield from _reversed(["release_scans", name, "frequencies"], scan["frequencies"])
+    for name, model in config["contact_model"].items():
+        if model["smallest_restitution"] == 1:
+            reason = "must be less than 1 (where the map ends)"
+            yield _problem(["contact_model", name, "smallest_restitution"], 1, reason)
+        for key in ("restitutions", "frequencies"):
+            yield from _not_increasing(["contact_model", name, key], model[key])
+    for name, limit in config["rigid_limit"].items():
+        for key in ("frequencies", "stiffnesses"):
+            yield from _reversed(["rigid_limit", name, key], limit[key])
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, figure in config["figures"].items():
@@ -195,6 +218,11 @@ def _reversed(path, span):
     if span["first"] >= span["last"]:
         reason = f"must be less than last = {span['last']!r} (a range ascends)"
         yield _problem([*path, "first"], span["first"], reason)
+
+
+def _not_increasing(path, values):
+    if sorted(set(values)) != values:
+        yield _problem(path, values, "must increase (each is looked at once, in order)")
 
 
 def _wrong_stages(path, curve):

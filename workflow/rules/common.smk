@@ -29,7 +29,9 @@ wildcard_constraints:
     optimum="[A-Za-z0-9_]+",
     run="[A-Za-z0-9_]+",
     figure="[A-Za-z0-9_]+",
-    table="[a-z]+",
+    contact="[A-Za-z0-9_]+",
+    limit="[A-Za-z0-9_]+",
+    table="[a-z_]+",
 
 
 def checked(config):

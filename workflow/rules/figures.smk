@@ -10,6 +10,8 @@ KINDS = {
     "optimum": "Optimum clearance",
     "migration": "Migration control",
     "release": "Migration control",
+    "contact_model": "Where methods fail",
+    "rigid_limit": "Where methods fail",
 }
 
 

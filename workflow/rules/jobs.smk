@@ -14,6 +14,8 @@ STAGES = {
     "subharmonic": "curves",
     "migration": "migration",
     "release_scan": "release_scans",
+    "contact_model": "contact_model",
+    "rigid_limit": "rigid_limit",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -26,6 +28,9 @@ TABLES = {
     "bifurcations": ["free_branches", "branches"],
     "migration": ["migration"],
     "releases": ["release_scan"],
+    "contact_model": ["contact_model"],
+    "contact_motions": ["contact_model"],
+    "rigid_limit": ["rigid_limit"],
     "claims": list(STAGES),
 }
 
@@ -188,6 +193,40 @@ def release_scan_job(wildcards):
         "search": search("scan_starts"),
         "releases": config["controller"]["releases"],
         "lifetime": scan["lifetime"],
+        "settling": config["settling"],
+    }
+
+
+def contact_model_job(wildcards):
+    model = config["contact_model"][wildcards.contact]
+    return {
+        "oscillator": oscillator_of(model["oscillator"]),
+        "damper": damper_of(model),
+        "frequencies": model["frequencies"],
+        "used": model["restitutions"],
+        "periods": model["periods"],
+        "starts": config["search"]["scan_starts"],
+        "seed": config["seed"],
+        "map": {
+            "restitutions": [model["smallest_restitution"], 1, model["cells"]["restitutions"]],
+            "loads": [model["largest_load"], model["cells"]["loads"]],
+        },
+        "settling": config["settling"],
+    }
+
+
+def rigid_limit_job(wildcards):
+    limit = config["rigid_limit"][wildcards.limit]
+    ends = [limit["stiffnesses"]["first"], limit["stiffnesses"]["last"]]
+    frequencies = [limit["frequencies"]["first"], limit["frequencies"]["last"]]
+    return {
+        "oscillator": oscillator_of(limit["oscillator"]),
+        "damper": damper_of(limit),
+        "frequency": limit["frequency"],
+        "frequencies": [*frequencies, limit["cells"]["frequencies"]],
+        "stiffnesses": [*ends, limit["cells"]["stiffnesses"]],
+        "starts": config["search"]["scan_starts"],
+        "seed": config["seed"],
         "settling": config["settling"],
     }
 

@@ -4,19 +4,14 @@ import math
 
 from impact_damper.claims import extract
 from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.contact_law import damping_ratio
 
 LOW = 0.3
 
 
-def relative_damping(restitution):
-    """Damping ratio z of the relative motion, from e = exp(-pi z/sqrt(1 - z^2))."""
-    logarithm = math.log(restitution)
-    return -logarithm / math.hypot(math.pi, logarithm)
-
-
 def duration(restitution):
     """Time in contact over that of an elastic contact, 1/sqrt(1 - z^2)."""
-    return 1 / math.sqrt(1 - relative_damping(restitution) ** 2)
+    return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 
 def pull_free_error(restitution):
@@ -25,7 +20,7 @@ def pull_free_error(restitution):
     The force -y'' vanishes at wd t = pi - 2 asin(z), while the penetration y is positive; from
     there to the end of the contact the walls pull.
     """
-    damping = relative_damping(restitution)
+    damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * duration(restitution)) - 1
 
 
@@ -42,7 +37,7 @@ def model(datasets):
     return {
         "high": max(map(pull_free_error, used)),
         "low": pull_free_error(LOW),
-        "pulling": 2 * math.asin(relative_damping(LOW)) / math.pi,
+        "pulling": 2 * math.asin(damping_ratio(LOW)) / math.pi,
         "duration": duration(LOW),
     }
 

@@ -7,6 +7,10 @@ from impact_damper.variables import harmonic_balance, migration, motions, orbits
 from impact_damper.variables.variable import Variable
 
 MODULES = (motions, harmonic_balance, migration, subharmonic, orbits)
+from impact_damper.variables import contact, harmonic_balance, migration, motions, subharmonic
+from impact_damper.variables.variable import Variable
+
+MODULES = (motions, harmonic_balance, migration, subharmonic, contact)
 VARIABLES: dict[str, Variable] = {
     name: entry for module in MODULES for name, entry in module.VARIABLES.items()
 }

@@ -1,0 +1,98 @@
+"""The contact model over restitution and load, with the contacts of real motions."""
+
+import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.ticker import FuncFormatter
+
+from impact_damper.datasets import flag
+from impact_damper.figures.maps import contours, key, marked, mesh
+from impact_damper.figures.style import (
+    BLACK,
+    PALE,
+    PALE_ORANGE,
+    VERMILION,
+    axis_label,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
+LINES = {0.01: "solid", 0.05: "dotted"}
+TIMES = {0.95: "solid", 1.05: "solid", 0.5: "dotted", 1.5: "dotted"}
+# Below this load the axis is linear.
+LINEAR = 1e-3
+MOTIONS = (
+    {"color": BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
+    {"color": VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},
+)
+
+
+@style()
+def draw_contact_model(*, contact_model):
+    """Error of the realised restitution and time in contact, for both exit rules.
+
+    Parameters
+    ----------
+    contact_model : list of xarray.Dataset
+        Of `contact_model`, whose maps are the same; the contacts of all are drawn.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 6.4)
+    panels = drawn.subplots(2, 2, sharex=True, sharey=True)
+    data = contact_model[0]
+    x, y = data["restitution"].values, data["load"].values
+    shapes = LogNorm(1e-3, 1), Normalize(0, 2)
+    names = "|realised $e$ / intended $e$ $-$ 1|", axis_label(data["contact_duration"])
+    for row, (norm, name) in enumerate(zip(shapes, names, strict=True)):
+        for axes, rule in zip(panels[row], RULES, strict=True):
+            cell = data.sel(exit_rule=rule)
+            time = cell["contact_duration"].values
+            error = np.abs(cell["realised_restitution"].values / x - 1)
+            cells = mesh(axes, x, y, time if row else np.maximum(error, norm.vmin), norm)
+            for level, line in (TIMES if row else LINES).items():
+                contours(axes, x, y, time if row else error, level, line)
+            back = cell["contact_verdict"].values == flag("contact_verdict", "falls_back")
+            if not row:
+                marked(axes, x, y, back, PALE_ORANGE)
+            axes.set_yscale("symlog", linthresh=LINEAR)
+            axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        drawn.colorbar(cells, ax=panels[row], label=name, extend="both" if row == 0 else "max")
+    for axes, words in zip(panels[0], RULES.values(), strict=True):
+        axes.set_title(words)
+    for given in contact_model:
+        draw_contacts(panels[0, 0], given)
+    for axes, lines, words in (
+        (panels[0, 0], LINES, "error of 1 % (solid) and 5 % (dotted)"),
+        (panels[1, 0], TIMES, "time off by 5 % (solid) and 50 % (dotted)"),
+    ):
+        axes.plot([], [], color=BLACK, linestyle=next(iter(lines.values())), label=words)
+    key(panels[0, 0], "the contact does not end", PALE, "////")
+    key(panels[0, 0], "the loose mass falls back", PALE_ORANGE)
+    for axes in panels[1]:
+        axes.set_xlabel(axis_label(data["restitution"]))
+    for axes in panels[:, 0]:
+        axes.set_ylabel(r"Load in contact, $g/(\omega_n v_0)$")
+    letter_panels(panels.ravel())
+    legend(drawn, 2)
+    return drawn
+
+
+def draw_contacts(axes, data):
+    """Contacts of the motions, at the restitution of their damper."""
+    used = data["used"].values[data["contact_used"].values]
+    size = data["contact_size"].values
+    load = data["contact_load"].values
+    for place in reversed(range(len(MOTIONS))):
+        chosen = size == place
+        axes.plot(
+            used[chosen],
+            load[chosen],
+            linestyle="none",
+            label=f"contacts of the {data['size'].values[place]} simulated motions",
+            **MOTIONS[place],
+        )

@@ -1,0 +1,122 @@
+"""How wrong rigid impacts are, over contact stiffness and frequency."""
+
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from impact_damper.datasets import flag, parameters_of
+from impact_damper.figures.maps import contours, key, mesh
+from impact_damper.figures.style import (
+    BLACK,
+    GREY,
+    PALE,
+    VERMILION,
+    WHITE,
+    axis_label,
+    curve,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+SMALLEST = 1e-4
+THRESHOLDS = ("solid", "dotted")
+OWN = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (6, 3))}
+
+
+@style()
+def draw_rigid_limit(*, rigid_limit):
+    """Maps of the errors of displacement and decay, a column for each damper, and their order.
+
+    Parameters
+    ----------
+    rigid_limit : list of xarray.Dataset
+        Of `rigid_limit`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 7.4)
+    grid = drawn.add_gridspec(3, len(rigid_limit), height_ratios=(1, 1, 1.1))
+    maps = np.empty((2, len(rigid_limit)), object)
+    norm = LogNorm(SMALLEST, 1)
+    for column, data in enumerate(rigid_limit):
+        for row, name in enumerate(("rigid_error", "decay_error")):
+            axes = maps[row, column] = drawn.add_subplot(grid[row, column])
+            cells = draw_map(axes, data, data[name], norm)
+            axes.tick_params(labelleft=column == 0, labelbottom=row == 1)
+        maps[0, column].set_title(title(data).replace(", $e", "\n$e"), fontsize=8)
+        maps[1, column].set_xlabel(axis_label(data["frequency"]), fontsize=8)
+    for axes in maps[:, 0]:
+        axes.set_ylabel(axis_label(data["stiffness"]))
+    for row, words in enumerate(("|error of max $|Z_1|$|", "|error of decay|")):
+        drawn.colorbar(cells, ax=maps[row], label=words, extend="min")
+    for level, line in zip(data["threshold"].values, THRESHOLDS, strict=True):
+        maps[0, 0].plot([], [], color=BLACK, linestyle=line, label=f"error of {100 * level:g} %")
+    maps[0, 0].plot([], [], label="$r_1$ of the damper", **OWN)
+    key(maps[0, 0], "one or both motions not reached", PALE, "////")
+    key(maps[0, 0], "both unstable", WHITE, "....")
+    key(maps[0, 0], "stability differs", VERMILION)
+    axes = drawn.add_subplot(grid[2, :])
+    draw_orders(axes, rigid_limit)
+    letter_panels([*maps.ravel(), axes])
+    legend(drawn, 3)
+    return drawn
+
+
+def draw_map(axes, data, values, norm):
+    """One map, with the frequency along x and the stiffness along y."""
+    x, y = data["frequency"].values, data["stiffness"].values
+    error = np.abs(values.values.T)
+    cells = mesh(axes, x, y, np.where(error < SMALLEST, SMALLEST, error), norm)
+    verdict = data["rigid_verdict"].values.T
+    unstable = verdict == flag("rigid_verdict", "both_unstable")
+    if unstable.any():
+        hatch = axes.contourf(x, y, unstable, [0.5, 1.5], colors="none", hatches=["...."])
+        hatch.set(edgecolor=GREY, linewidth=0)
+    if values.name == "rigid_error":
+        for level, line in zip(data["threshold"].values, THRESHOLDS, strict=True):
+            contours(axes, x, y, error, level, line)
+    differs = np.argwhere(verdict == flag("rigid_verdict", "stability_differs"))
+    axes.plot(x[differs[:, 1]], y[differs[:, 0]], "s", color=VERMILION, markersize=1.6)
+    axes.axhline(parameters_of(data)["contact_stiffness"], **OWN)
+    axes.set_yscale("log")
+    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]])
+    return cells
+
+
+def draw_orders(axes, rigid_limit):
+    """Errors of max |Z1| against stiffness at the frequency of the design, and their slopes."""
+    for index, data in enumerate(rigid_limit):
+        row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
+        x, line = data["stiffness"], curve(index)
+        axes.plot(x, np.abs(row["rigid_error"]), **line, label=title(data))
+        axes.plot(x, np.abs(row["mended_error"]), **line)
+    for name, height in (("rigid_error", 1.6), ("mended_error", 0.3)):
+        middle = row.isel(stiffness=row.sizes["stiffness"] // 4)
+        place = float(middle["stiffness"]), height * float(np.abs(middle[name]))
+        axes.annotate(name.split("_")[0], place, ha="center")
+    stiffness = data["stiffness"].values
+    for level, order in ((0.6, 0.5), (0.06, 1)):
+        guide = level * (stiffness / stiffness[0]) ** -order
+        axes.plot(stiffness, guide, color=GREY, linewidth=0.6, linestyle=":")
+        axes.annotate(
+            rf"$r_1^{{-{order:g}}}$", (stiffness[-1], guide[-1]), color=GREY, ha="left", va="center"
+        )
+    axes.axvline(parameters_of(data)["contact_stiffness"], **OWN)
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel=axis_label(data["stiffness"]),
+        ylabel="|error of max $|Z_1|$|",
+        xlim=(stiffness[0], stiffness[-1] * 2),
+    )
+
+
+def title(data):
+    """Parameters of a damper."""
+    given = parameters_of(data)
+    return (
+        f"$r_m={given['mass_ratio']:g}$, $d_0={given['clearance']:g}$, $e={given['restitution']:g}$"
+    )

@@ -1,0 +1,24 @@
+rule contact_model:
+    input:
+        data("contact_model"),
+
+
+rule contact_map:
+    input:
+        code=code("contact_map.py"),
+        kernels=ancient("<results>/kernels.compiled"),
+    output:
+        "<results>/contact_model/{contact}.nc",
+    log:
+        "<logs>/contact_model/{contact}.log",
+    benchmark:
+        "<benchmarks>/contact_model/{contact}.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    params:
+        job=contact_model_job,
+    message:
+        "Contact model and contacts of motions, {wildcards.contact}"
+    script:
+        "../scripts/contact_map.py"

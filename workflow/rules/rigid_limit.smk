@@ -1,0 +1,24 @@
+rule rigid_limit:
+    input:
+        data("rigid_limit"),
+
+
+rule rigid_error:
+    input:
+        code=code("rigid_error.py"),
+        kernels=ancient("<results>/kernels.compiled"),
+    output:
+        "<results>/rigid_limit/{limit}.nc",
+    log:
+        "<logs>/rigid_limit/{limit}.log",
+    benchmark:
+        "<benchmarks>/rigid_limit/{limit}.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    params:
+        job=rigid_limit_job,
+    message:
+        "Rigid impacts against compliant contact, {wildcards.limit}"
+    script:
+        "../scripts/rigid_error.py"

@@ -1,0 +1,26 @@
+"""The contact model over restitution and load, and contacts of motions in it."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.contact_model import contact_model, spread_loads
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.parameters import Damper, Oscillator
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+model = contact_model(
+    Oscillator(**job["oscillator"]),
+    Damper(**job["damper"]),
+    job["frequencies"],
+    np.linspace(*job["map"]["restitutions"]),
+    spread_loads(*job["map"]["loads"]),
+    used=job["used"],
+    starts=job["starts"],
+    periods=job["periods"],
+    seed=job["seed"],
+    settling=Settling(**job["settling"]),
+)
+save(model, snakemake.output[0])

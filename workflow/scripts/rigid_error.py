@@ -1,0 +1,24 @@
+"""Rigid impacts against compliant contact over frequency and contact stiffness."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.parameters import Damper, Oscillator
+from impact_damper.rigid_limit import rigid_limit
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+limit = rigid_limit(
+    Oscillator(**job["oscillator"]),
+    Damper(**job["damper"]),
+    job["frequency"],
+    np.linspace(*job["frequencies"]),
+    np.geomspace(*job["stiffnesses"]),
+    starts=job["starts"],
+    seed=job["seed"],
+    settling=Settling(**job["settling"]),
+)
+save(limit, snakemake.output[0])
