@@ -1,5 +1,6 @@
 """Validation of the workflow's configuration: every problem in one line, before any job starts."""
 
+import itertools
 import math
 import numbers
 import re
@@ -17,6 +18,7 @@ SECTIONS = {
     "optimum": "optima",
     "migration": "migration",
     "release": "migration",
+    "design_rules": "design_rules",
 }
 
 # What a figure of the kind `schematic` may name instead.
@@ -164,7 +166,15 @@ def _lines(error):
 
 def _contradictions(config):
     """Problems between values that are each allowed."""
-    for section in ("curves", "motions", "collisions", "optima", "migration", "release_scans"):
+    for section in (
+        "curves",
+        "motions",
+        "collisions",
+        "optima",
+        "migration",
+        "release_scans",
+        "design_rules",
+    ):
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -179,6 +189,8 @@ def _contradictions(config):
         yield from _reversed(["optima", name, "clearances"], optimum["clearances"])
     for name, scan in config["release_scans"].items():
         yield from _reversed(["release_scans", name, "frequencies"], scan["frequencies"])
+    for name, grid in config["design_rules"].items():
+        yield from _wrong_grid(["design_rules", name], grid, config["oscillators"])
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, figure in config["figures"].items():
@@ -194,6 +206,16 @@ def _reversed(path, span):
     if span["first"] >= span["last"]:
         reason = f"must be less than last = {span['last']!r} (a range ascends)"
         yield _problem([*path, "first"], span["first"], reason)
+
+
+def _wrong_grid(path, grid, oscillators):
+    for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies"):
+        if any(first >= second for first, second in itertools.pairwise(grid[key])):
+            yield _problem([*path, key], grid[key], "must increase (a grid ascends)")
+    linear = oscillators.get(grid["oscillator"], {}).get("linear_frequency", 0)
+    if grid["frequencies"][0] <= linear:
+        reason = f"must lie above the linear frequency {linear!r} (the rules hold above it)"
+        yield _problem([*path, "frequencies"], grid["frequencies"], reason)
 
 
 def _wrong_stages(path, curve):

@@ -28,8 +28,9 @@ wildcard_constraints:
     motion="[A-Za-z0-9_]+",
     optimum="[A-Za-z0-9_]+",
     run="[A-Za-z0-9_]+",
+    grid="[A-Za-z0-9_]+",
     figure="[A-Za-z0-9_]+",
-    table="[a-z]+",
+    table="[a-z_]+",
 
 
 def checked(config):

@@ -12,6 +12,7 @@ STAGES = {
     "subharmonic": "curves",
     "migration": "migration",
     "release_scan": "release_scans",
+    "design_rules": "design_rules",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -22,6 +23,7 @@ TABLES = {
     "subharmonics": ["free", "subharmonic"],
     "migration": ["migration"],
     "releases": ["release_scan"],
+    "design_rules": ["design_rules", "optimum"],
     "claims": list(STAGES),
 }
 
@@ -155,6 +157,17 @@ def release_scan_job(wildcards):
     }
 
 
+def design_rules_job(wildcards):
+    grids = config["design_rules"][wildcards.grid]
+    return {
+        "oscillator": oscillator_of(grids["oscillator"]),
+        "grid": [
+            grids[key]
+            for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
+        ],
+    }
+
+
 def figures(*kinds):
     """Names of the figures of some kinds."""
     return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
@@ -175,8 +188,9 @@ def drawn(kind, name):
     """Parameters of what a figure draws; a schematic has none."""
     if kind == "schematic":
         return {}
-    if kind == "schematic":
-        return {}
+    if kind == "design_rules":
+        entry = config["design_rules"][name]
+        return entry | {"oscillator": oscillator_of(entry["oscillator"])}
     if kind == "free":
         return {"oscillator": oscillator_of(name)}
     entry = config[SECTIONS[kind]][name]
