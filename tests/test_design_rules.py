@@ -11,7 +11,7 @@ from impact_damper.design_rules import CRITERIA, RULES, QuietMotion, design_rule
 from impact_damper.figures.design_rules import draw_design_rules
 from impact_damper.motions import steady_motion
 from impact_damper.optimum import clearance_sweep
-from impact_damper.parameters import Damper, Oscillator
+from impact_damper.parameters import Damper, Oscillator, pack
 from impact_damper.rule_tables import SWEEPS, WORDS
 from impact_damper.rule_tables import design_rules as table_of
 
@@ -38,14 +38,13 @@ def test_optimum_is_that_of_a_clearance_sweep(grid, sweeps):
         cell = grid.sel(mass_ratio=0.25, restitution=float(restitution)).squeeze()
         cell = cell.sel(criterion="displacement")
         assert_allclose(cell.best_ratio, sweep.optimum_ratio, rtol=1e-5)
-        assert_allclose(cell.best_size, 4 * sweep.optimum_displacement, rtol=1e-8)
+        assert_allclose(cell.best_size, 4 * sweep.optimum_displacement, rtol=1e-7)
         assert int(cell.best_kind) == int(sweep.optimum_kind)
 
 
 def test_first_harmonic_by_quadrature_between_contacts():
     motion = QuietMotion(PAPER, Damper(0.12, 2.0), 2.0)
-    p = motion._parameters.copy()
-    p[3] = 2.0
+    p = pack(PAPER, Damper(0.12, 2.0), 2.0)
     y = np.array([0.006, 0.187, 0.002, -2.408])
     assert orbits.polish(p, y, 1, 0.1, 1e-13)[0]
     start = np.pi / 4

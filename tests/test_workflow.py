@@ -75,6 +75,7 @@ def finished(tmp_path_factory):
             "optima": ["h215_rm012", "h215_rm018"],
             "migration": ["figure_13"],
             "release_scans": ["close"],
+            "design_rules": ["stiffness"],
             "figures": ["figure_01", "figure_02", "figure_05a", "figure_08", "figure_13"],
         },
     )
@@ -112,7 +113,16 @@ def test_every_script_serves_the_paper_and_the_smoke_run(arguments, tmp_path):
 
 
 def test_each_stage_is_a_target():
-    stages = ("design", "free", "response", "optimum", "subharmonic", "migration", "release_scan")
+    stages = (
+        "design",
+        "free",
+        "response",
+        "optimum",
+        "subharmonic",
+        "migration",
+        "release_scan",
+        "design_rules",
+    )
     found = jobs(snakemake(ROOT, *stages, "figures", "tables", "-n", "--forceall"))
     assert {*stages, "figures", "tables"} < found.keys()
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.datasets import flag
+from impact_damper.datasets import flag, parameters_of
 from impact_damper.figures.style import (
     BLACK,
     GREY,
@@ -104,7 +104,13 @@ def draw_sweep(axes, data, name):
         markersize=5.5,
         label="motion unstable there",
     )
-    axes.set(xlabel=axis_label(data[name]), xscale=SWEPT[name], ylabel=r"$r_m \Omega^2 d_0$")
+    given = parameters_of(data)
+    words = f"$h = {given['damping']:g}$, $\\omega_l = {given['linear_frequency']:g}$"
+    axes.set(
+        xlabel=f"{axis_label(data[name])} ({words})",
+        xscale=SWEPT[name],
+        ylabel=r"$r_m \Omega^2 d_0$",
+    )
 
 
 def draw_errors(axes, datasets):
