@@ -32,6 +32,7 @@ include: "workflow/rules/migration.smk"
 include: "workflow/rules/release_scan.smk"
 include: "workflow/rules/contact_model.smk"
 include: "workflow/rules/rigid_limit.smk"
+include: "workflow/rules/design_rules.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -49,5 +50,6 @@ rule all:
         rules.release_scan.input,
         rules.contact_model.input,
         rules.rigid_limit.input,
+        rules.design_rules.input,
         rules.figures.input,
         rules.tables.input,

@@ -76,6 +76,7 @@ def finished(tmp_path_factory):
             "migration": ["figure_13"],
             "release_scans": ["close"],
             "rigid_limit": ["figure_05a"],
+            "design_rules": ["stiffness"],
             "figures": ["figure_01", "figure_02", "figure_05a", "figure_08", "figure_13"],
         },
     )
@@ -115,6 +116,16 @@ def test_every_script_serves_the_paper_and_the_smoke_run(arguments, tmp_path):
 def test_each_stage_is_a_target():
     stages = ("design", "free", "response", "optimum", "subharmonic", "migration", "release_scan")
     stages += ("contact_model", "rigid_limit")
+    stages = (
+        "design",
+        "free",
+        "response",
+        "optimum",
+        "subharmonic",
+        "migration",
+        "release_scan",
+        "design_rules",
+    )
     found = jobs(snakemake(ROOT, *stages, "figures", "tables", "-n", "--forceall"))
     assert {*stages, "figures", "tables"} < found.keys()
 

@@ -1,5 +1,6 @@
 """Validation of the workflow's configuration: every problem in one line, before any job starts."""
 
+import itertools
 import math
 import numbers
 import re
@@ -20,6 +21,7 @@ SECTIONS = {
     "release": "migration",
     "contact_model": "contact_model",
     "rigid_limit": "rigid_limit",
+    "design_rules": "design_rules",
 }
 
 # Sections whose entries name an oscillator.
@@ -180,6 +182,15 @@ def _lines(error):
 def _contradictions(config):
     """Problems between values that are each allowed."""
     for section in WITH_OSCILLATOR:
+    for section in (
+        "curves",
+        "motions",
+        "collisions",
+        "optima",
+        "migration",
+        "release_scans",
+        "design_rules",
+    ):
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -203,6 +214,8 @@ def _contradictions(config):
     for name, limit in config["rigid_limit"].items():
         for key in ("frequencies", "stiffnesses"):
             yield from _reversed(["rigid_limit", name, key], limit[key])
+    for name, grid in config["design_rules"].items():
+        yield from _wrong_grid(["design_rules", name], grid, config["oscillators"])
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, figure in config["figures"].items():
@@ -223,6 +236,14 @@ def _reversed(path, span):
 def _not_increasing(path, values):
     if sorted(set(values)) != values:
         yield _problem(path, values, "must increase (each is looked at once, in order)")
+def _wrong_grid(path, grid, oscillators):
+    for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies"):
+        if any(first >= second for first, second in itertools.pairwise(grid[key])):
+            yield _problem([*path, key], grid[key], "must increase (a grid ascends)")
+    linear = oscillators.get(grid["oscillator"], {}).get("linear_frequency", 0)
+    if grid["frequencies"][0] <= linear:
+        reason = f"must lie above the linear frequency {linear!r} (the rules hold above it)"
+        yield _problem([*path, "frequencies"], grid["frequencies"], reason)
 
 
 def _wrong_stages(path, curve):

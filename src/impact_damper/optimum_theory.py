@@ -1,12 +1,13 @@
-"""What theory says of the optimum clearance: equations (7), and two corrections of rule (18)."""
+"""What theory says of the optimum clearance by equations (7), against what is found."""
 
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
 from impact_damper import harmonic_balance as balance
 from impact_damper.datasets import flag
+from impact_damper.flight import Flight, least_displacement_ratio
 from impact_damper.slow_flow import fixed_points, growth_rate, stability
 
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
@@ -16,28 +17,15 @@ ZERO_AMPLITUDE = 1e-6
 def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
     """rm W^2 d0 for which max |Z1| is least, in the limit of high frequency and rigid walls.
 
-    There spring and damping do not count, and the loose mass flies straight: with t from an
-    impact, W^2 Z1 = -cos(W t + s) + q (1 - 2 W t/pi) for half a period, and so on mirrored.
-    The impulses set q, and restitution their phase s behind the peak of the forcing,
-    sin(s) = (2 q/pi) (1 + 1/rm) (1 - e)/(1 + e); then rm W^2 d0 = (1 + rm) q - rm cos(s).
-    For e = 1 the least maximum is at q = 1.1382.
+    There spring and damping do not count, and the loose mass flies straight: see `flight.Flight`.
+    For e = 1 it is 1.1382 + 0.1382 rm.
 
     Parameters
     ----------
     mass_ratio, restitution : float
         rm and e.
     """
-    lag = 2 / np.pi * (1 + 1 / mass_ratio) * (1 - restitution) / (1 + restitution)
-
-    def largest(impulse):
-        phase = np.arcsin(lag * impulse)
-        turn = np.arcsin(2 * impulse / np.pi)
-        at = np.array([phase, max(phase, turn), np.pi - turn])
-        return np.max(np.abs(impulse * (1 - 2 * (at - phase) / np.pi) - np.cos(at)))
-
-    most = np.pi / 2 if lag == 0 else min(np.pi / 2, 1 / lag)
-    best = minimize_scalar(largest, bounds=(0, most), method="bounded", options={"xatol": 1e-10}).x
-    return float((1 + mass_ratio) * best - mass_ratio * np.sqrt(1 - (lag * best) ** 2))
+    return least_displacement_ratio(Flight(mass_ratio, restitution))
 
 
 def _analytical(oscillator, damper, frequency):

@@ -12,6 +12,7 @@ KINDS = {
     "release": "Migration control",
     "contact_model": "Where methods fail",
     "rigid_limit": "Where methods fail",
+    "design_rules": "Optimum clearance",
 }
 
 

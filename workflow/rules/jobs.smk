@@ -16,6 +16,7 @@ STAGES = {
     "release_scan": "release_scans",
     "contact_model": "contact_model",
     "rigid_limit": "rigid_limit",
+    "design_rules": "design_rules",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -31,6 +32,7 @@ TABLES = {
     "contact_model": ["contact_model"],
     "contact_motions": ["contact_model"],
     "rigid_limit": ["rigid_limit"],
+    "design_rules": ["design_rules", "optimum"],
     "claims": list(STAGES),
 }
 
@@ -228,6 +230,14 @@ def rigid_limit_job(wildcards):
         "starts": config["search"]["scan_starts"],
         "seed": config["seed"],
         "settling": config["settling"],
+def design_rules_job(wildcards):
+    grids = config["design_rules"][wildcards.grid]
+    return {
+        "oscillator": oscillator_of(grids["oscillator"]),
+        "grid": [
+            grids[key]
+            for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
+        ],
     }
 
 
@@ -251,8 +261,9 @@ def drawn(kind, name):
     """Parameters of what a figure draws; a schematic has none."""
     if kind == "schematic":
         return {}
-    if kind == "schematic":
-        return {}
+    if kind == "design_rules":
+        entry = config["design_rules"][name]
+        return entry | {"oscillator": oscillator_of(entry["oscillator"])}
     if kind == "free":
         return {"oscillator": oscillator_of(name)}
     entry = config[SECTIONS[kind]][name]

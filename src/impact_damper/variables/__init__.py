@@ -11,6 +11,10 @@ from impact_damper.variables import contact, harmonic_balance, migration, motion
 from impact_damper.variables.variable import Variable
 
 MODULES = (motions, harmonic_balance, migration, subharmonic, contact)
+from impact_damper.variables import design_rules, harmonic_balance, migration, motions, subharmonic
+from impact_damper.variables.variable import Variable
+
+MODULES = (motions, harmonic_balance, migration, subharmonic, design_rules)
 VARIABLES: dict[str, Variable] = {
     name: entry for module in MODULES for name, entry in module.VARIABLES.items()
 }

@@ -1,0 +1,130 @@
+"""Rules for the clearance against the optimum of the motion."""
+
+import numpy as np
+
+from impact_damper.datasets import flag, parameters_of
+from impact_damper.figures.style import (
+    BLACK,
+    GREY,
+    ORANGE,
+    SKY,
+    axis_label,
+    curve,
+    figure,
+    legend,
+    letter_panels,
+    points,
+    style,
+)
+
+SWEPT = {
+    "restitution": "linear",
+    "contact_stiffness": "log",
+    "frequency": "linear",
+}
+TITLES = {
+    "displacement": "Least largest displacement",
+    "first_harmonic": "Least first harmonic",
+}
+RULES = {
+    "balance": "$1$, equation (18)",
+    "gap_harmonic": r"$\pi^2/8$",
+    "straight_flight": "straight flight, rigid walls",
+    "elastic": "explicit, elastic contact",
+    "flight": "flight with corrections",
+}
+LOOKS = {
+    "balance": {"color": BLACK, "linestyle": (0, (1, 2))},
+    "gap_harmonic": {"color": GREY, "linestyle": (0, (6, 3))},
+    "straight_flight": {"color": SKY, "linestyle": (0, (6, 1.5, 1, 1.5))},
+    "elastic": {"color": ORANGE},
+    "flight": {"color": BLACK, "linewidth": 1.8},
+}
+
+
+@style()
+def draw_design_rules(*, design_rules):
+    """Optima over each parameter that is swept with the rules, and the errors of all.
+
+    Parameters
+    ----------
+    design_rules : list of xarray.Dataset
+        Of `design_rules`. One with a single swept parameter beside the mass ratio has a row of
+        panels; the others count in the last row only.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    sweeps = [(data, swept(data)) for data in design_rules]
+    sweeps = [(data, names[0]) for data, names in sweeps if len(names) == 1]
+    rows = len(sweeps) + 1
+    drawn = figure("double", 1.7 * rows + 1.3)
+    panels = drawn.subplots(rows, 2, squeeze=False, sharey="row")
+    for row, (data, name) in zip(panels, sweeps, strict=False):
+        for axes, criterion in zip(row, TITLES, strict=True):
+            draw_sweep(axes, data.sel(criterion=criterion), name)
+    for axes, criterion in zip(panels[-1], TITLES, strict=True):
+        draw_errors(axes, [data.sel(criterion=criterion) for data in design_rules])
+    letter_panels(panels.ravel())
+    for axes, words in zip(panels[0], TITLES.values(), strict=True):
+        axes.set_title(words, loc="center")
+    legend(drawn, 3)
+    return drawn
+
+
+def swept(data):
+    """Parameters beside the mass ratio with more than one value."""
+    return [name for name in SWEPT if data.sizes[name] > 1]
+
+
+def draw_sweep(axes, data, name):
+    """Optima against one parameter for each mass ratio, with rules as lines."""
+    data = data.squeeze([other for other in SWEPT if other != name], drop=True)
+    unstable = data["best_stability"] == flag("best_stability", "unstable")
+    for index, mass_ratio in enumerate(data["mass_ratio"].values):
+        one = data.sel(mass_ratio=mass_ratio)
+        axes.plot(
+            one[name],
+            one["best_ratio"],
+            **points(index),
+            label=f"$r_m = {mass_ratio:g}$: optimum, and flight with corrections (line)",
+        )
+        axes.plot(one[name], one["rule_ratio"].sel(rule="flight"), **curve(index))
+    for rule in ("balance", "gap_harmonic"):
+        level = data["rule_ratio"].sel(rule=rule).values.flat[0]
+        axes.axhline(level, **LOOKS[rule], label=RULES[rule])
+    crossed = data["best_ratio"].where(unstable).stack(cell=[...])
+    axes.plot(
+        crossed[name],
+        crossed,
+        color=BLACK,
+        marker="x",
+        linestyle="none",
+        markersize=5.5,
+        label="motion unstable there",
+    )
+    given = parameters_of(data)
+    words = f"$h = {given['damping']:g}$, $\\omega_l = {given['linear_frequency']:g}$"
+    axes.set(
+        xlabel=f"{axis_label(data[name])} ({words})",
+        xscale=SWEPT[name],
+        ylabel=r"$r_m \Omega^2 d_0$",
+    )
+
+
+def draw_errors(axes, datasets):
+    """Share of the optima that each rule predicts within an error."""
+    for rule, words in RULES.items():
+        errors = np.concatenate(
+            [
+                np.abs(data["rule_ratio"].sel(rule=rule) / data["best_ratio"] - 1).values.ravel()
+                for data in datasets
+            ]
+        )
+        known = np.sort(100 * errors[np.isfinite(errors)])
+        share = np.arange(1, len(known) + 1) / len(known)
+        axes.step(known, share, where="post", **LOOKS[rule], label=words)
+    axes.set(
+        xscale="log", xlim=(1e-2, 300), xlabel="Error of the rule, %", ylabel="Share of optima"
+    )
