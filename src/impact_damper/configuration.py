@@ -17,6 +17,7 @@ SECTIONS = {
     "optimum": "optima",
     "migration": "migration",
     "release": "migration",
+    "harmonics": "harmonics",
 }
 
 # What a figure of the kind `schematic` may name instead.
@@ -164,7 +165,8 @@ def _lines(error):
 
 def _contradictions(config):
     """Problems between values that are each allowed."""
-    for section in ("curves", "motions", "collisions", "optima", "migration", "release_scans"):
+    sections = "curves motions collisions optima migration release_scans harmonics"
+    for section in sections.split():
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -181,6 +183,8 @@ def _contradictions(config):
         yield from _reversed(["release_scans", name, "frequencies"], scan["frequencies"])
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
+    for name, scene in config["harmonics"].items():
+        yield from _part_of_damper(["harmonics", name], scene)
     for name, figure in config["figures"].items():
         yield from _wrong_data(["figures", name, "data"], figure, config)
 
@@ -203,6 +207,14 @@ def _wrong_stages(path, curve):
     if curve["clearance"] == "rule" and curve["stages"] != ["design"]:
         reason = "must be a number with stages beside design (the designs table lists the rule)"
         yield _problem([*path, "clearance"], curve["clearance"], reason)
+
+
+def _part_of_damper(path, scene):
+    needed = ("mass_ratio", "clearance", "restitution")
+    given = [key for key in (*needed, "contact_stiffness") if key in scene]
+    if given and not set(needed) <= set(given):
+        reason = f"must come with {', '.join(needed)} (a damper is whole or absent)"
+        yield _problem([*path, given[0]], scene[given[0]], reason)
 
 
 def _wrong_data(path, figure, config):

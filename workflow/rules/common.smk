@@ -28,6 +28,7 @@ wildcard_constraints:
     motion="[A-Za-z0-9_]+",
     optimum="[A-Za-z0-9_]+",
     run="[A-Za-z0-9_]+",
+    harmonics="[A-Za-z0-9_]+",
     figure="[A-Za-z0-9_]+",
     table="[a-z]+",
 

@@ -12,6 +12,7 @@ STAGES = {
     "subharmonic": "curves",
     "migration": "migration",
     "release_scan": "release_scans",
+    "harmonics": "harmonics",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -22,6 +23,7 @@ TABLES = {
     "subharmonics": ["free", "subharmonic"],
     "migration": ["migration"],
     "releases": ["release_scan"],
+    "harmonics": ["harmonics"],
     "claims": list(STAGES),
 }
 
@@ -43,8 +45,9 @@ def oscillator_of(name):
 
 
 def damper_of(entry):
-    given = {key: entry[key] for key in ("mass_ratio", "clearance", "restitution") if key in entry}
-    return given | {"contact_stiffness": config["contact_stiffness"]}
+    keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+    given = {key: entry[key] for key in keys if key in entry}
+    return {"contact_stiffness": config["contact_stiffness"]} | given
 
 
 def grid(span, points):
@@ -155,6 +158,17 @@ def release_scan_job(wildcards):
     }
 
 
+def harmonics_job(wildcards):
+    scene = config["harmonics"][wildcards.harmonics]
+    return {
+        "oscillator": oscillator_of(scene["oscillator"]),
+        "damper": damper_of(scene) if "mass_ratio" in scene else None,
+        "frequency": scene["frequency"],
+        "highest": scene["highest"],
+        "highest_cold": scene["highest_cold"],
+    }
+
+
 def figures(*kinds):
     """Names of the figures of some kinds."""
     return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
@@ -183,7 +197,7 @@ def drawn(kind, name):
     frequency = {"frequency": entry["frequency"]} if "frequency" in entry else {}
     return {
         "oscillator": oscillator_of(entry["oscillator"]),
-        "damper": damper_of(entry),
+        "damper": damper_of(entry) if kind != "harmonics" or "mass_ratio" in entry else None,
         **frequency,
     }
 
