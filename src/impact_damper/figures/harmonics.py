@@ -20,12 +20,13 @@ PANELS = {
     "retained": "Error of $Z_1$ in harmonics up to $N$",
     "multiplier": "Error of a Floquet multiplier (Hill)",
 }
+ROUNDING, FLOOR = 1e-12, 1e-16
 GUIDE = {"color": GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
 COLD = {
     "same_motion": ("cold start: same motion", {"marker": "o", "markerfacecolor": "none"}),
     "another_motion": ("cold start: another motion", {"marker": "s", "markersize": 4.4}),
     "stalled": ("cold start: stalled", {"marker": "x"}),
-    "iteration_limit": ("cold start: not done in 40 steps", {"marker": "+", "markersize": 5}),
+    "iteration_limit": ("cold start: step limit", {"marker": "+", "markersize": 5}),
 }
 
 
@@ -47,7 +48,7 @@ def draw_harmonics(*, harmonics):
     letter_panels(panels.flat)
     for axes, (measure, words) in zip(panels.flat, PANELS.items(), strict=False):
         draw_errors(axes, harmonics, measure)
-        axes.set(xscale="log", yscale="log", ylabel=f"{words}")
+        axes.set(xscale="log", yscale="log", ylabel=words)
     draw_cold(panels[1, 1], harmonics)
     for axes in panels[1]:
         axes.set_xlabel(axis_label(harmonics[0]["highest_harmonic"]))
@@ -57,32 +58,30 @@ def draw_harmonics(*, harmonics):
 
 def draw_errors(axes, harmonics, measure):
     """Errors of one measure, with the predicted decay above each, and failures at the top."""
+    status = "hill_status" if measure == "multiplier" else "series_status"
     for index, data in enumerate(harmonics):
         at = data.sel(error_measure=measure)
         highest, error = data["highest_harmonic"].values, at["series_error"].values
-        line = curve(index) | points(index) | {"linestyle": curve(index)["linestyle"]}
-        axes.plot(highest, error, **line | {"linewidth": 0.8}, label=title(data))
-        axes.plot(*guide(data, at), **GUIDE, label="predicted decay")
-        status = "hill_status" if measure == "multiplier" else "series_status"
-        lost = (data[status] != 0).values
-        axes.plot(
-            highest[lost],
-            np.full(lost.sum(), 0.97),
-            **ROLES["unresolved"] | {"label": "failed"},
-            transform=axes.get_xaxis_transform(),
-        ) if lost.any() else None
+        line = points(index) | curve(index) | {"linewidth": 0.8}
+        axes.plot(highest, np.maximum(error, FLOOR), **line, label=title(data))
+        lost = highest[data[status].values != 0]
+        if len(lost):
+            place = {"transform": axes.get_xaxis_transform(), "label": "failed"}
+            axes.plot(lost, np.full(len(lost), 0.97), **ROLES["unresolved"] | place)
+    for data in harmonics:
+        axes.plot(*guide(data, data.sel(error_measure=measure)), **GUIDE, label="predicted decay")
 
 
 def guide(data, at):
-    """Line of the predicted decay, through three times the last fitted error."""
+    """Line of the predicted decay, at three times the fitted errors' geometric mean."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
-    used = (highest >= data["asymptotic_harmonic"].item()) & (error > 1e-12)
+    used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
         return [], []
-    rate, last = at["decay_predicted"].item(), np.flatnonzero(used)[-1]
+    highest, error = highest[used], np.log(error[used])
     exponential = data["decay_kind"] == flag("decay_kind", "exponential")
-    scale = highest if exponential else np.log(highest)
-    return highest[used], 3 * error[last] * np.exp(-rate * (scale[used] - scale[last]))
+    decay = -at["decay_predicted"].item() * (highest if exponential else np.log(highest))
+    return highest, 3 * np.exp(decay + np.mean(error - decay))
 
 
 def draw_cold(axes, harmonics):
@@ -91,14 +90,9 @@ def draw_cold(axes, harmonics):
         highest, status = data["highest_harmonic"].values, data["cold_status"].values
         for meaning, (words, look) in COLD.items():
             chosen = highest[status == flag("cold_status", meaning)]
-            axes.plot(
-                chosen,
-                np.full(len(chosen), -index),
-                color=curve(index)["color"],
-                linestyle="none",
-                label=words,
-                **look,
-            )
+            look = look | {"color": curve(index)["color"], "linestyle": "none"}
+            if len(chosen):
+                axes.plot(chosen, np.full(len(chosen), -index), **look, label=words)
     axes.set_yticks(-np.arange(len(harmonics)), [title(data, short=True) for data in harmonics])
     axes.set_ylim(0.5 - len(harmonics), 0.5)
     axes.tick_params(axis="y", length=0)
