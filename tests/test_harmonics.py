@@ -98,6 +98,18 @@ def test_wrong_arguments_are_named(change, message):
         harmonics.harmonic_convergence(PAPER, DESIGN, 2.0, **given)
 
 
+def test_failures_are_stored():
+    """Walls so stiff that 63 harmonics cannot be reached from one."""
+    stiff = Damper(0.12, 2.0, contact_stiffness=1e8)
+    data = harmonics.harmonic_convergence(PAPER, stiff, 2.0, [63])
+    assert data["series_status"][0] != flag("series_status", "converged")
+    assert data["hill_status"][0] == flag("hill_status", "not_tried")
+    assert data["exact_status"] == flag("exact_status", "not_found")
+    assert np.isnan(data["series_error"]).all() and np.isnan(data["decay_observed"]).all()
+    assert table({"harmonics": {"stiff": data}})["failed"].item() == 1
+    draw_harmonics(harmonics=[data]).draw_without_rendering()
+
+
 def test_no_solution_to_begin_from():
     with pytest.raises(ArithmeticError, match="no solution with contacts"):
         harmonics.harmonic_convergence(PAPER, Damper(0.12, 500.0), 2.0, [1])

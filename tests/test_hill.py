@@ -8,7 +8,7 @@ from impact_damper import hill
 from impact_damper.exact_orbit import exact_orbit
 from impact_damper.harmonics import refine, single_term, state_of
 from impact_damper.multiharmonic import Balance, solve
-from impact_damper.parameters import pack
+from impact_damper.parameters import Damper, pack
 
 CASES = {"free": (None, 1.9, 21), "elastic": (DESIGN, 2.0, 255), "inelastic": (INELASTIC, 2.0, 255)}
 
@@ -69,3 +69,30 @@ def test_real_multipliers_at_the_edge_of_the_strip():
     solution = solve(Balance(PAPER, DESIGN, 2.0, 7), single_term(PAPER, DESIGN, 2.0))
     multipliers = hill.exponents(solution).multipliers(np.pi)
     assert np.sum(np.abs(multipliers.imag) < 1e-12) == 2
+
+
+def test_the_orbit_must_be_of_the_same_truncation():
+    """With the ends of contacts of the exact orbit instead, errors fall as N^-3, not N^-4."""
+    damper = Damper(0.12, 2.0, contact_stiffness=200.0)
+    highest = [1, 3, 7, 15, 31, 63, 127, 255, 511]
+    balances = [Balance(PAPER, damper, 2.0, n) for n in highest]
+    solutions = refine(balances, single_term(PAPER, damper, 2.0))
+    exact, multipliers = solutions[-1], hill.exponents(solutions[-1]).multipliers(np.pi)
+    rows = exact.balance.contacts(exact.coefficients)
+
+    def error(solution):
+        away = hill.exponents(solution).multipliers(np.pi)[:, None] - multipliers
+        return np.max(np.min(np.abs(away), axis=1))
+
+    class Frozen(Balance):
+        def contacts(self, coefficients):
+            return rows
+
+    frozen, own = [], []
+    for solution in solutions[6:8]:
+        balance = Frozen(PAPER, damper, 2.0, solution.balance.highest)
+        kept = exact.coefficients[:, : len(balance.harmonics)]
+        frozen.append(error(solution._replace(balance=balance, coefficients=kept)))
+        own.append(error(solution))
+    assert np.log2(frozen[0] / frozen[1]) == pytest.approx(3, abs=0.3)
+    assert max(own) < 1e-3 * min(frozen)

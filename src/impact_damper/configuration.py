@@ -210,11 +210,12 @@ def _wrong_stages(path, curve):
 
 
 def _part_of_damper(path, scene):
-    needed = ("mass_ratio", "clearance", "restitution")
-    given = [key for key in (*needed, "contact_stiffness") if key in scene]
-    if given and not set(needed) <= set(given):
-        reason = f"must come with {', '.join(needed)} (a damper is whole or absent)"
-        yield _problem([*path, given[0]], scene[given[0]], reason)
+    keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+    given = [key for key in keys if key in scene]
+    if given:
+        for key in sorted(set(keys) - set(given)):
+            words = f"needed with {', '.join(given)} (a damper is whole or absent)"
+            yield f"{_path([*path, key])}: missing; {words}"
 
 
 def _wrong_data(path, figure, config):

@@ -48,9 +48,9 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     -------
     xarray.Dataset
         Over `highest_harmonic`: status, steps and residual of Newton's method, largest
-        displacement, errors against the exact orbit, Floquet multipliers by Hill's method, and
-        what the cold start came to; the rates at which errors fall, and those predicted
-        (`harmonics_theory`).
+        displacement, errors against the exact orbit (NaN if it was not found), Floquet
+        multipliers by Hill's method, and what the cold start came to; the rates at which errors
+        fall, and those predicted (`harmonics_theory`).
 
     Raises
     ------
@@ -86,7 +86,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
         ],
     }
     data |= hill_table(solutions, exact)
-    data |= exact_table(exact, p)
+    data |= exact_table(exact, p, 2 if damper is None else 4)
     data["series_error"] = errors(data, solutions, exact, p)
     data |= decay_table(harmonics, data, damper, p, exact)
     made = describe(oscillator, damper) | {"frequency": float(frequency)}
@@ -176,26 +176,28 @@ def hill_table(solutions, exact):
         "hill_status": status,
         "hill_multiplier_real": multipliers.real,
         "hill_multiplier_imaginary": multipliers.imag,
-        "hill_trace_error": np.abs(traces - trace),
+        "hill_trace_error": np.abs(traces - trace) if exact.found else np.full_like(traces, np.nan),
     }
 
 
-def exact_table(exact, p):
-    """What is known of the exact orbit."""
+def exact_table(exact, p, number):
+    """What is known of the exact orbit, with so many multipliers."""
+    found = exact.found and len(exact.multipliers) == number
+    multipliers = exact.multipliers if found else np.full(number, complex(np.nan, np.nan))
     maximum = recording.measured(p, exact.state, 1, TOLERANCE)["maximum_displacement"]
     return {
-        "exact_status": flag("exact_status", "found" if exact.found else "not_found"),
+        "exact_status": flag("exact_status", "found" if found else "not_found"),
         "exact_residual": exact.residual,
-        "exact_maximum": maximum if exact.found else np.nan,
-        "exact_multiplier_real": exact.multipliers.real,
-        "exact_multiplier_imaginary": exact.multipliers.imag,
+        "exact_maximum": maximum if found else np.nan,
+        "exact_multiplier_real": multipliers.real,
+        "exact_multiplier_imaginary": multipliers.imag,
     }
 
 
 def errors(data, solutions, exact, p):
     """Errors against the exact orbit, shape (4, N): see `harmonics_theory.MEASURES`."""
     found = np.full((4, len(solutions)), np.nan)
-    if not exact.found:
+    if data["exact_status"] == flag("exact_status", "not_found"):
         return found
     balance, size = solutions[0].balance, data["exact_maximum"]
     orbit = simulate(
@@ -227,7 +229,7 @@ def errors(data, solutions, exact, p):
 
 def _farthest(values, references):
     """Largest distance of complex numbers from references, paired so that distances are least."""
-    if len(values) != len(references) or np.isnan(values).any():
+    if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
     return np.max(away[linear_sum_assignment(away)])

@@ -1,22 +1,24 @@
-r"""How fast harmonic balance must converge, from the smoothness of the motion.
+"""How fast harmonic balance must converge, from the smoothness of the motion.
 
 With contacts the force is continuous with kinks (elastic), or jumps at entry and exit (the
 dashpot's), so that the coefficient k of Z1 and of Z2 falls as k^-4 or as k^-3. From that:
 
 - the omitted harmonics, k > N, have a root mean square of N^-3.5 or N^-2.5;
-- their value at a fixed place away from the contacts is N^-4 or N^-3, and so is the error of
-  max |Z1|, which is taken at such a place;
-- at a contact's end they would err by N^-4 or N^-2 in the retained harmonics, as the integral
-  of a tail from its kink on; but at its own kink a tail is even (elastic) or odd (dashpot), and
-  the sums over k and -k cancel at that order. What is left is N^-5 or N^-3;
-- disturbances have coefficients k^-3 or k^-2. At an end of a contact, the error N^-3 that this
-  makes is undone, for elastic contact, by that of the end's own place: both are r1 (1 + 1/rm)/pi
-  times the sum of k^-4 beyond N, with opposite signs. The Floquet multipliers err by N^-4 or N^-3.
+- the retained ones err by what the omitted tail adds to the force over a contact, the sum over
+  |k| > N of the tail's coefficients times those of M, which fall as 1/k: N^-4 or N^-3. For
+  elastic contact the terms of k and -k cancel at this order, and N^-5 is left;
+- max |Z1|, taken away from the ends of contacts, errs by that and by the omitted harmonics at one
+  place, N^-4 or N^-3. For elastic contact N^-5 may outweigh N^-4 at first;
+- a disturbance has coefficients k^-3 or k^-2. For elastic contact its tail adds N^-3 to the force
+  at each end of a contact, which the error of the end's own place undoes: both are r1 (1 + 1/rm)/pi
+  times the sum of k^-4 beyond N, with opposite signs. With the dashpot the terms of k and -k
+  cancel. The Floquet multipliers err by N^-4 or N^-3.
 
-These hold from `asymptotic_harmonic` on. Without contacts the motion is analytic in
-a strip around the real time axis up to its nearest singularity, at a distance s. The omitted
-harmonics are exp(-s W N), the retained ones and the multipliers, where two tails meet,
-exp(-2 s W N).
+These hold from `asymptotic_harmonic` on, and errors oscillate about them: entry and exit of a
+contact add with a phase between them that turns with N. Without contacts the motion is analytic
+in a strip around the real time axis, up to its nearest singularity at a distance s. The omitted
+harmonics fall as exp(-s W N), and the last retained ones err by as much times N^-2; the
+multipliers, where two tails meet, err by exp(-2 s W N).
 """
 
 import numpy as np

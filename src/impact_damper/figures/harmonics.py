@@ -48,7 +48,7 @@ def draw_harmonics(*, harmonics):
     letter_panels(panels.flat)
     for axes, (measure, words) in zip(panels.flat, PANELS.items(), strict=False):
         draw_errors(axes, harmonics, measure)
-        axes.set(xscale="log", yscale="log", ylabel=words)
+        axes.set(xscale="log", yscale="log", ylabel=words, ylim=(FLOOR / 2, 10))
     draw_cold(panels[1, 1], harmonics)
     for axes in panels[1]:
         axes.set_xlabel(axis_label(harmonics[0]["highest_harmonic"]))
