@@ -33,6 +33,7 @@ include: "workflow/rules/release_scan.smk"
 include: "workflow/rules/contact_model.smk"
 include: "workflow/rules/rigid_limit.smk"
 include: "workflow/rules/design_rules.smk"
+include: "workflow/rules/harmonics.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -51,5 +52,6 @@ rule all:
         rules.contact_model.input,
         rules.rigid_limit.input,
         rules.design_rules.input,
+        rules.harmonics.input,
         rules.figures.input,
         rules.tables.input,

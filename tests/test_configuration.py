@@ -215,3 +215,13 @@ def test_entries_set_to_null_are_left_out_with_what_only_they_are_drawn_for():
 @pytest.mark.parametrize("config", [{"figures": {"a": 5}}, {"figures": {"a": {"kind": "design"}}}])
 def test_leaving_out_passes_on_what_the_schema_rejects(config):
     assert without_left_out(config | {"curves": 5}) == config | {"curves": 5}
+
+
+def test_a_damper_is_whole_or_absent():
+    config = copy.deepcopy(PAPER)
+    scene = config["harmonics"]["soft"]
+    del scene["clearance"], scene["restitution"]
+    assert [line.split(":")[0] for line in problems(config)] == [
+        "harmonics.soft.clearance",
+        "harmonics.soft.restitution",
+    ]

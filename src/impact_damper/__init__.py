@@ -20,6 +20,7 @@ _HOMES = {
     "clearance_sweep": "optimum",
     "subharmonic_suppression": "subharmonic",
     "migrate": "migration",
+    "harmonic_convergence": "harmonics",
 }
 
 __all__ = list(_HOMES)

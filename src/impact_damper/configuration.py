@@ -22,6 +22,7 @@ SECTIONS = {
     "contact_model": "contact_model",
     "rigid_limit": "rigid_limit",
     "design_rules": "design_rules",
+    "harmonics": "harmonics",
 }
 
 # Sections whose entries name an oscillator.
@@ -191,6 +192,8 @@ def _contradictions(config):
         "release_scans",
         "design_rules",
     ):
+    sections = "curves motions collisions optima migration release_scans harmonics"
+    for section in sections.split():
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -218,6 +221,8 @@ def _contradictions(config):
         yield from _wrong_grid(["design_rules", name], grid, config["oscillators"])
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
+    for name, scene in config["harmonics"].items():
+        yield from _part_of_damper(["harmonics", name], scene)
     for name, figure in config["figures"].items():
         yield from _wrong_data(["figures", name, "data"], figure, config)
 
@@ -256,6 +261,15 @@ def _wrong_stages(path, curve):
     if curve["clearance"] == "rule" and curve["stages"] != ["design"]:
         reason = "must be a number with stages beside design (the designs table lists the rule)"
         yield _problem([*path, "clearance"], curve["clearance"], reason)
+
+
+def _part_of_damper(path, scene):
+    keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+    given = [key for key in keys if key in scene]
+    if given:
+        for key in sorted(set(keys) - set(given)):
+            words = f"needed with {', '.join(given)} (a damper is whole or absent)"
+            yield f"{_path([*path, key])}: missing; {words}"
 
 
 def _wrong_data(path, figure, config):

@@ -29,6 +29,7 @@ wildcard_constraints:
     optimum="[A-Za-z0-9_]+",
     run="[A-Za-z0-9_]+",
     grid="[A-Za-z0-9_]+",
+    harmonics="[A-Za-z0-9_]+",
     figure="[A-Za-z0-9_]+",
     contact="[A-Za-z0-9_]+",
     limit="[A-Za-z0-9_]+",

@@ -13,6 +13,7 @@ KINDS = {
     "contact_model": "Where methods fail",
     "rigid_limit": "Where methods fail",
     "design_rules": "Optimum clearance",
+    "harmonics": "Harmonic balance",
 }
 
 

@@ -17,6 +17,7 @@ STAGES = {
     "contact_model": "contact_model",
     "rigid_limit": "rigid_limit",
     "design_rules": "design_rules",
+    "harmonics": "harmonics",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -33,6 +34,7 @@ TABLES = {
     "contact_motions": ["contact_model"],
     "rigid_limit": ["rigid_limit"],
     "design_rules": ["design_rules", "optimum"],
+    "harmonics": ["harmonics"],
     "claims": list(STAGES),
 }
 
@@ -54,8 +56,9 @@ def oscillator_of(name):
 
 
 def damper_of(entry):
-    given = {key: entry[key] for key in ("mass_ratio", "clearance", "restitution") if key in entry}
-    return given | {"contact_stiffness": config["contact_stiffness"]}
+    keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+    given = {key: entry[key] for key in keys if key in entry}
+    return {"contact_stiffness": config["contact_stiffness"]} | given
 
 
 def grid(span, points):
@@ -238,6 +241,14 @@ def design_rules_job(wildcards):
             grids[key]
             for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
         ],
+def harmonics_job(wildcards):
+    scene = config["harmonics"][wildcards.harmonics]
+    return {
+        "oscillator": oscillator_of(scene["oscillator"]),
+        "damper": damper_of(scene) if "mass_ratio" in scene else None,
+        "frequency": scene["frequency"],
+        "highest": scene["highest"],
+        "highest_cold": scene["highest_cold"],
     }
 
 
@@ -270,7 +281,7 @@ def drawn(kind, name):
     frequency = {"frequency": entry["frequency"]} if "frequency" in entry else {}
     return {
         "oscillator": oscillator_of(entry["oscillator"]),
-        "damper": damper_of(entry),
+        "damper": damper_of(entry) if kind != "harmonics" or "mass_ratio" in entry else None,
         **frequency,
     }
 

@@ -1,6 +1,7 @@
 """Every table but that of the claims."""
 """Tables of all but the claims."""
 """Tables of designs, bands, optima, rules, subharmonics, migration and releases."""
+"""Tables of designs, bands, optima, subharmonics, migration, releases and harmonics."""
 
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 from impact_damper import orbit_tables, tables
 from impact_damper import contact_tables, tables
 from impact_damper import rule_tables, tables
+from impact_damper import harmonics_table, tables
 from impact_damper.datasets import load
 from impact_damper.table_files import save
 
@@ -21,4 +23,6 @@ name = snakemake.wildcards.table
 make = next(getattr(module, name) for module in (tables, orbit_tables) if hasattr(module, name))
 make = getattr(contact_tables if hasattr(contact_tables, name) else tables, name)
 make = getattr({"design_rules": rule_tables}.get(name, tables), name)
+table = snakemake.wildcards.table
+make = getattr({"harmonics": harmonics_table}.get(table, tables), table)
 save(make(datasets), snakemake.output.csv, snakemake.output.markdown)

@@ -15,6 +15,10 @@ from impact_damper.variables import design_rules, harmonic_balance, migration, m
 from impact_damper.variables.variable import Variable
 
 MODULES = (motions, harmonic_balance, migration, subharmonic, design_rules)
+from impact_damper.variables import harmonic_balance, harmonics, migration, motions, subharmonic
+from impact_damper.variables.variable import Variable
+
+MODULES = (motions, harmonic_balance, migration, subharmonic, harmonics)
 VARIABLES: dict[str, Variable] = {
     name: entry for module in MODULES for name, entry in module.VARIABLES.items()
 }

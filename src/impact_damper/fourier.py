@@ -1,0 +1,114 @@
+"""Real Fourier series by their coefficients, and where such a series lies beyond a wall.
+
+A series is z(s) = sum over k in K and -K of c_k exp(i k s), with c_-k the conjugate of c_k
+and K the given non-negative harmonics; c_0 is real and counts once.
+"""
+
+import numpy as np
+from scipy.fft import next_fast_len
+from scipy.optimize import brentq
+
+# Cells of the search for crossings that are shorter, in radians, are not split any more.
+SHORTEST = 1e-9
+
+
+def samples(coefficients, harmonics, count) -> np.ndarray:
+    """Values of a series at 2 pi j/count, j = 0 ... count - 1; count > 2 max(harmonics)."""
+    spectrum = np.zeros(count // 2 + 1, complex)
+    spectrum[harmonics] = coefficients
+    return np.fft.irfft(spectrum, count) * count
+
+
+def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
+    """Value, or derivative of some order, of a series at angles of any shape."""
+    weights = np.where(harmonics == 0, 1, 2) * (1j * harmonics) ** order * coefficients
+    return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
+
+
+def product_samples(harmonics, degree) -> int:
+    """Samples that give the retained coefficients of a product of `degree` series exactly."""
+    return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
+
+
+def largest(coefficients, harmonics) -> float:
+    """Largest modulus of a series: samples first, then Newton's method on the slope."""
+    count = next_fast_len(16 * int(harmonics[-1]) + 64)
+    size = np.abs(samples(coefficients, harmonics, count))
+    top = np.flatnonzero((size >= np.roll(size, 1)) & (size >= np.roll(size, -1)))
+    angle = 2 * np.pi / count * top[size[top] > 0.9 * np.max(size)]
+    for _ in range(6):
+        slope, bend = (value(coefficients, harmonics, angle, order) for order in (1, 2))
+        angle = angle - np.clip(slope / np.where(bend == 0, 1, bend), -np.pi / count, np.pi / count)
+    return float(max(np.max(size), np.max(np.abs(value(coefficients, harmonics, angle)))))
+
+
+def intervals(coefficients, harmonics, level) -> np.ndarray:
+    """Where a series lies beyond the walls at +level and -level.
+
+    No interval is missed: a bound on the second derivative shows that a cell between two
+    samples holds no crossing, or one only; other cells are halved until they are SHORTEST.
+
+    Returns
+    -------
+    numpy.ndarray, shape (count, 3)
+        Wall (1 or -1), beginning in [0, 2 pi), and end, which may lie beyond 2 pi.
+    """
+    found = [_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)]
+    return np.concatenate(found)
+
+
+def _beyond(coefficients, harmonics, level, wall):
+    """Rows of `intervals` of one wall."""
+
+    def penetration(angle):
+        return wall * value(coefficients, harmonics, angle) - level
+
+    count = next_fast_len(16 * int(harmonics[-1]) + 16)
+    ends = np.linspace(0, 2 * np.pi, count + 1)
+    q = wall * samples(coefficients, harmonics, count) - level
+    cells = _cells(penetration, coefficients, harmonics, ends, np.append(q, q[0]))
+    if not len(cells):
+        return np.array([[wall, 0.0, 2 * np.pi]]) if q[0] > 0 else np.empty((0, 3))
+    roots = np.array([brentq(penetration, *cell, xtol=1e-15, rtol=1e-15) for cell in cells])
+    entering = penetration(cells[:, 0]) <= 0
+    begin, end = roots[entering], roots[~entering]
+    if end[0] < begin[0]:
+        end = np.append(end[1:], end[0] + 2 * np.pi)
+    return np.stack([np.full(len(begin), wall), begin, end], axis=-1)
+
+
+def _cells(function, coefficients, harmonics, ends, values):
+    """Cells, ascending, each of which holds one crossing; shape (count, 2)."""
+    bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
+    lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
+    crossed = []
+    while len(lower):
+        bend = bound * (upper - lower) ** 2 / 2
+        crossing = (first > 0) != (last > 0)
+        single = crossing & ((np.abs(last - first) > bend) | (upper - lower < SHORTEST))
+        clear = np.minimum(np.abs(first), np.abs(last)) > bend / 4
+        unclear = ~np.where(crossing, single, clear | (upper - lower < SHORTEST))
+        crossed.append(np.stack([lower[single], upper[single]]))
+        lower, upper, first, last = (each[unclear] for each in (lower, upper, first, last))
+        middle = (lower + upper) / 2
+        between = function(middle)
+        lower, upper = np.concatenate([lower, middle]), np.concatenate([middle, upper])
+        first, last = np.concatenate([first, between]), np.concatenate([between, last])
+    cells = np.concatenate(crossed, axis=1).T
+    return cells[np.argsort(cells[:, 0])]
+
+
+def indicator(rows, orders) -> np.ndarray:
+    """Fourier coefficients, of the given orders, of the function that is 1 in intervals.
+
+    Parameters
+    ----------
+    rows : array, shape (count, 3)
+        Of `intervals`.
+    orders : array of int
+        Of any sign.
+    """
+    _, begin, end = rows.T[:, :, None]
+    half = (end - begin) / 2
+    turn = np.exp(-0.5j * orders * (begin + end))
+    return np.sum(turn * half / np.pi * np.sinc(orders * half / np.pi), axis=0)
