@@ -29,6 +29,9 @@ include: "workflow/rules/optimum.smk"
 include: "workflow/rules/subharmonic.smk"
 include: "workflow/rules/migration.smk"
 include: "workflow/rules/release_scan.smk"
+include: "workflow/rules/missed_contacts.smk"
+include: "workflow/rules/stable_steps.smk"
+include: "workflow/rules/verdicts.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -43,5 +46,8 @@ rule all:
         rules.subharmonic.input,
         rules.migration.input,
         rules.release_scan.input,
+        rules.missed_contacts.input,
+        rules.stable_steps.input,
+        rules.verdicts.input,
         rules.figures.input,
         rules.tables.input,

@@ -17,12 +17,38 @@ SECTIONS = {
     "optimum": "optima",
     "migration": "migration",
     "release": "migration",
+    "missed_contacts": "missed_contacts",
+    "stable_steps": "stable_steps",
+    "verdicts": "verdicts",
 }
 
 # What a figure of the kind `schematic` may name instead.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
+# Sections whose entries name an oscillator.
+REFERRING = (
+    "curves",
+    "motions",
+    "collisions",
+    "optima",
+    "migration",
+    "release_scans",
+    "missed_contacts",
+    "stable_steps",
+    "verdicts",
+)
+# Ranges of the entries of a section, that ascend.
+RANGES = {
+    "oscillators": ("frequencies",),
+    "optima": ("clearances",),
+    "release_scans": ("frequencies",),
+    "missed_contacts": ("depths", "tolerances", "steps"),
+    "stable_steps": ("stiffnesses", "scaled_steps"),
+    "verdicts": ("tolerances", "steps"),
+}
+
 TYPES = {
+    "boolean": "true or false",
     "object": "keys with values",
     "array": "a list",
     "string": "text",
@@ -164,7 +190,7 @@ def _lines(error):
 
 def _contradictions(config):
     """Problems between values that are each allowed."""
-    for section in ("curves", "motions", "collisions", "optima", "migration", "release_scans"):
+    for section in REFERRING:
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -173,12 +199,15 @@ def _contradictions(config):
     if settling["limit"] < settling["patience"]:
         reason = f"must be at least settling.patience = {settling['patience']} (it comes later)"
         yield _problem(["settling", "limit"], settling["limit"], reason)
-    for name, oscillator in config["oscillators"].items():
-        yield from _reversed(["oscillators", name, "frequencies"], oscillator["frequencies"])
-    for name, optimum in config["optima"].items():
-        yield from _reversed(["optima", name, "clearances"], optimum["clearances"])
-    for name, scan in config["release_scans"].items():
-        yield from _reversed(["release_scans", name, "frequencies"], scan["frequencies"])
+    for section, ranges in RANGES.items():
+        for name, entry in config[section].items():
+            for key in ranges:
+                yield from _reversed([section, name, key], entry[key])
+    for name, entry in config["missed_contacts"].items():
+        if entry["implicit_passages"] > entry["passages"]:
+            reason = f"must be at most passages = {entry['passages']} (it is some of them)"
+            path = ["missed_contacts", name, "implicit_passages"]
+            yield _problem(path, entry["implicit_passages"], reason)
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, figure in config["figures"].items():

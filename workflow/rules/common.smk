@@ -28,6 +28,9 @@ wildcard_constraints:
     motion="[A-Za-z0-9_]+",
     optimum="[A-Za-z0-9_]+",
     run="[A-Za-z0-9_]+",
+    passage="[A-Za-z0-9_]+",
+    stepping="[A-Za-z0-9_]+",
+    judged="[A-Za-z0-9_]+",
     figure="[A-Za-z0-9_]+",
     table="[a-z]+",
 

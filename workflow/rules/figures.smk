@@ -9,6 +9,9 @@ KINDS = {
     "optimum": "Optimum clearance",
     "migration": "Migration control",
     "release": "Migration control",
+    "missed_contacts": "Where methods fail",
+    "stable_steps": "Where methods fail",
+    "verdicts": "Where methods fail",
 }
 
 

@@ -12,6 +12,9 @@ STAGES = {
     "subharmonic": "curves",
     "migration": "migration",
     "release_scan": "release_scans",
+    "missed_contacts": "missed_contacts",
+    "stable_steps": "stable_steps",
+    "verdicts": "verdicts",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -22,6 +25,9 @@ TABLES = {
     "subharmonics": ["free", "subharmonic"],
     "migration": ["migration"],
     "releases": ["release_scan"],
+    "grazing": ["missed_contacts"],
+    "steps": ["stable_steps"],
+    "verdicts": ["verdicts"],
     "claims": list(STAGES),
 }
 
@@ -152,6 +158,31 @@ def release_scan_job(wildcards):
         "releases": config["controller"]["releases"],
         "lifetime": scan["lifetime"],
         "settling": config["settling"],
+    }
+
+
+def missed_contacts_job(wildcards):
+    given = config["missed_contacts"][wildcards.passage]
+    return given | {"oscillator": oscillator_of(given["oscillator"]), "seed": config["seed"]}
+
+
+def stable_steps_job(wildcards):
+    given = config["stable_steps"][wildcards.stepping]
+    return {
+        "oscillator": oscillator_of(given["oscillator"]),
+        "damper": damper_of(given),
+        **{
+            key: given[key]
+            for key in ("frequency", "stiffnesses", "scaled_steps", "most_steps", "periods")
+        },
+    }
+
+
+def verdicts_job(wildcards):
+    given = config["verdicts"][wildcards.judged]
+    return given | {
+        "oscillator": oscillator_of(given["oscillator"]),
+        "contact_stiffness": config["contact_stiffness"],
     }
 
 

@@ -1,9 +1,9 @@
-"""Tables of designs, bands, optima, subharmonics, migration and releases."""
+"""Tables of the results, and of where integrators fail."""
 
 import sys
 from pathlib import Path
 
-from impact_damper import tables
+from impact_damper import integrator_tables, tables
 from impact_damper.datasets import load
 from impact_damper.table_files import save
 
@@ -13,5 +13,6 @@ datasets = {
     for stage, paths in snakemake.input.items()
     if stage != "code"
 }
-make = getattr(tables, snakemake.wildcards.table)
+name = snakemake.wildcards.table
+make = getattr(tables if hasattr(tables, name) else integrator_tables, name)
 save(make(datasets), snakemake.output.csv, snakemake.output.markdown)
