@@ -17,7 +17,7 @@ QUIET = dict(
     offset=(1e-3, 0, 0, 0),
     periods=100,
     orbit_frequency=2.0,
-    scipy=False,
+    scipy_every=0,
 )
 FOLD = dict(
     near=(2.37021, 0.2287, 2.37021, 0.2287),
@@ -25,7 +25,7 @@ FOLD = dict(
     offset=(0, 0, 0, 0),
     periods=200,
     orbit_frequency=2.0143,
-    scipy=False,
+    scipy_every=0,
 )
 
 
@@ -65,7 +65,7 @@ def test_truth_agrees_with_heyoka(damper, frequency, given, stays, references):
 def test_both_sides_of_symmetry_breaking():
     damper = Damper(0.25, 1.0)
     near = (0.0522, 0.5544, -0.0254, -0.5175)
-    given = dict(near=near, period=1, offset=(1e-3, 0, 0, 0), periods=150, scipy=False)
+    given = dict(near=near, period=1, offset=(1e-3, 0, 0, 0), periods=150, scipy_every=0)
     before = judged.make_scene(PAPER, damper, 1.249, orbit_frequency=1.249, **given)
     after = judged.make_scene(PAPER, damper, 1.245, orbit_frequency=1.245, **given)
     assert before.multiplier < 1 < after.multiplier
@@ -74,7 +74,7 @@ def test_both_sides_of_symmetry_breaking():
 
 def test_verdicts_of_the_taylor_series_and_of_coarse_steps():
     scenes = {"quiet": judged.make_scene(PAPER, DESIGN, 2.0, **QUIET)}
-    data = judged.verdicts(scenes, [1e-9, 1e-6], [20, 40], every=1)
+    data = judged.verdicts(scenes, [1e-9, 1e-6], [20, 40])
     right = data.verdict.sel(verdict_method="taylor") == flag("verdict", "right")
     assert right.all()
     assert_allclose(data.right_from.sel(verdict_method="taylor"), 1e-6)

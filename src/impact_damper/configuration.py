@@ -48,7 +48,6 @@ RANGES = {
 }
 
 TYPES = {
-    "boolean": "true or false",
     "object": "keys with values",
     "array": "a list",
     "string": "text",

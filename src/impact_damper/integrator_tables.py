@@ -12,8 +12,8 @@ def grazing(datasets) -> pd.DataFrame:
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = data.passages * data.sizes["depth"]
         for method in data.integrator.values:
-            for i, tolerance in enumerate(data.tolerance.values):
-                of = data.sel(integrator=method).isel(tolerance=i)
+            for i, tolerance in enumerate(data.method_tolerance.values):
+                of = data.sel(integrator=method).isel(method_tolerance=i)
                 counts = of.passage_count.sum("depth")
                 missed = 1 - of.passage_count.sel(contact_outcome="found") / of.passages
                 deep = data.depth.values[missed.values >= 0.5]

@@ -53,7 +53,7 @@ def _own_largest(method, p, passage, end, resolution):
 
 
 def _rival_counts(method, p, passages, depths, resolution):
-    """Counts (depth, outcome) with the wall touched and (depth,) with it not, errors, mean steps."""
+    """Counts (depth, outcome) of the wall touched, (depth,) of it not, error and mean steps."""
     end = 2 * math.pi / p[0]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -140,7 +140,7 @@ def missed_contacts(
     Returns
     -------
     xarray.Dataset
-        `passage_count` over (integrator, tolerance, depth, contact_outcome): contacts found;
+        `passage_count` over (integrator, method_tolerance, depth, contact_outcome): contacts found;
         unseen, where the method's own motion passes the wall between two steps; and not reached,
         where the error of its motion exceeds the depth. `spurious_count`: contacts reported
         where there is none. `motion_error`: the median over passages of the error of the largest
@@ -209,7 +209,7 @@ def missed_contacts(
     }
     coordinates = {
         "integrator": list(METHODS),
-        "tolerance": tolerances,
+        "method_tolerance": tolerances,
         "depth": depths,
         "contact_outcome": list(OUTCOMES),
     }

@@ -50,8 +50,8 @@ class Scene(NamedTuple):
         Strobed Z1, Z1' of the orbit that the motion settles on, none if it does not settle.
     stays : bool
         Whether that is the orbit.
-    scipy : bool
-        Whether SciPy's methods, a hundred times slower, are run as well.
+    scipy_every : int
+        SciPy's methods, a hundred times slower, are run at every so many tolerances, or never: 0.
     """
 
     parameters: np.ndarray
@@ -62,7 +62,7 @@ class Scene(NamedTuple):
     multiplier: float
     landing: np.ndarray
     stays: bool
-    scipy: bool
+    scipy_every: int
 
 
 def settled_period(states):
@@ -83,7 +83,7 @@ def is_on(states, points, period):
 
 
 def make_scene(
-    oscillator, damper, frequency, *, near, period, offset, periods, orbit_frequency, scipy
+    oscillator, damper, frequency, *, near, period, offset, periods, orbit_frequency, scipy_every
 ):
     """A scene with its truth.
 
@@ -102,7 +102,7 @@ def make_scene(
         Forcing periods to run.
     orbit_frequency : float
         Where the orbit of reference is found; it may have ended at the scene's frequency.
-    scipy : bool
+    scipy_every : int
         As in `Scene`.
 
     Raises
@@ -110,6 +110,7 @@ def make_scene(
     ValueError
         If there is no such orbit, or the rule cannot tell in so many periods.
     """
+    check_count("scipy_every", scipy_every, least=0)
     check_count("periods", periods, least=LAST + LONGEST_PERIOD, most=10**6)
     orbit = np.array(near, float)
     there = pack(oscillator, damper, check_frequency(orbit_frequency))
@@ -131,7 +132,7 @@ def make_scene(
             f"periods = {periods}: at W = {frequency:g} the motion must leave the orbit, whose "
             f"multiplier is {modulus:g}, and has not done so by the rule: more periods are needed"
         )
-    return Scene(p, orbit, start, period, periods, modulus, landing, stays, scipy)
+    return Scene(p, orbit, start, period, periods, modulus, landing, stays, scipy_every)
 
 
 def _taylor(p, start, periods, tolerance):
@@ -193,7 +194,7 @@ def first_wrong(right):
     return wrong[-1] + 1 if len(wrong) else 0
 
 
-def verdicts(scenes, tolerances, steps, *, every):
+def verdicts(scenes, tolerances, steps):
     """The verdict of each method on each scene, by tolerance or steps a forcing period.
 
     Parameters
@@ -205,13 +206,11 @@ def verdicts(scenes, tolerances, steps, *, every):
     steps : sequence of int
         Increasing, as many: steps a forcing period of the fixed-step methods, the fewest in the
         place of the largest tolerance.
-    every : int
-        SciPy's methods are run at every so many tolerances.
 
     Returns
     -------
     xarray.Dataset
-        `verdict` over (scene, verdict_method, tolerance), and over (scene, verdict_method)
+        `verdict` over (scene, verdict_method, method_tolerance), and over (scene, verdict_method)
         `right_from`: the largest tolerance, or number of steps, from which on all are right; NaN
         where the last is not.
 
@@ -223,7 +222,6 @@ def verdicts(scenes, tolerances, steps, *, every):
     tolerances = check_increasing(
         "tolerances", [check_number("tolerance", value, least=1e-14) for value in tolerances]
     )
-    check_count("every", every, most=len(tolerances))
     steps = [check_count("steps", value, most=10**7) for value in steps]
     check_increasing("steps", steps)
     if len(steps) != len(tolerances):
@@ -235,9 +233,10 @@ def verdicts(scenes, tolerances, steps, *, every):
     for i, scene in enumerate(scenes.values()):
         for m, method in enumerate(METHODS):
             resolutions = [int(n) for n in steps] if method in FIXED else tolerances
-            run = np.arange(0, len(tolerances), every if method in SCIPY else 1)
-            if method in SCIPY and not scene.scipy:
+            every = scene.scipy_every if method in SCIPY else 1
+            if every == 0:
                 continue
+            run = np.arange(0, len(tolerances), every)
             for j in run:
                 name = judge(_strobes(method, scene, resolutions[j]), scene)
                 found[i, m, j] = flag("verdict", name)
@@ -261,6 +260,6 @@ def verdicts(scenes, tolerances, steps, *, every):
     coordinates = {
         "scene": list(scenes),
         "verdict_method": list(METHODS),
-        "tolerance": tolerances,
+        "method_tolerance": tolerances,
     }
-    return dataset(data, coordinates, {"every": every}, "Verdicts of each method by tolerance")
+    return dataset(data, coordinates, {}, "Verdicts of each method by tolerance")

@@ -12,26 +12,16 @@ sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
 job = snakemake.params.job
 oscillator = Oscillator(**job["oscillator"])
 scenes = {}
-for name, given in job["scenes"].items():
-    named = {key: given[key] for key in ("mass_ratio", "clearance", "restitution") if key in given}
+for name, given in (job["damped"] | job["free"]).items():
+    keys = [key for key in ("mass_ratio", "clearance", "restitution") if key in given]
+    named = {key: given.pop(key) for key in keys}
     damper = Damper(**named, contact_stiffness=job["contact_stiffness"]) if named else None
-    scenes[name] = make_scene(
-        oscillator,
-        damper,
-        given["frequency"],
-        near=given["near"],
-        period=given.get("period", 1),
-        offset=given["offset"],
-        periods=given["periods"],
-        orbit_frequency=given.get("orbit_frequency", given["frequency"]),
-        scipy=given["scipy"],
-    )
+    scenes[name] = make_scene(oscillator, damper, **given)
 tolerances, steps = job["tolerances"], job["steps"]
 steps = np.geomspace(steps["first"], steps["last"], tolerances["points"])
 found = verdicts(
     scenes,
     np.geomspace(tolerances["first"], tolerances["last"], tolerances["points"]),
     [int(n) for n in steps.round()],
-    every=job["every"],
 )
 save(found, snakemake.output[0])

@@ -48,7 +48,7 @@ def draw_missed_contacts(*, missed_contacts):
         counts = of["passage_count"] / of["passages"]
         missed = 1 - counts.sel(contact_outcome="found").values
         fixed = name == "runge_kutta_4"
-        y = data["fixed_steps"].values if fixed else data["tolerance"].values
+        y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
         image = axes.pcolormesh(
             edges(depths), edges(y), missed, cmap="cividis_r", vmin=0, vmax=1, rasterized=True
         )
@@ -66,7 +66,7 @@ def draw_missed_contacts(*, missed_contacts):
             axes.set_ylabel("Steps a forcing period")
             axes.invert_yaxis()
         elif name in ("taylor", "DOP853"):
-            axes.set_ylabel(axis_label(data["tolerance"]))
+            axes.set_ylabel(axis_label(data["method_tolerance"]))
     for axes in panels[3:7]:
         axes.set_xlabel("Depth beyond the wall")
         axes.xaxis.set_tick_params(labelbottom=True)

@@ -63,7 +63,7 @@ def draw_verdicts(*, verdicts):
     scenes = np.arange(data.sizes["scene"] + 1)
     for axes, name in zip(panels, data["verdict_method"].values, strict=True):
         fixed = name in FIXED
-        x = data["verdict_steps"].values if fixed else data["tolerance"].values
+        x = data["verdict_steps"].values if fixed else data["method_tolerance"].values
         cells = data["verdict"].sel(verdict_method=name).values
         run = (cells != meanings["not_run"]).any(axis=0)
         flags(axes, edges(x[run]), scenes, cells[:, run], meanings, ROLES)
@@ -72,7 +72,7 @@ def draw_verdicts(*, verdicts):
             axes.invert_xaxis()
         axes.xaxis.set_major_locator(LogLocator(numticks=4))
         axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_xlabel("Steps a forcing period" if fixed else axis_label(data["tolerance"]))
+        axes.set_xlabel("Steps a forcing period" if fixed else axis_label(data["method_tolerance"]))
         axes.set_yticks(
             scenes[:-1] + 0.5, [str(scene).replace("_", " ") for scene in data["scene"].values]
         )

@@ -23,26 +23,30 @@ VERDICT = {
 
 VARIABLES = {
     "integrator": Variable(("integrator",), "method of integration"),
-    "tolerance": Variable(("tolerance",), "tolerance of the method"),
+    "method_tolerance": Variable(("method_tolerance",), "tolerance of the method"),
     # contacts missed near grazing
     "depth": Variable(("depth",), "depth of the passage beyond the wall"),
     "contact_outcome": Variable(("contact_outcome",), "what a method makes of a contact"),
     "passage_count": Variable(
-        ("integrator", "tolerance", "depth", "contact_outcome"),
+        ("integrator", "method_tolerance", "depth", "contact_outcome"),
         "contacts found, passed unseen between steps, and not reached by the method's own motion",
     ),
     "spurious_count": Variable(
-        ("integrator", "tolerance", "depth"), "contacts reported where there is none"
+        ("integrator", "method_tolerance", "depth"), "contacts reported where there is none"
     ),
-    "mean_steps": Variable(("integrator", "tolerance"), "mean steps a forcing period in flight"),
+    "mean_steps": Variable(
+        ("integrator", "method_tolerance"), "mean steps a forcing period in flight"
+    ),
     "motion_error": Variable(
-        ("integrator", "tolerance"), "median error of the largest |Z2| of a passage"
+        ("integrator", "method_tolerance"), "median error of the largest |Z2| of a passage"
     ),
     "passages": Variable(("integrator",), "passages run for each tolerance"),
     "passages_drawn": Variable((), "random flights drawn to find the passages"),
-    "fixed_steps": Variable(("tolerance",), "steps a forcing period of the fixed-step method"),
+    "fixed_steps": Variable(
+        ("method_tolerance",), "steps a forcing period of the fixed-step method"
+    ),
     "expected_unseen": Variable(
-        ("tolerance", "depth"), "share passed unseen if fixed steps fall at random"
+        ("method_tolerance", "depth"), "share passed unseen if fixed steps fall at random"
     ),
     "extremum_time": Variable(("passage",), "time of the largest |Z2| of a passage", "T"),
     "extremum": Variable(("passage",), "largest |Z2| of a passage"),
@@ -89,13 +93,15 @@ VARIABLES = {
     "scene": Variable(("scene",), "motion whose verdict is known"),
     "verdict_method": Variable(("verdict_method",), "method of integration"),
     "verdict": Variable(
-        ("scene", "verdict_method", "tolerance"), "verdict against the truth", flags=VERDICT
+        ("scene", "verdict_method", "method_tolerance"), "verdict against the truth", flags=VERDICT
     ),
     "right_from": Variable(
         ("scene", "verdict_method"),
         "largest tolerance, or number of fixed steps, from which on all verdicts are right",
     ),
-    "verdict_steps": Variable(("tolerance",), "steps a forcing period of fixed-step methods"),
+    "verdict_steps": Variable(
+        ("method_tolerance",), "steps a forcing period of fixed-step methods"
+    ),
     "scene_multiplier": Variable(
         ("scene",), "modulus of the dominant Floquet multiplier of the orbit"
     ),
