@@ -64,7 +64,6 @@ def draw_missed_contacts(*, missed_contacts):
         axes.xaxis.set_minor_formatter(NullFormatter())
         if fixed:
             axes.set_ylabel("Steps a forcing period")
-            axes.invert_yaxis()
         elif name in ("taylor", "DOP853"):
             axes.set_ylabel(axis_label(data["method_tolerance"]))
     for axes in panels[3:7]:
