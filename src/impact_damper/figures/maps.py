@@ -5,8 +5,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 
 
 def edges(values):
-    """Edges of the cells around the values of a logarithmic grid, which are more than one."""
+    """Edges of the cells around the values of a logarithmic grid; a lone cell is a decade wide."""
     logarithms = np.log(values)
+    if len(logarithms) == 1:
+        return np.exp(logarithms[0] + np.log(10) * np.array([-0.5, 0.5]))
     middles = (logarithms[1:] + logarithms[:-1]) / 2
     ends = 2 * logarithms[[0, -1]] - middles[[0, -1]]
     return np.exp(np.concatenate([ends[:1], middles, ends[1:]]))
