@@ -34,6 +34,9 @@ include: "workflow/rules/contact_model.smk"
 include: "workflow/rules/rigid_limit.smk"
 include: "workflow/rules/design_rules.smk"
 include: "workflow/rules/harmonics.smk"
+include: "workflow/rules/missed_contacts.smk"
+include: "workflow/rules/stable_steps.smk"
+include: "workflow/rules/verdicts.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -53,5 +56,8 @@ rule all:
         rules.rigid_limit.input,
         rules.design_rules.input,
         rules.harmonics.input,
+        rules.missed_contacts.input,
+        rules.stable_steps.input,
+        rules.verdicts.input,
         rules.figures.input,
         rules.tables.input,

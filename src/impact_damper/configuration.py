@@ -23,6 +23,9 @@ SECTIONS = {
     "rigid_limit": "rigid_limit",
     "design_rules": "design_rules",
     "harmonics": "harmonics",
+    "missed_contacts": "missed_contacts",
+    "stable_steps": "stable_steps",
+    "verdicts": "verdicts",
 }
 
 # Sections whose entries name an oscillator.
@@ -39,6 +42,28 @@ WITH_OSCILLATOR = (
 
 # What a figure of the kind `schematic` may name instead.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
+
+# Sections whose entries name an oscillator.
+REFERRING = (
+    "curves",
+    "motions",
+    "collisions",
+    "optima",
+    "migration",
+    "release_scans",
+    "missed_contacts",
+    "stable_steps",
+    "verdicts",
+)
+# Ranges of the entries of a section, that ascend.
+RANGES = {
+    "oscillators": ("frequencies",),
+    "optima": ("clearances",),
+    "release_scans": ("frequencies",),
+    "missed_contacts": ("depths", "tolerances", "steps"),
+    "stable_steps": ("stiffnesses", "scaled_steps"),
+    "verdicts": ("tolerances", "steps"),
+}
 
 TYPES = {
     "object": "keys with values",
@@ -194,6 +219,7 @@ def _contradictions(config):
     ):
     sections = "curves motions collisions optima migration release_scans harmonics"
     for section in sections.split():
+    for section in REFERRING:
         for name, entry in config[section].items():
             yield from _unknown(
                 [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
@@ -219,6 +245,15 @@ def _contradictions(config):
             yield from _reversed(["rigid_limit", name, key], limit[key])
     for name, grid in config["design_rules"].items():
         yield from _wrong_grid(["design_rules", name], grid, config["oscillators"])
+    for section, ranges in RANGES.items():
+        for name, entry in config[section].items():
+            for key in ranges:
+                yield from _reversed([section, name, key], entry[key])
+    for name, entry in config["missed_contacts"].items():
+        if entry["implicit_passages"] > entry["passages"]:
+            reason = f"must be at most passages = {entry['passages']} (it is some of them)"
+            path = ["missed_contacts", name, "implicit_passages"]
+            yield _problem(path, entry["implicit_passages"], reason)
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, scene in config["harmonics"].items():

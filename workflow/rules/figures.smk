@@ -14,6 +14,9 @@ KINDS = {
     "rigid_limit": "Where methods fail",
     "design_rules": "Optimum clearance",
     "harmonics": "Harmonic balance",
+    "missed_contacts": "Where methods fail",
+    "stable_steps": "Where methods fail",
+    "verdicts": "Where methods fail",
 }
 
 

@@ -18,6 +18,9 @@ STAGES = {
     "rigid_limit": "rigid_limit",
     "design_rules": "design_rules",
     "harmonics": "harmonics",
+    "missed_contacts": "missed_contacts",
+    "stable_steps": "stable_steps",
+    "verdicts": "verdicts",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -35,6 +38,9 @@ TABLES = {
     "rigid_limit": ["rigid_limit"],
     "design_rules": ["design_rules", "optimum"],
     "harmonics": ["harmonics"],
+    "grazing": ["missed_contacts"],
+    "steps": ["stable_steps"],
+    "verdicts": ["verdicts"],
     "claims": list(STAGES),
 }
 
@@ -249,6 +255,28 @@ def harmonics_job(wildcards):
         "frequency": scene["frequency"],
         "highest": scene["highest"],
         "highest_cold": scene["highest_cold"],
+def missed_contacts_job(wildcards):
+    given = config["missed_contacts"][wildcards.passage]
+    return given | {"oscillator": oscillator_of(given["oscillator"]), "seed": config["seed"]}
+
+
+def stable_steps_job(wildcards):
+    given = config["stable_steps"][wildcards.stepping]
+    return {
+        "oscillator": oscillator_of(given["oscillator"]),
+        "damper": damper_of(given),
+        **{
+            key: given[key]
+            for key in ("frequency", "stiffnesses", "scaled_steps", "most_steps", "periods")
+        },
+    }
+
+
+def verdicts_job(wildcards):
+    given = config["verdicts"][wildcards.judged]
+    return given | {
+        "oscillator": oscillator_of(given["oscillator"]),
+        "contact_stiffness": config["contact_stiffness"],
     }
 
 

@@ -2,6 +2,7 @@
 """Tables of all but the claims."""
 """Tables of designs, bands, optima, rules, subharmonics, migration and releases."""
 """Tables of designs, bands, optima, subharmonics, migration, releases and harmonics."""
+"""Tables of the results, and of where integrators fail."""
 
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ from impact_damper import orbit_tables, tables
 from impact_damper import contact_tables, tables
 from impact_damper import rule_tables, tables
 from impact_damper import harmonics_table, tables
+from impact_damper import integrator_tables, tables
 from impact_damper.datasets import load
 from impact_damper.table_files import save
 
@@ -25,4 +27,5 @@ make = getattr(contact_tables if hasattr(contact_tables, name) else tables, name
 make = getattr({"design_rules": rule_tables}.get(name, tables), name)
 table = snakemake.wildcards.table
 make = getattr({"harmonics": harmonics_table}.get(table, tables), table)
+make = getattr(tables if hasattr(tables, name) else integrator_tables, name)
 save(make(datasets), snakemake.output.csv, snakemake.output.markdown)

@@ -1,7 +1,7 @@
-"""What maps of cells share: the mesh on axes that tell apart cells without a result."""
+"""What maps of cells share: values and flags in colour, cells without a result told apart."""
 
 import numpy as np
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Rectangle
 
 from impact_damper.figures.style import BLACK, GREY, PALE
@@ -38,3 +38,37 @@ def key(axes, label, colour, hatch=None):
             (np.nan, np.nan), 0, 0, facecolor=colour, edgecolor=GREY, hatch=hatch, label=label
         )
     )
+
+
+def edges(values):
+    """Edges of the cells around the values of a logarithmic grid; a lone cell is a decade wide."""
+    logarithms = np.log(values)
+    if len(logarithms) == 1:
+        return np.exp(logarithms[0] + np.log(10) * np.array([-0.5, 0.5]))
+    middles = (logarithms[1:] + logarithms[:-1]) / 2
+    ends = 2 * logarithms[[0, -1]] - middles[[0, -1]]
+    return np.exp(np.concatenate([ends[:1], middles, ends[1:]]))
+
+
+def flags(axes, x, y, values, meanings, roles):
+    """Cells of flags in the colours of their roles.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    x, y : array
+        Edges of the cells.
+    values : array
+    meanings : dict
+        Value of each flag by its meaning.
+    roles : dict
+        Colour and words of each meaning.
+    """
+    shown = sorted(meanings, key=meanings.get)
+    bounds = np.append([meanings[name] for name in shown], meanings[shown[-1]] + 1) - 0.5
+    colors = ListedColormap([roles[name][0] for name in shown])
+    axes.pcolormesh(x, y, values, cmap=colors, norm=BoundaryNorm(bounds, len(shown)))
+    for name in shown:
+        if np.isin(meanings[name], values):
+            key = {"marker": "s", "linestyle": "none", "markeredgecolor": GREY}
+            axes.plot([], [], color=roles[name][0], label=roles[name][1], markersize=7, **key)

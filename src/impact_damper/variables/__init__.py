@@ -19,6 +19,10 @@ from impact_damper.variables import harmonic_balance, harmonics, migration, moti
 from impact_damper.variables.variable import Variable
 
 MODULES = (motions, harmonic_balance, migration, subharmonic, harmonics)
+from impact_damper.variables import harmonic_balance, integrators, migration, motions, subharmonic
+from impact_damper.variables.variable import Variable
+
+MODULES = (motions, harmonic_balance, migration, subharmonic, integrators)
 VARIABLES: dict[str, Variable] = {
     name: entry for module in MODULES for name, entry in module.VARIABLES.items()
 }

@@ -1,0 +1,49 @@
+"""The equations of motion as other methods take them: the state as a tuple, its rate by evaluation.
+
+Equations (3), (4) and (20) to (24). A contact acts while |Z2| exceeds the clearance, so it ends
+at zero penetration, and the dashpot's force jumps at both ends.
+"""
+
+import math
+
+from impact_damper.accelerate import kernel
+
+
+@kernel
+def wall_at(p, z):
+    """Wall that acts at a position Z2: -1, 0 within the clearance, or 1."""
+    if z > p[3]:
+        return 1
+    if z < -p[3]:
+        return -1
+    return 0
+
+
+@kernel
+def rate(p, side, t, y):
+    """Rate of the state (Z1, Z1', Z2, Z2') while a wall acts (`side`: -1, 0 for none, 1)."""
+    x, v, z, w = y
+    force = p[4] * (z - side * p[3]) + p[6] * w if side != 0 else 0.0
+    a = math.cos(p[0] * t) - p[1] * v - (p[2] + x * x) * x - force
+    return v, a, w, a - p[5] * force
+
+
+@kernel
+def rate_by_position(p, t, y):
+    """Rate of the state, the wall chosen by the position: integration through the kink."""
+    return rate(p, wall_at(p, y[2]), t, y)
+
+
+@kernel
+def moved(y, h, k):
+    """y + h k."""
+    return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
+
+
+@kernel
+def largest_within(x, v, x_end, v_end, h):
+    """Largest |Z1| over a step, with the rate taken as linear in it."""
+    largest = max(abs(x), abs(x_end))
+    if v * v_end < 0.0:
+        largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))
+    return largest

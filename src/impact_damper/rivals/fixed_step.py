@@ -1,0 +1,131 @@
+"""Fixed-step methods through the kink: Heun, velocity Verlet, Runge-Kutta-4 and -Merson.
+
+They know of no contacts: the force is what it is at the position where it is asked for.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.accelerate import kernel
+from impact_damper.rivals.equations import largest_within, moved, rate_by_position
+
+METHODS = ("heun", "verlet", "runge_kutta_4", "merson")
+HEUN, VERLET, RUNGE_KUTTA_4, MERSON = range(4)
+
+# Largest h omega for which an undamped oscillator does not grow: where |R(i h omega)| = 1 for the
+# stability function R; for Merson's R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 + z^5/144.
+STABILITY_LIMIT = {
+    "heun": 0.0,
+    "verlet": 2.0,
+    "runge_kutta_4": math.sqrt(8.0),
+    "merson": math.sqrt(12.0),
+}
+EVALUATIONS = {"heun": 2, "verlet": 2, "runge_kutta_4": 4, "merson": 5}
+# A state beyond it has diverged.
+BEYOND = 1e3
+
+
+@kernel
+def heun_step(p, t, h, y):
+    """One step of Heun's method, order 2."""
+    k1 = rate_by_position(p, t, y)
+    k2 = rate_by_position(p, t + h, moved(y, h, k1))
+    return moved(moved(y, 0.5 * h, k1), 0.5 * h, k2)
+
+
+@kernel
+def verlet_step(p, t, h, y):
+    """One step of velocity Verlet, order 2; forces that depend on speed take a predicted one."""
+    k1 = rate_by_position(p, t, y)
+    x = y[0] + h * (y[1] + 0.5 * h * k1[1])
+    z = y[2] + h * (y[3] + 0.5 * h * k1[3])
+    k2 = rate_by_position(p, t + h, (x, y[1] + h * k1[1], z, y[3] + h * k1[3]))
+    return x, y[1] + 0.5 * h * (k1[1] + k2[1]), z, y[3] + 0.5 * h * (k1[3] + k2[3])
+
+
+@kernel
+def runge_kutta_4_step(p, t, h, y):
+    """One step of the classical Runge-Kutta method, order 4."""
+    k1 = rate_by_position(p, t, y)
+    k2 = rate_by_position(p, t + 0.5 * h, moved(y, 0.5 * h, k1))
+    k3 = rate_by_position(p, t + 0.5 * h, moved(y, 0.5 * h, k2))
+    k4 = rate_by_position(p, t + h, moved(y, h, k3))
+    y = moved(moved(y, h / 6.0, k1), h / 3.0, k2)
+    return moved(moved(y, h / 3.0, k3), h / 6.0, k4)
+
+
+@kernel
+def merson_step(p, t, h, y):
+    """One step of the Runge-Kutta-Merson method, order 4 with five evaluations."""
+    k1 = rate_by_position(p, t, y)
+    k2 = rate_by_position(p, t + h / 3.0, moved(y, h / 3.0, k1))
+    k3 = rate_by_position(p, t + h / 3.0, moved(moved(y, h / 6.0, k1), h / 6.0, k2))
+    k4 = rate_by_position(p, t + 0.5 * h, moved(moved(y, h / 8.0, k1), 0.375 * h, k3))
+    k5 = moved(moved(y, 0.5 * h, k1), -1.5 * h, k3)
+    k5 = rate_by_position(p, t + h, moved(k5, 2.0 * h, k4))
+    return moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
+
+
+@kernel
+def one_step(method, p, t, h, y):
+    """One step of a method by its number in `METHODS`."""
+    if method == HEUN:
+        return heun_step(p, t, h, y)
+    if method == VERLET:
+        return verlet_step(p, t, h, y)
+    if method == RUNGE_KUTTA_4:
+        return runge_kutta_4_step(p, t, h, y)
+    return merson_step(p, t, h, y)
+
+
+@kernel
+def run_fixed(method, p, start, t, steps, strobes, largest):
+    """Run with a whole number of equal steps in each forcing period.
+
+    Parameters
+    ----------
+    method : int
+        Number in `METHODS`.
+    p : array, shape (7,)
+        Packed parameters (`parameters.pack`).
+    start : array, shape (4,)
+    t : float
+        Time of the start.
+    steps : int
+        Steps a forcing period.
+    strobes, largest : array, shapes (n, 4) and (n,)
+        Filled with the states after each of n periods and the largest |Z1| in each; NaN from
+        the period on in which the state leaves `BEYOND`.
+
+    Returns
+    -------
+    int
+        Periods run.
+    """
+    h = 2.0 * math.pi / p[0] / steps
+    y = (start[0], start[1], start[2], start[3])
+    strobes[:] = np.nan
+    largest[:] = np.nan
+    for k in range(len(strobes)):
+        most = 0.0
+        for i in range(steps):
+            before = y
+            # counted within a period, where rounding of the phase stays small
+            y = one_step(method, p, t + i * h, h, before)
+            most = max(most, largest_within(before[0], before[1], y[0], y[1], h))
+        if not abs(y[0]) + abs(y[1]) + abs(y[3]) < BEYOND:
+            return k
+        strobes[k, 0], strobes[k, 1], strobes[k, 2], strobes[k, 3] = y
+        largest[k] = most
+    return len(strobes)
+
+
+@kernel
+def fixed_ends(method, p, start, t, step, ends):
+    """Time and state at the ends of equal steps, as many as `ends` (m, 5) has rows."""
+    y = (start[0], start[1], start[2], start[3])
+    for i in range(len(ends)):
+        y = one_step(method, p, t + i * step, step, y)
+        ends[i, 0] = t + (i + 1) * step
+        ends[i, 1], ends[i, 2], ends[i, 3], ends[i, 4] = y

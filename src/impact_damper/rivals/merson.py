@@ -1,0 +1,168 @@
+"""Runge-Kutta-Merson with step control, the paper's method: through the kink, or contacts located.
+
+Merson's estimate of the error, exact for linear equations, is kept below the tolerance times
+1 + |y| in each component. Contacts are located, if asked for, as such codes do it: the sign of
+the gap is looked at where steps end, and a change is traced back by repeating part of the step.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.accelerate import kernel
+from impact_damper.rivals.equations import largest_within, moved, rate, wall_at
+from impact_damper.rivals.fixed_step import BEYOND
+
+# A step shorter than this means that the tolerance cannot be met.
+SHORTEST = 1e-12
+MOST_STEPS = 10**6
+
+
+@kernel
+def estimated_step(p, side, by_position, t, h, y, tolerance):
+    """One step and its estimated error over the error allowed; `side` is the wall that acts.
+
+    With `by_position` the wall is chosen at each evaluation instead.
+    """
+    k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
+    m = moved(y, h / 3.0, k1)
+    k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
+    m = moved(moved(y, h / 6.0, k1), h / 6.0, k2)
+    k3 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
+    m = moved(moved(y, h / 8.0, k1), 0.375 * h, k3)
+    k4 = rate(p, wall_at(p, m[2]) if by_position else side, t + 0.5 * h, m)
+    m = moved(moved(moved(y, 0.5 * h, k1), -1.5 * h, k3), 2.0 * h, k4)
+    k5 = rate(p, wall_at(p, m[2]) if by_position else side, t + h, m)
+    after = moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
+    share = 0.0
+    for i in range(4):
+        error = h / 30.0 * abs(2.0 * k1[i] - 9.0 * k3[i] + 8.0 * k4[i] - k5[i])
+        share = max(share, error / (tolerance * (1.0 + max(abs(y[i]), abs(after[i])))))
+    return after, share
+
+
+@kernel
+def ahead(p, side, y):
+    """How far the state is from its next event: the gap in flight, the penetration in contact."""
+    if side == 0:
+        return p[3] - abs(y[2])
+    return side * y[2] - p[3]
+
+
+@kernel
+def located(p, side, t, h, y, tolerance):
+    """Length within a step, at whose end the event is passed, at which it happens, and the state.
+
+    Halves towards the beginning until the event lies ahead, then regula falsi (Illinois).
+    """
+    low, high = 0.5 * h, h
+    state, _ = estimated_step(p, side, False, t, high, y, tolerance)
+    beyond = ahead(p, side, state)
+    state, _ = estimated_step(p, side, False, t, low, y, tolerance)
+    before = ahead(p, side, state)
+    while before <= 0.0 and low > SHORTEST:
+        high, beyond = low, before
+        low *= 0.5
+        state, _ = estimated_step(p, side, False, t, low, y, tolerance)
+        before = ahead(p, side, state)
+    length = low
+    for _ in range(60):
+        if before <= 0.0 or high - low <= 1e-15 * (1.0 + t):
+            break
+        length = (low * beyond - high * before) / (beyond - before)
+        state, _ = estimated_step(p, side, False, t, length, y, tolerance)
+        now = ahead(p, side, state)
+        if abs(now) <= 1e-15 * p[3]:
+            break
+        if now > 0.0:
+            low, before = length, now
+            beyond *= 0.5
+        else:
+            high, beyond = length, now
+            before *= 0.5
+    return length, state
+
+
+@kernel
+def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
+    """Integrate from t to end.
+
+    Parameters
+    ----------
+    p, y : array
+        Packed parameters and the state, which is replaced.
+    side : int
+        Wall in contact; without `locate` it plays no part.
+    t, end, h, tolerance : float
+        h is the step to begin with.
+    locate : bool
+        Whether contacts are located.
+    ends : array, shape (m, 5)
+        Filled with time and state at the ends of the first m steps; m may be 0.
+
+    Returns
+    -------
+    side, h, steps, contacts, largest
+        `contacts` begun as seen at the ends of steps; the largest |Z1|; `steps` is -1 where the
+        tolerance could not be met in `MOST_STEPS` steps or the state left `BEYOND`.
+    """
+    state = (y[0], y[1], y[2], y[3])
+    steps, contacts, largest = 0, 0, 0.0
+    while t < end:
+        length = min(h, end - t)
+        after, share = estimated_step(p, side, not locate, t, length, state, tolerance)
+        factor = 0.9 * (share + 1e-10) ** -0.2
+        if not share <= 1.0:
+            h = length * max(factor, 0.1) if share < math.inf else 0.1 * length
+            if h < SHORTEST:
+                return side, h, -1, contacts, math.nan
+            continue
+        # a step cut short at the end says little about the next one
+        h = max(h, length * min(factor, 5.0)) if length < h else length * min(factor, 5.0)
+        if locate and ahead(p, side, after) < 0.0:
+            length, after = located(p, side, t, length, state, tolerance)
+            on_wall = p[3] if after[2] > 0.0 else -p[3]
+            after = (after[0], after[1], on_wall, after[3])
+            if side == 0:
+                side = 1 if after[2] > 0.0 else -1
+                contacts += 1
+            else:
+                side = 0
+        elif not locate and wall_at(p, state[2]) == 0 and wall_at(p, after[2]) != 0:
+            contacts += 1
+        largest = max(largest, largest_within(state[0], state[1], after[0], after[1], length))
+        state = after
+        t = end if length >= end - t else t + length
+        if steps < len(ends):
+            ends[steps, 0] = t
+            ends[steps, 1], ends[steps, 2], ends[steps, 3], ends[steps, 4] = state
+        steps += 1
+        if steps > MOST_STEPS or not abs(state[0]) + abs(state[1]) + abs(state[3]) < BEYOND:
+            return side, h, -1, contacts, math.nan
+    y[0], y[1], y[2], y[3] = state
+    return side, h, steps, contacts, largest
+
+
+@kernel
+def run_merson(p, start, t, tolerance, locate, strobes, largest):
+    """Run over forcing periods from a state in flight; as `fixed_step.run_fixed`.
+
+    Returns the periods run and the steps taken.
+    """
+    y = start.copy()
+    none = np.empty((0, 5))
+    period = 2.0 * math.pi / p[0]
+    side, h, total = wall_at(p, y[2]), 1e-3 * period, 0
+    strobes[:] = np.nan
+    largest[:] = np.nan
+    for k in range(len(strobes)):
+        # every period begins at the same time, where rounding of the phase stays small
+        side, h, steps, _, most = advance_merson(
+            p, y, side, t, t + period, h, tolerance, locate, none
+        )
+        if steps < 0:
+            return k, total
+        total += steps
+        strobes[k] = y
+        largest[k] = most
+    return len(strobes), total

@@ -1,0 +1,24 @@
+rule verdicts:
+    input:
+        data("verdicts"),
+
+
+rule method_verdicts:
+    input:
+        code=code("method_verdicts.py"),
+        kernels=ancient("<results>/kernels.compiled"),
+    output:
+        "<results>/verdicts/{judged}.nc",
+    log:
+        "<logs>/verdicts/{judged}.log",
+    benchmark:
+        "<benchmarks>/verdicts/{judged}.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    params:
+        job=verdicts_job,
+    message:
+        "Verdicts of integrators by tolerance, {wildcards.judged}"
+    script:
+        "../scripts/method_verdicts.py"

@@ -1,0 +1,26 @@
+"""Contacts near grazing that integrators miss, counted over random passages."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.missed_contacts import missed_contacts
+from impact_damper.parameters import Oscillator
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+depths, tolerances, steps = job["depths"], job["tolerances"], job["steps"]
+steps = np.geomspace(steps["first"], steps["last"], tolerances["points"])
+found = missed_contacts(
+    Oscillator(**job["oscillator"]),
+    job["frequency"],
+    passages=job["passages"],
+    implicit_passages=job["implicit_passages"],
+    radius=job["radius"],
+    depths=np.geomspace(depths["first"], depths["last"], depths["points"]),
+    tolerances=np.geomspace(tolerances["first"], tolerances["last"], tolerances["points"]),
+    steps=[int(n) for n in steps.round()],
+    seed=job["seed"],
+)
+save(found, snakemake.output[0])

@@ -1,0 +1,27 @@
+"""Verdicts of integrators by tolerance, against the truth."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.parameters import Damper, Oscillator
+from impact_damper.verdicts import make_scene, verdicts
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+oscillator = Oscillator(**job["oscillator"])
+scenes = {}
+for name, given in (job["damped"] | job["free"]).items():
+    keys = [key for key in ("mass_ratio", "clearance", "restitution") if key in given]
+    named = {key: given.pop(key) for key in keys}
+    damper = Damper(**named, contact_stiffness=job["contact_stiffness"]) if named else None
+    scenes[name] = make_scene(oscillator, damper, **given)
+tolerances, steps = job["tolerances"], job["steps"]
+steps = np.geomspace(steps["first"], steps["last"], tolerances["points"])
+found = verdicts(
+    scenes,
+    np.geomspace(tolerances["first"], tolerances["last"], tolerances["points"]),
+    [int(n) for n in steps.round()],
+)
+save(found, snakemake.output[0])
