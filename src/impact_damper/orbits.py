@@ -45,21 +45,21 @@ def distance(a, b, weight):
 
 
 @kernel
-def flow_map(p, y, begin, periods, tolerance):
-    """The map over whole forcing periods from the time `begin` on.
+def flow_map(p, y, begin, periods, half, tolerance):
+    """The map over whole forcing periods, and half a one more if asked for, from `begin` on.
 
     Returns the state, its derivative (4, 4), the contacts begun and the time in contact.
     """
+    period = 2.0 * math.pi / p[0]
     state = y.copy()
     tangents = np.eye(4)
     work = workspace()
     side = side_of(p, y)
     contacts = 0
     touching = 0.0
-    for _ in range(periods):
-        side, begun, time = advance(
-            p, state, tangents, side, begin, begin + 2.0 * math.pi / p[0], tolerance, work
-        )
+    for k in range(periods + half):
+        end = begin + (period if k < periods else 0.5 * period)
+        side, begun, time = advance(p, state, tangents, side, begin, end, tolerance, work)
         contacts += begun
         touching += time
     return state, tangents.T.copy(), contacts, touching
@@ -68,7 +68,7 @@ def flow_map(p, y, begin, periods, tolerance):
 @inlined
 def period_map(p, y, periods, tolerance):
     """`flow_map` from the strobe on: state, derivative and contacts begun."""
-    state, matrix, contacts, _ = flow_map(p, y, strobe_time(p), periods, tolerance)
+    state, matrix, contacts, _ = flow_map(p, y, strobe_time(p), periods, False, tolerance)
     return state, matrix, contacts
 
 

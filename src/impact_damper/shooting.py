@@ -21,6 +21,7 @@ STROBE = math.pi / 2
 MARGIN = 0.15
 RESIDUAL = 1e-12
 ITERATIONS = 20
+FAR = 1e3
 CONTACTS = 256
 
 
@@ -40,6 +41,9 @@ class Orbit:
         Z1, Z1', Z2, Z2' at that phase.
     monodromy : numpy.ndarray, shape (4, 4)
         Derivative of the map over n periods.
+    root : numpy.ndarray, shape (4, 4), or None
+        For a symmetric orbit of odd n the derivative of the map over n/2 periods and a change of
+        sign, whose square the monodromy matrix is.
     residual : float
         Largest difference of the state from its return.
     touching : float
@@ -54,6 +58,7 @@ class Orbit:
     phase: float
     state: np.ndarray
     monodromy: np.ndarray
+    root: np.ndarray | None
     residual: float
     touching: float
     converged: bool
@@ -67,8 +72,12 @@ class Orbit:
     def multipliers(self):
         """Floquet multipliers by descending modulus, shape (4,); two are NaN without contacts."""
         values = np.full(4, complex(np.nan, np.nan))
-        found = np.linalg.eigvals(self.monodromy[: self.active, : self.active])
-        values[: self.active] = found[np.lexsort((-found.imag, -np.abs(found)))]
+        n = self.active
+        if self.root is None:
+            found = np.linalg.eigvals(self.monodromy[:n, :n])
+        else:
+            found = np.linalg.eigvals(self.root[:n, :n]) ** 2
+        values[:n] = found[np.lexsort((-found.imag, -np.abs(found)))]
         return values
 
     @property
@@ -178,7 +187,7 @@ class Orbit:
         return self.phase + (ends[k] + flights[k] / 2 - self.phase) % (self.periods * TURN)
 
 
-def shoot(p, state, periods, phase, *, tolerance=POLISH_TOLERANCE):
+def shoot(p, state, periods, phase, *, symmetric=False):
     """The orbit that a state would be, with what the map makes of it; not iterated.
 
     Parameters
@@ -187,32 +196,39 @@ def shoot(p, state, periods, phase, *, tolerance=POLISH_TOLERANCE):
         Packed parameters.
     state : array, shape (4,)
     periods : int
-        Forcing periods after which it should return.
+        Forcing periods n after which it should return; odd if symmetric.
     phase : float
         Phase W T of the state, radian.
-    tolerance : float
-        Local error allowed.
+    symmetric : bool
+        Ask for its mirror image after n/2 periods instead: (Z, T) to (-Z, T + half a period)
+        maps motions to motions.
 
     Returns
     -------
     Orbit
     numpy.ndarray, shape (4,)
-        The state after the periods.
+        The state after the periods, or the mirrored one after half of them.
     """
-    end, monodromy, _, touching = flow_map(p, state, phase / p[0], periods, tolerance)
+    whole, sign = (periods // 2, -1) if symmetric else (periods, 1)
+    end, matrix, _, touching = flow_map(p, state, phase / p[0], whole, symmetric, POLISH_TOLERANCE)
+    end, matrix = sign * end, sign * matrix
     residual = float(np.max(np.abs(end - state)))
     converged = residual <= RESIDUAL * max(1.0, np.max(np.abs(state)))
-    return Orbit(p, periods, phase, state, monodromy, residual, touching, converged), end
+    if symmetric:
+        made = matrix @ matrix, matrix, residual, 2 * touching, converged
+    else:
+        made = matrix, None, residual, touching, converged
+    return Orbit(p, periods, phase, state, *made), end
 
 
-def find_orbit(p, state, periods=1, phase=STROBE, *, tolerance=POLISH_TOLERANCE):
+def find_orbit(p, state, periods=1, phase=STROBE):
     """Newton's method from a state near an orbit; the phase is moved into flight at the end.
 
     Where no wall is touched only Z1 and Z1' are sought, and the loose mass keeps its place.
 
     Parameters
     ----------
-    p, state, periods, phase, tolerance
+    p, state, periods, phase
         As of `shoot`.
 
     Returns
@@ -220,15 +236,15 @@ def find_orbit(p, state, periods=1, phase=STROBE, *, tolerance=POLISH_TOLERANCE)
     Orbit
         `converged` says whether it is one.
     """
-    orbit = _newton(p, np.array(state, float), periods, phase, tolerance)
+    orbit = _newton(p, np.array(state, float), periods, phase)
     if not orbit.converged or orbit.quiet_phase() == orbit.phase:
         return orbit
     phase = orbit.quiet_phase()
-    return _newton(p, orbit.at(phase), periods, phase % TURN, tolerance)
+    return _newton(p, orbit.at(phase), periods, phase % TURN)
 
 
-def _newton(p, state, periods, phase, tolerance):
-    best, end = shoot(p, state, periods, phase, tolerance=tolerance)
+def _newton(p, state, periods, phase):
+    best, end = shoot(p, state, periods, phase)
     orbit = best
     for _ in range(ITERATIONS):
         n = orbit.active
@@ -237,14 +253,14 @@ def _newton(p, state, periods, phase, tolerance):
             change = np.linalg.solve(matrix, (end - orbit.state)[:n])
         except np.linalg.LinAlgError:
             break
-        if not np.max(np.abs(change)) < 1e3:
+        if not np.max(np.abs(change)) < FAR:
             break
         moved = orbit.state.copy()
         moved[:n] += change
         if n == 2:
             moved[2:] += change
-        orbit, end = shoot(p, moved, periods, phase, tolerance=tolerance)
-        if not orbit.residual < best.residual and best.converged:
+        orbit, end = shoot(p, moved, periods, phase)
+        if best.converged and orbit.residual >= best.residual:
             break
         if orbit.residual < best.residual or not best.converged:
             best = orbit
