@@ -29,6 +29,7 @@ include: "workflow/rules/optimum.smk"
 include: "workflow/rules/subharmonic.smk"
 include: "workflow/rules/migration.smk"
 include: "workflow/rules/release_scan.smk"
+include: "workflow/rules/balance_map.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -43,5 +44,6 @@ rule all:
         rules.subharmonic.input,
         rules.migration.input,
         rules.release_scan.input,
+        rules.balance_map.input,
         rules.figures.input,
         rules.tables.input,

@@ -17,6 +17,15 @@ SECTIONS = {
     "optimum": "optima",
     "migration": "migration",
     "release": "migration",
+    "balance_map": "balance_map",
+}
+
+# What may change over a map, and its bounds.
+MAPPED = {
+    "damping": (0, 10),
+    "mass_ratio": (0, 10),
+    "clearance": (0, 1000),
+    "restitution": (0.05, 1),
 }
 
 # What a figure of the kind `schematic` may name instead.
@@ -179,6 +188,8 @@ def _contradictions(config):
         yield from _reversed(["optima", name, "clearances"], optimum["clearances"])
     for name, scan in config["release_scans"].items():
         yield from _reversed(["release_scans", name, "frequencies"], scan["frequencies"])
+    for name, entry in config["balance_map"].items():
+        yield from _wrong_map(["balance_map", name], entry)
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, figure in config["figures"].items():
@@ -203,6 +214,23 @@ def _wrong_stages(path, curve):
     if curve["clearance"] == "rule" and curve["stages"] != ["design"]:
         reason = "must be a number with stages beside design (the designs table lists the rule)"
         yield _problem([*path, "clearance"], curve["clearance"], reason)
+
+
+def _wrong_map(path, entry):
+    yield from _reversed([*path, "frequency_ratios"], entry["frequency_ratios"])
+    yield from _reversed([*path, "values"], entry["values"])
+    changing = entry["parameter"]
+    least, most = MAPPED[changing]
+    for end, value in entry["values"].items():
+        if not least <= value <= most:
+            reason = f"must be from {least} to {most} (bounds of {changing})"
+            yield _problem([*path, "values", end], value, reason)
+    for name in MAPPED:
+        if name == changing and name in entry:
+            reason = "must be left out (it changes from row to row)"
+            yield _problem([*path, name], entry[name], reason)
+        elif name != changing and name not in entry:
+            yield f"{_path([*path, name])}: missing; needed where {changing} changes"
 
 
 def _wrong_data(path, figure, config):

@@ -1,11 +1,10 @@
 """The quiet orbit, stable or not, over a grid of parameters.
 
 It has the period of the forcing, touches each wall once a period, and is its own mirror
-image half a period on. The map over half a period with a change of sign, whose square is
-the map over a period, therefore has it as a fixed point. The multipliers of that map, called
-half-period multipliers here, tell what destabilises the orbit: 1 is a fold, -1 the loss of
-symmetry, and a conjugate pair of modulus 1 a Neimark-Sacker bifurcation. Those of a period
-are their squares, so a period doubling would need a pair at i and -i.
+image half a period on: a fixed point of the map over half a period with a change of sign, the
+root of the map over a period. The multipliers of the root tell what destabilises it: 1 is a
+fold, -1 the loss of symmetry, and a conjugate pair of modulus 1 a Neimark-Sacker bifurcation.
+Those of a period are their squares, so a period doubling would need a pair at i and -i.
 """
 
 from typing import NamedTuple
@@ -13,14 +12,13 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.datasets import flag
-from impact_damper.kernel import advance, side_of, workspace
-from impact_damper.orbits import POLISH_TOLERANCE
-from impact_damper.shooting import TURN, find_orbit
+from impact_damper.shooting import STROBE, Orbit, shoot
 
 CONTACTS = 2
 SYMMETRIC = 1e-6
 # Phase W T of the states: contacts lie from about -0.2 to pi/2, and half a period on.
 PHASE = 0.75 * np.pi
+ITERATIONS = 10
 # A step of following that takes an orbit further from its guess fails; steps that fail are
 # halved down to this share of a cell.
 REACH = 0.05
@@ -35,10 +33,8 @@ class QuietOrbits(NamedTuple):
 
     Attributes
     ----------
-    state : numpy.ndarray, shape (rows, columns, 4)
-        Z1, Z1', Z2, Z2' at W T = 3 pi/4.
     multiplier : numpy.ndarray of complex, shape (rows, columns)
-        Half-period multiplier of largest modulus, its imaginary part not negative.
+        Multiplier of the root of largest modulus, its imaginary part not negative.
     displacement, harmonic : numpy.ndarray, shape (rows, columns)
         Largest |Z1|, and amplitude of its first harmonic.
     end : numpy.ndarray, shape (rows, 2)
@@ -47,7 +43,6 @@ class QuietOrbits(NamedTuple):
         Flag `quiet_end_event`.
     """
 
-    state: np.ndarray
     multiplier: np.ndarray
     displacement: np.ndarray
     harmonic: np.ndarray
@@ -55,17 +50,23 @@ class QuietOrbits(NamedTuple):
     end_event: np.ndarray
 
 
-def half_multipliers(p, state) -> np.ndarray:
-    """Half-period multipliers of the symmetric orbit through a state at W T = 3 pi/4.
+def straight_flight_end(clearance, restitution) -> float:
+    """Forcing frequency at which the quiet orbit folds, for rigid walls at high frequency.
 
-    By descending modulus, of a pair that with positive imaginary part first.
+    There the loose mass flies straight, and the equations of `straight_flight_ratio` give
+    W^2 d0 = k sin(s) - cos(s) with k = (pi/2) (1 + e)/(1 - e), whatever rm. That has no
+    solution s, the phase of the impacts, beyond W^2 d0 = sqrt(1 + k^2): with e < 1 the
+    forcing cannot make good any more what impacts take. Infinite for e = 1.
+
+    Parameters
+    ----------
+    clearance, restitution : float
+        d0 and e.
     """
-    tangents = np.eye(4)
-    begin, end = PHASE / p[0], (PHASE + np.pi) / p[0]
-    side = side_of(p, state)
-    advance(p, state.copy(), tangents, side, begin, end, POLISH_TOLERANCE, workspace())
-    values = np.linalg.eigvals(-tangents).astype(complex)
-    return values[np.lexsort((-values.imag, -np.abs(values)))]
+    if restitution == 1:
+        return np.inf
+    work = np.pi / 2 * (1 + restitution) / (1 - restitution)
+    return float(np.sqrt(np.hypot(1, work) / clearance))
 
 
 def is_symmetric_pair(records):
@@ -106,140 +107,134 @@ def quiet_orbits(parameters, states) -> QuietOrbits:
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         grid.begin(cell, states[cell])
     grid.spread()
-    ends = [grid.row_ends(row) for row in range(rows)]
-    found = QuietOrbits(
-        grid.states,
-        np.full((rows, columns), complex(np.nan, np.nan)),
-        *np.full((2, rows, columns), np.nan),
-        *(np.array(each) for each in zip(*ends, strict=True)),
-    )
-    for cell, record in grid.records.items():
-        found.multiplier[cell] = half_multipliers(parameters[cell], grid.states[cell])[0]
-        found.displacement[cell] = record["maximum_displacement"]
-        found.harmonic[cell] = abs(record["harmonic_displacement"])
-    return found
+    ends, events = zip(*map(grid.row_ends, range(rows)), strict=True)
+    multiplier = np.full((rows, columns), complex(np.nan, np.nan))
+    displacement, harmonic = np.full((2, rows, columns), np.nan)
+    for cell, orbit in grid.orbits.items():
+        multiplier[cell] = _dominant(orbit)
+        displacement[cell] = orbit.record["maximum_displacement"]
+        harmonic[cell] = abs(orbit.record["harmonic_displacement"])
+    return QuietOrbits(multiplier, displacement, harmonic, np.array(ends), np.array(events))
+
+
+def land(p, guess):
+    """Newton's method onto the quiet orbit near a guess of its state at W T = 3 pi/4.
+
+    Returns
+    -------
+    Orbit
+        The last one tried.
+    str
+        What hinders it: "" if nothing, not_converged or contacts_change.
+    """
+    state = guess
+    for _ in range(ITERATIONS):
+        orbit, end = shoot(p, state, 1, PHASE, symmetric=True)
+        if orbit.converged:
+            return orbit, "" if orbit.record["contacts"] == CONTACTS else "contacts_change"
+        try:
+            state = state + np.linalg.solve(np.eye(4) - orbit.root, end - state)
+        except np.linalg.LinAlgError:
+            break
+        if not np.max(np.abs(state - guess)) < REACH:
+            break
+    return orbit, "not_converged"
+
+
+def _dominant(orbit):
+    values = np.linalg.eigvals(orbit.root)
+    value = values[np.argmax(np.abs(values))]
+    return complex(value.real, abs(value.imag))
 
 
 class _Walk(NamedTuple):
     """The last two orbits on the way to a neighbour, at shares of it; what stopped it, if so."""
 
     shares: tuple
-    states: tuple
-    record: np.void | None
+    orbits: tuple
     event: str
+
+    def fold(self):
+        """Share at which it ended, and the event: a fold if its law foretells one just there.
+
+        Towards a fold, det(1 - root) falls as the root of the distance from it.
+        """
+        before, share = self.shares
+        gaps = [np.linalg.det(np.eye(4) - each.root) ** 2 for each in self.orbits]
+        if gaps[1] < gaps[0]:
+            ahead = (share - before) * gaps[1] / (gaps[0] - gaps[1])
+            if ahead < NEAR * SHORTEST:
+                return share + ahead, "fold"
+        return share, self.event
 
 
 class _Grid:
-    """The orbits found so far: states at `PHASE`, and records by cell."""
+    """The orbits found so far, by cell."""
 
     def __init__(self, parameters):
         self.parameters = parameters
-        self.states = np.full((*parameters.shape[:2], 4), np.nan)
-        self.records = {}
+        self.orbits: dict[tuple, Orbit] = {}
 
     def begin(self, cell, state):
-        """Take a cell's orbit from its state at W T = pi/2; one that is not quiet is left out."""
+        """Take a cell's orbit from its state at W T = pi/2, if it is the quiet one."""
         p = self.parameters[cell]
-        orbit = find_orbit(p, state)
-        if orbit.converged:
-            state, record, event = _land(p, _state(orbit))
-            if event == "":
-                self.states[cell], self.records[cell] = state, record
+        motion, _ = shoot(p, state, 1, STROBE)
+        orbit, event = land(p, motion.at(PHASE))
+        if event == "":
+            self.orbits[cell] = orbit
 
     def spread(self):
         """Follow orbits into the cells beside them, those nearest to known ones first."""
-        front = list(self.records)
+        front = list(self.orbits)
         while front:
             reached = []
             for cell in front:
                 for direction in NEIGHBOURS:
                     target = self.beside(cell, direction)
-                    if target is None or target in self.records:
+                    if target is None or target in self.orbits:
                         continue
                     walk = self.follow(cell, direction)
                     if walk.event == "":
-                        self.states[target], self.records[target] = walk.states[1], walk.record
+                        self.orbits[target] = walk.orbits[1]
                         reached.append(target)
             front = reached
 
     def beside(self, cell, direction):
         """The neighbour of a cell, or None beyond the grid."""
         row, column = cell[0] + direction[0], cell[1] + direction[1]
-        rows, columns = self.states.shape[:2]
+        rows, columns = self.parameters.shape[:2]
         return (row, column) if 0 <= row < rows and 0 <= column < columns else None
 
     def follow(self, cell, direction):
         """Follow the orbit of a cell to a neighbour; the one behind foretells its change."""
-        behind = self.beside(cell, (-direction[0], -direction[1]))
-        way = self.parameters[cell], self.parameters[self.beside(cell, direction)]
-        share, state, record = 0.0, self.states[cell], None
-        slope = state - self.states[behind] if behind in self.records else np.zeros(4)
-        before, step, event = (share, state), 1.0, ""
+        first, last = self.parameters[cell], self.parameters[self.beside(cell, direction)]
+        behind = self.orbits.get(self.beside(cell, (-direction[0], -direction[1])))
+        share, orbit = 0.0, self.orbits[cell]
+        slope = np.zeros(4) if behind is None else orbit.state - behind.state
+        before, step, event = (share, orbit), 1.0, ""
         while share < 1 and step >= SHORTEST:
             step = min(step, 1 - share)
-            trial, record, event = _land(_between(*way, share + step), state + step * slope)
+            p = (1 - share - step) * first + (share + step) * last
+            trial, event = land(p, orbit.state + step * slope)
             if event == "":
-                before = share, state
-                slope = (trial - state) / step
-                share, state = share + step, trial
+                before = share, orbit
+                slope = (trial.state - orbit.state) / step
+                share, orbit = share + step, trial
                 step *= 2
             else:
                 step /= 2
-        return _Walk((before[0], share), (before[1], state), record, event)
+        return _Walk((before[0], share), (before[1], orbit), event)
 
     def row_ends(self, row):
         """Columns, in parts of one, at which the orbits of a row end, and what ends them."""
-        columns = np.flatnonzero(np.isfinite(self.states[row, :, 0]))
-        if len(columns) == 0:
+        columns = [column for first, column in self.orbits if first == row]
+        if not columns:
             return [np.nan] * 2, [flag("quiet_end_event", "no_orbit")] * 2
         places, events = [], []
-        for column, turn in ((columns[0], -1), (columns[-1], 1)):
+        for column, turn in ((min(columns), -1), (max(columns), 1)):
             share, event = 0.0, "map_ends"
             if self.beside((row, column), (0, turn)) is not None:
-                walk = self.follow((row, column), (0, turn))
-                share, event = _fold(walk, *self.parameters[row, [column, column + turn]])
+                share, event = self.follow((row, column), (0, turn)).fold()
             places.append(column + turn * share)
             events.append(flag("quiet_end_event", event))
         return places, events
-
-
-def _between(first, last, share):
-    """Parameters a share of the way from one cell to another, exact at both."""
-    return (1 - share) * first + share * last
-
-
-def _state(orbit):
-    """State of an orbit at `PHASE`."""
-    return orbit.at(PHASE if orbit.phase <= PHASE else PHASE + TURN)
-
-
-def _land(p, guess):
-    """State and record of the quiet orbit near a guess at `PHASE`, and what hinders it, or ""."""
-    orbit = find_orbit(p, guess, 1, PHASE)
-    if not orbit.converged:
-        return guess, None, "not_converged"
-    state = _state(orbit)
-    if not np.max(np.abs(state - guess)) < REACH:
-        return guess, None, "not_converged"
-    if orbit.record["contacts"] != CONTACTS:
-        return guess, None, "contacts_change"
-    if not orbit.record["asymmetry"] < SYMMETRIC:
-        return guess, None, "not_symmetric"
-    return state, orbit.record, ""
-
-
-def _fold(walk, first, last):
-    """The share at which a walk ended, and the event: a fold if its law foretells one just there.
-
-    Towards a fold the square of the distance of a multiplier from 1 falls linearly to zero.
-    """
-    gaps = [
-        np.min(np.abs(half_multipliers(_between(first, last, share), state) - 1)) ** 2
-        for share, state in zip(walk.shares, walk.states, strict=True)
-    ]
-    before, share = walk.shares
-    if gaps[1] < gaps[0]:
-        ahead = (share - before) * gaps[1] / (gaps[0] - gaps[1])
-        if ahead < NEAR * SHORTEST:
-            return share + ahead, "fold"
-    return share, walk.event

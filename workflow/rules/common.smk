@@ -29,7 +29,8 @@ wildcard_constraints:
     optimum="[A-Za-z0-9_]+",
     run="[A-Za-z0-9_]+",
     figure="[A-Za-z0-9_]+",
-    table="[a-z]+",
+    balance_map="[A-Za-z0-9_]+",
+    table="[a-z_]+",
 
 
 def checked(config):

@@ -9,6 +9,7 @@ KINDS = {
     "optimum": "Optimum clearance",
     "migration": "Migration control",
     "release": "Migration control",
+    "balance_map": "Where methods fail",
 }
 
 

@@ -12,6 +12,7 @@ STAGES = {
     "subharmonic": "curves",
     "migration": "migration",
     "release_scan": "release_scans",
+    "balance_map": "balance_map",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -22,6 +23,7 @@ TABLES = {
     "subharmonics": ["free", "subharmonic"],
     "migration": ["migration"],
     "releases": ["release_scan"],
+    "balance_map": ["balance_map"],
     "claims": list(STAGES),
 }
 
@@ -155,6 +157,20 @@ def release_scan_job(wildcards):
     }
 
 
+def balance_map_job(wildcards):
+    entry = config["balance_map"][wildcards.balance_map]
+    fixed = {key: entry[key] for key in ("damping", "linear_frequency") if key in entry}
+    # the function follows rule (19) where it is given no clearance
+    fixed |= {key: value for key, value in damper_of(entry).items() if value != "rule"}
+    return {
+        "parameter": entry["parameter"],
+        "values": grid(entry["values"], "map_values"),
+        "frequency_ratios": grid(entry["frequency_ratios"], "map_frequencies"),
+        "fixed": fixed,
+        "settling": config["settling"],
+    }
+
+
 def figures(*kinds):
     """Names of the figures of some kinds."""
     return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
@@ -180,6 +196,8 @@ def drawn(kind, name):
     if kind == "free":
         return {"oscillator": oscillator_of(name)}
     entry = config[SECTIONS[kind]][name]
+    if kind == "balance_map":
+        return entry
     frequency = {"frequency": entry["frequency"]} if "frequency" in entry else {}
     return {
         "oscillator": oscillator_of(entry["oscillator"]),

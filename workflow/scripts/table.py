@@ -1,9 +1,9 @@
-"""Tables of designs, bands, optima, subharmonics, migration and releases."""
+"""Tables of designs, bands, optima, subharmonics, migration, releases and maps."""
 
 import sys
 from pathlib import Path
 
-from impact_damper import tables
+from impact_damper import balance_map_table, tables
 from impact_damper.datasets import load
 from impact_damper.table_files import save
 
@@ -13,5 +13,6 @@ datasets = {
     for stage, paths in snakemake.input.items()
     if stage != "code"
 }
-make = getattr(tables, snakemake.wildcards.table)
+table = snakemake.wildcards.table
+make = getattr({"balance_map": balance_map_table}.get(table, tables), table)
 save(make(datasets), snakemake.output.csv, snakemake.output.markdown)

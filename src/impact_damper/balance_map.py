@@ -1,0 +1,320 @@
+"""Where single-term harmonic balance fails: its verdicts against the true motions, as a map.
+
+In each cell two questions are asked. Quiet: is the solution of (7) with the smallest |a| a
+stable motion, by the slow flow (17), and by the Floquet multipliers of the true orbit?
+High: is there a stable solution as large as the free resonance, and where does a start there
+lead? The balance knows elastic contact only: with e < 1 its verdict is that for e = 1.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper import ensemble
+from impact_damper import harmonic_balance as balance
+from impact_damper.datasets import dataset, flag, is_settled
+from impact_damper.design import optimum_clearance
+from impact_damper.parameters import Damper, Oscillator, check_increasing, check_number, pack
+from impact_damper.quiet_orbit import is_symmetric_pair, quiet_orbits, straight_flight_end
+from impact_damper.slow_flow import fixed_points, growth_rate, stability
+
+PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
+# A motion is high from this share of the free resonance's amplitude on, and near what is
+# foretold within that share of it.
+HIGH = 0.5
+NEAR = 0.2
+
+
+class _Row(NamedTuple):
+    """Systems of one row of a map, and the forcing frequencies of its cells."""
+
+    oscillator: Oscillator
+    damper: Damper
+    frequencies: np.ndarray
+
+
+class _Cell(NamedTuple):
+    """What harmonic balance says in one cell, and where its runs start; NaN for no run."""
+
+    resonance: float
+    quiet: int
+    quiet_amplitude: float
+    quiet_growth: float
+    quiet_start: np.ndarray
+    high: int
+    high_amplitude: float
+    high_start: np.ndarray
+
+
+def balance_map(
+    parameter, values, frequency_ratios, fixed, *, settling=None, workers=1, progress=None
+):
+    """Verdicts of harmonic balance against true motions, over frequency and a parameter.
+
+    Parameters
+    ----------
+    parameter : str
+        What changes from row to row: damping (h), mass_ratio (rm), clearance (d0) or
+        restitution (e).
+    values : array_like, shape (n,)
+        Its increasing values.
+    frequency_ratios : array_like, shape (m,)
+        Increasing forcing frequencies W/Wp, with the peak frequency Wp of the row.
+    fixed : dict
+        The other arguments of `Oscillator` and `Damper`. Without `clearance` it follows rule
+        (19) in each row, as a designer would let it.
+    settling : Settling, optional
+    workers : int
+        Threads; the result does not depend on it.
+    progress : str, optional
+        Title of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        On (map_value, frequency_ratio) the verdict of the balance, the truth, and the class
+        that both make, of the quiet motion and of the high one; on map_value the ends of the
+        quiet orbits.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    settling = settling or ensemble.Settling()
+    rows = _rows(parameter, values, frequency_ratios, fixed)
+    parameters = np.array(
+        [[pack(row.oscillator, row.damper, w) for w in row.frequencies] for row in rows]
+    )
+    cells = [[_cell(row, w) for w in row.frequencies] for row in rows]
+    said = _Cell(*(np.array(column) for column in _transposed(cells)))
+    quiet_runs, high_runs = (
+        _run(parameters, starts, settling, workers, progress)
+        for starts in (said.quiet_start, said.high_start)
+    )
+    quiet_kind, high_kind = (_kinds(runs, said.resonance) for runs in (quiet_runs, high_runs))
+    landed = quiet_kind == flag("quiet_run_motion", "quiet")
+    orbits = quiet_orbits(parameters, np.where(landed[..., None], quiet_runs["state"], np.nan))
+    truth = _truth(orbits)
+    ratios = np.asarray(frequency_ratios, float)
+    coordinates = {
+        "map_value": np.asarray(values, float),
+        "frequency_ratio": ratios,
+        "edge": ["lower", "upper"],
+    }
+    data = {
+        "map_frequency": parameters[..., 0],
+        "map_clearance": [row.damper.clearance for row in rows],
+        "resonance_amplitude": said.resonance,
+        "balance_quiet": said.quiet,
+        "balance_quiet_amplitude": said.quiet_amplitude,
+        "balance_quiet_growth": said.quiet_growth,
+        "quiet_orbit": truth,
+        "quiet_orbit_growth": np.log(np.abs(orbits.multiplier)) * parameters[..., 0] / np.pi,
+        "quiet_orbit_displacement": orbits.displacement,
+        "quiet_orbit_harmonic": orbits.harmonic,
+        "quiet_verdict": _quiet_verdict(said.quiet, truth),
+        "quiet_end": np.interp(orbits.end, np.arange(len(ratios)), ratios),
+        "quiet_end_event": orbits.end_event,
+        "straight_flight_end": [_rigid_end(row) for row in rows],
+        "quiet_run_motion": quiet_kind,
+        "quiet_run_exponent": quiet_runs["lyapunov_exponent"],
+        "quiet_run_error": quiet_runs["lyapunov_error"],
+        "balance_high": said.high,
+        "balance_high_amplitude": said.high_amplitude,
+        "high_run_motion": high_kind,
+        "high_run_outcome": high_runs["outcome"],
+        "high_run_period": high_runs["period"],
+        "high_run_contacts": high_runs["contacts"],
+        "high_run_displacement": high_runs["maximum_displacement"],
+        "high_run_exponent": high_runs["lyapunov_exponent"],
+        "high_run_error": high_runs["lyapunov_error"],
+        "high_verdict": _high_verdict(said, high_kind, high_runs["maximum_displacement"]),
+    }
+    made = fixed | {"parameter": parameter} | vars(settling)
+    return dataset(data, coordinates, made, "Harmonic balance against the true motions")
+
+
+def _rows(parameter, values, ratios, fixed):
+    if parameter not in PARAMETERS:
+        raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(PARAMETERS)}")
+    if parameter in fixed:
+        raise ValueError(f"fixed: must not hold {parameter}, which changes from row to row")
+    values = check_increasing("values", values, least="two")
+    ratios = check_increasing("frequency_ratios", ratios, least="two")
+    check_number("frequency_ratios", ratios[0], above=0.0, why="the forcing is periodic")
+    rows = []
+    for value in values:
+        given = fixed | {parameter: float(value)}
+        linear = given.pop("linear_frequency", 0.0)
+        oscillator = Oscillator(given.pop("damping"), linear)
+        if "clearance" not in given:
+            given["clearance"] = optimum_clearance(oscillator, given["mass_ratio"])
+        rows.append(_Row(oscillator, Damper(**given), ratios * balance.peak_frequency(oscillator)))
+    return rows
+
+
+def _transposed(cells):
+    """The fields of a table of named tuples, each as a table."""
+    return ([[cell[k] for cell in row] for row in cells] for k in range(len(_Cell._fields)))
+
+
+def _cell(row, frequency):
+    """Harmonic balance in one cell."""
+    resonance, top = _resonance(row.oscillator, frequency)
+    high_start = np.full(4, np.nan)
+    if top is not None:
+        # the loose mass at rest amid the gap
+        start = _start(resonance, 0.0, top, frequency)
+        high_start = np.array([start[0], start[1], 0.0, start[1]])
+    nothing = np.nan, np.nan, np.full(4, np.nan)
+    elastic = replace(row.damper, restitution=1.0)
+    try:
+        found, growth = _solutions(row.oscillator, elastic, frequency)
+    except ArithmeticError:
+        unresolved = flag("balance_quiet", "unresolved")
+        return _Cell(resonance, unresolved, *nothing, unresolved, np.nan, high_start)
+    signs = stability(growth)
+    size = np.abs(found.amplitude)
+    quiet = flag("balance_quiet", "none"), *nothing
+    if len(size) and np.min(size) < HIGH * resonance:
+        k = np.argmin(size)
+        verdict = {1: "stable", -1: "unstable", 0: "unresolved"}[int(signs[k])]
+        start = _start(found.amplitude[k], found.relative_amplitude[k], found.phase[k], frequency)
+        quiet = flag("balance_quiet", verdict), size[k], growth[k], start
+    high = flag("balance_high", "none"), np.nan, high_start
+    large = np.flatnonzero((signs == flag("stability", "stable")) & (size >= HIGH * resonance))
+    if len(large):
+        k = large[np.argmax(size[large])]
+        start = _start(found.amplitude[k], found.relative_amplitude[k], found.phase[k], frequency)
+        high = flag("balance_high", "stable"), size[k], start
+    return _Cell(resonance, *quiet, *high)
+
+
+@lru_cache(4096)
+def _solutions(oscillator, damper, frequency):
+    """Solutions of (7) and their growth rates; kept, for over e they do not change."""
+    found = balance.impacting_solutions(oscillator, damper, frequency)
+    return found, growth_rate(fixed_points(found), oscillator, damper, frequency)
+
+
+@lru_cache(4096)
+def _resonance(oscillator, frequency):
+    """Amplitude and phase of the free resonance branch; beyond its end that amplitude and None."""
+    folds = _folds(oscillator)
+    if folds and frequency > folds[-1].frequency:
+        return folds[-1].amplitude, None
+    free = balance.free_solutions(oscillator, frequency)
+    return free.amplitude[-1], free.phase[-1]
+
+
+_folds = lru_cache(balance.free_folds)
+
+
+def _start(amplitude, relative_amplitude, phase, frequency):
+    """State at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
+    inline, across = np.cos(phase), -frequency * np.sin(phase)
+    sizes = amplitude, relative_amplitude
+    return np.array([part for size in sizes for part in (size * inline, size * across)])
+
+
+def _run(parameters, starts, settling, workers, progress):
+    """Records of the motions from the starts that there are, in their cells."""
+    asked = np.isfinite(starts[..., 0])
+    records = np.zeros(asked.shape, ensemble.MOTION)
+    records["outcome"] = flag("outcome", "absent")
+    for name in ("maximum_displacement", "lyapunov_exponent", "lyapunov_error", "contacts"):
+        records[name] = np.nan
+    records[asked] = ensemble.settle(
+        parameters[asked], starts[asked], settling, workers=workers, progress=progress
+    )
+    return records
+
+
+def _kinds(records, resonance):
+    """Flag `quiet_run_motion` of each run."""
+    low = records["maximum_displacement"] < HIGH * resonance
+    quiet = low & is_symmetric_pair(records)
+    outcome = records["outcome"]
+    cases = {
+        "not_run": outcome == flag("outcome", "absent"),
+        "no_contact": outcome == flag("outcome", "non_colliding"),
+        "quiet": is_settled(records) & quiet,
+        "other_low": is_settled(records) & low,
+        "high": is_settled(records),
+        "low_chaotic": (outcome == flag("outcome", "chaotic")) & low,
+        "high_chaotic": outcome == flag("outcome", "chaotic"),
+    }
+    kinds = [flag("quiet_run_motion", name) for name in cases]
+    return np.select(list(cases.values()), kinds, flag("quiet_run_motion", "unresolved"))
+
+
+def _truth(orbits):
+    """Flag `quiet_orbit`: absent only beyond a place where the orbit was seen to end."""
+    values = orbits.multiplier
+    columns = np.arange(values.shape[1])
+    ended = np.isin(
+        orbits.end_event,
+        [flag("quiet_end_event", name) for name in ("fold", "contacts_change")],
+    )
+    below = ended[:, :1] & (columns < orbits.end[:, :1])
+    above = ended[:, 1:] & (columns > orbits.end[:, 1:])
+    real = values.imag == 0
+    cases = {
+        "stable": np.abs(values) < 1,
+        "neimark_sacker": np.isfinite(values) & ~real,
+        "fold": real & (values.real > 0),
+        "symmetry_breaking": real & (values.real < 0),
+        "absent": below | above,
+    }
+    kinds = [flag("quiet_orbit", name) for name in cases]
+    return np.select(list(cases.values()), kinds, flag("quiet_orbit", "unresolved"))
+
+
+def _quiet_verdict(said, truth):
+    """Flag `quiet_verdict`."""
+    verdict = np.full(said.shape, flag("quiet_verdict", "unresolved"))
+    cases = {
+        "stable": truth == flag("quiet_orbit", "stable"),
+        "unstable": truth > flag("quiet_orbit", "stable"),
+        "absent": truth == flag("quiet_orbit", "absent"),
+    }
+    for name in ("stable", "unstable", "none"):
+        for true, holds in cases.items():
+            here = (said == flag("balance_quiet", name)) & holds
+            verdict[here] = flag("quiet_verdict", f"{name}_{true}")
+    return verdict
+
+
+def _high_verdict(said, kinds, displacement):
+    """Flag `high_verdict`."""
+    near = np.abs(displacement / said.high_amplitude - 1) <= NEAR
+    low = np.isin(
+        kinds, [flag("high_run_motion", n) for n in ("quiet", "other_low", "low_chaotic")]
+    )
+    settled = kinds == flag("high_run_motion", "high")
+    stable = said.high == flag("balance_high", "stable")
+    none = said.high == flag("balance_high", "none")
+    chaotic = kinds == flag("high_run_motion", "high_chaotic")
+    silent = kinds == flag("high_run_motion", "no_contact")
+    cases = {
+        "stable_near": stable & settled & near,
+        "stable_far": stable & settled,
+        "stable_chaotic": stable & chaotic,
+        "stable_low": stable & low,
+        "stable_no_contact": stable & silent,
+        "none_settled": none & settled,
+        "none_chaotic": none & chaotic,
+        "none_low": none & low,
+        "none_no_contact": none & silent,
+        "not_run": none & (kinds == flag("high_run_motion", "not_run")),
+    }
+    flags = [flag("high_verdict", name) for name in cases]
+    return np.select(list(cases.values()), flags, flag("high_verdict", "unresolved"))
+
+
+def _rigid_end(row):
+    peak = balance.peak_frequency(row.oscillator)
+    return straight_flight_end(row.damper.clearance, row.damper.restitution) / peak
