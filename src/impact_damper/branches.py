@@ -16,6 +16,11 @@ from impact_damper.continuation import (
 
 SAME = 1e-5
 WEAK = 0.02
+GLANCE = 1e-4
+# Beyond these an orbit is one of the countless saddles of a chaotic motion, and rounding takes
+# the digits that are asked for: its largest multiplier, and how much its map amplifies.
+UNSTABLE = 100.0
+AMPLIFYING = 300.0
 
 
 class Branch(NamedTuple):
@@ -24,12 +29,13 @@ class Branch(NamedTuple):
     Attributes
     ----------
     points : list of Point
-        In order along it.
+        In order along it, events among them.
     events : list of (int, Event)
-        Each with the number of the point before it.
+        Each with the number of its point.
     ends : tuple of str
         What ends it before the first point and after the last: range_ends, closed,
-        symmetry_breaking, period_doubling, contact_lost, lost or point_limit.
+        symmetry_breaking, period_doubling, grazing, contact_lost, too_unstable, lost or
+        point_limit.
     lost : int
         Events that could not be located.
     """
@@ -78,7 +84,7 @@ def follow_branch(family, orbit, value, span, *, scale=1.0, limit=2000) -> Branc
             return walks[0]._replace(ends=("closed", "closed"))
     down, up = walks
     count = len(down.points) - 1
-    events = [(count - 1 - k, _reversed(event)) for k, event in reversed(down.events)]
+    events = [(count - k, _reversed(event)) for k, event in reversed(down.events)]
     events += [(count + k, event) for k, event in up.events]
     points = down.points[:0:-1] + up.points
     return Branch(points, events, (down.ends[1], up.ends[1]), down.lost + up.lost)
@@ -98,18 +104,20 @@ def _walk(problem, first, span, limit):
         if there is None:
             length /= 2
             if length < SHORTEST_STEP:
-                end = _loss(here.orbit)
+                end = _loss(problem, here)
                 break
             continue
         length = (there.x - here.x) @ here.tangent
         news, missed = events_between(problem, here, there, length)
         lost += missed
+        if _deviation(here.orbit) @ _deviation(there.orbit) < 0:
+            end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
+            news = _up_to_fold(news, end)
         for event in news:
-            events.append((len(points) - 1, event))
-            end = _meeting(here.orbit, event)
-            if end:
-                events[-1] = (len(points) - 1, event._replace(kind=end))
-                return Branch([*points, event.point], events, ("", end), lost)
+            events.append((len(points), event))
+            points.append(event.point)
+        if end != "point_limit":
+            break
         points.append(there)
         if there.value in span:
             end = "range_ends"
@@ -118,6 +126,9 @@ def _walk(problem, first, span, limit):
             points[-1] = first
             end = "closed"
             break
+        if _is_too_unstable(there.orbit):
+            end = "too_unstable"
+            break
         moved = problem.rephased(there)
         if moved is None:
             end = "lost"
@@ -125,6 +136,26 @@ def _walk(problem, first, span, limit):
         problem, points[-1] = moved
         length = min(1.3 * length, LONGEST_STEP)
     return Branch(points, events, ("", end), lost)
+
+
+def _deviation(orbit):
+    """Difference, shape (4,), from an orbit of more symmetry, whose branch is met where it turns.
+
+    For odd n that is the symmetric one, for even n one of half the period; a symmetric orbit
+    counts as one that meets none.
+    """
+    if orbit.root is not None:
+        return np.ones(4)
+    half = orbit.at(orbit.phase + orbit.periods * np.pi)
+    return orbit.state + half if orbit.periods % 2 else orbit.state - half
+
+
+def _up_to_fold(events, kind):
+    """The events up to the fold at which a branch meets another, which is of a kind in truth."""
+    for k, event in enumerate(events):
+        if event.kind == "fold":
+            return [*events[:k], event._replace(kind=kind)]
+    return []
 
 
 def _next(problem, here, span, length):
@@ -137,22 +168,22 @@ def _next(problem, here, span, length):
     return there
 
 
-def _loss(orbit):
-    """What ends a branch at an orbit beyond which Newton's method finds none."""
-    weak = orbit.touching and np.max(np.abs(orbit.contacts[:, 3])) < WEAK
-    return "contact_lost" if weak else "lost"
+def _loss(problem, last):
+    """What ends a branch at a point beyond which Newton's method finds none.
+
+    At a grazing contact the branch turns so sharply that it is not followed further.
+    """
+    orbit = last.orbit
+    if orbit.touching and np.max(np.abs(orbit.contacts[:, 3])) < WEAK:
+        return "contact_lost"
+    ahead, _ = problem.shoot(last.x + GLANCE * last.tangent)
+    return "grazing" if ahead.sequence != orbit.sequence else "lost"
 
 
-def _meeting(orbit, event):
-    """What ends the branch of an orbit at an event where it meets one of more symmetry, or ""."""
-    if event.kind != "fold":
-        return ""
-    met = event.point.orbit
-    if met.repeats_sooner(SAME) and not orbit.repeats_sooner(SAME):
-        return "period_doubling"
-    if met.record["asymmetry"] < SAME < orbit.record["asymmetry"]:
-        return "symmetry_breaking"
-    return ""
+def _is_too_unstable(orbit):
+    """Whether an orbit amplifies rounding beyond the digits that are asked for."""
+    matrix = orbit.monodromy if orbit.root is None else orbit.root
+    return abs(orbit.multipliers[0]) > UNSTABLE or np.linalg.norm(matrix, 2) > AMPLIFYING
 
 
 def _passes(problem, here, there, first):

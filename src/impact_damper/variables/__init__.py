@@ -3,10 +3,17 @@
 A module holds the variables of one subject; a name stands in one of them only.
 """
 
-from impact_damper.variables import balance_map, harmonic_balance, migration, motions, subharmonic
+from impact_damper.variables import (
+    balance_map,
+    harmonic_balance,
+    migration,
+    motions,
+    orbits,
+    subharmonic,
+)
 from impact_damper.variables.variable import Variable
 
-MODULES = (motions, harmonic_balance, migration, subharmonic, balance_map)
+MODULES = (motions, harmonic_balance, migration, subharmonic, orbits, balance_map)
 VARIABLES: dict[str, Variable] = {
     name: entry for module in MODULES for name, entry in module.VARIABLES.items()
 }

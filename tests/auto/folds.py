@@ -1,0 +1,214 @@
+"""Folds and symmetry breakings of the free oscillator by AUTO-07p.
+
+The equations are in forced_cubic.f90, AUTO's constants in constants.txt. Run by hand,
+
+    python tests/auto/folds.py > tests/auto/folds.json
+
+it makes the stored numbers anew. Nothing here uses the package under test.
+"""
+
+import datetime
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicHermiteSpline
+
+HERE = Path(__file__).parent
+AUTO = Path(os.environ.get("AUTO_DIR", "/usr/lib/auto-07p"))
+COMPILER = "gfortran"
+DAMPINGS = (0.215, 0.15, 0.107)
+
+# First orbits by direct integration: forcing periods of an orbit, W, and Z1, Z1' at T = 0.
+RESPONSE = 1, 4.0, dict.fromkeys(DAMPINGS, (0.0, 0.0))
+SUBHARMONIC = 3, 1.8, {0.215: (-0.516, -0.232), 0.15: (0.262, 0.122), 0.107: (-0.745, 0.426)}
+
+# Refinements; the last one's numbers are kept. A symmetry breaking is a singular point of the
+# equations: AUTO gets there only with a looser tolerance.
+SHARP = [
+    {"NTST": 100, "NCOL": 4, "EPSU": 1e-11, "EPSS": 1e-9, "DSMAX": 0.02},
+    {"NTST": 100, "NCOL": 5, "EPSU": 1e-12, "EPSS": 1e-10, "DSMAX": 0.02},
+    {"NTST": 200, "NCOL": 5, "EPSU": 1e-12, "EPSS": 1e-10, "DSMAX": 0.02},
+    {"NTST": 200, "NCOL": 7, "EPSU": 1e-12, "EPSS": 1e-10, "DSMAX": 0.015},
+]
+LOOSE = [
+    {"NTST": 100, "NCOL": 4, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.03},
+    {"NTST": 100, "NCOL": 4, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.02},
+    {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.03},
+    {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.02},
+]
+# Of each run the branch, its first orbit, where AUTO stops, which points are kept (None: all).
+RUNS = {
+    "response_folds": ("response", RESPONSE, "STOP = ['LP2']", {"fold"}, SHARP),
+    "response": ("response", RESPONSE, "UZSTOP = {'W': 0.6}", {"symmetry_breaking"}, LOOSE),
+    "subharmonic": ("subharmonic", SUBHARMONIC, "STOP = ['LP3']", None, SHARP),
+}
+# AUTO's types of points. It calls 6 a branch point: of symmetric orbits it is where one parts
+# into two that are each other's mirror images.
+KINDS = {5: "fold", 6: "symmetry_breaking", 7: "period_doubling", 8: "neimark_sacker"}
+OUT_OF_STEPS = 9
+LAST_DIGIT = 1e-10
+FAILURES = re.compile("NOTE:(?:No convergence|Possible special point|Error)")
+
+
+def missing():
+    """Why AUTO cannot be run here, or None."""
+    if not (AUTO / "lib" / "main.o").exists():
+        return f"AUTO-07p is not installed in {AUTO} (Debian: auto-07p; else set AUTO_DIR)"
+    if shutil.which(COMPILER) is None:
+        return f"AUTO-07p needs a Fortran compiler: {COMPILER} is not installed"
+    return None
+
+
+def versions():
+    """Versions of AUTO, of its Debian package and of the compiler."""
+    asked = (
+        ["dpkg-query", "--show", "--showformat", "${Version}", "auto-07p"],
+        [COMPILER, "--version"],
+    )
+    package, compiler = (
+        subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        for command in asked
+    )
+    return {
+        "version": package.split("+")[0],
+        "package": f"auto-07p {package} (Debian)",
+        "compiler": compiler.splitlines()[0],
+    }
+
+
+def build(folder):
+    """Compile the equations and link them with AUTO into `folder`/auto."""
+    objects = sorted((AUTO / "lib").glob("*.o"))
+    command = [COMPILER, "-O2", "-fopenmp", HERE / "forced_cubic.f90", *objects, "-o", "auto"]
+    subprocess.run(command, cwd=folder, check=True)
+
+
+def points(folder, damping, run, setting):
+    """Special points of one run of AUTO, in order along the branch.
+
+    Raises
+    ------
+    RuntimeError
+        If AUTO lost the branch, ran out of steps, or could not locate a point that it saw.
+    """
+    branch, (periods, frequency, starts), stop, kinds, _ = RUNS[run]
+    orbit = first_orbit(damping, frequency, starts[damping], periods)
+    np.savetxt(folder / "first_orbit.dat", orbit)
+    constants = (HERE / "constants.txt").read_text()
+    values = setting | {"frequency": frequency, "damping": damping, "stop": stop}
+    (folder / "fort.2").write_text(constants.format(**values))
+    environment = os.environ | {"OMP_NUM_THREADS": "1"}
+    subprocess.run(
+        ["./auto"], cwd=folder, env=environment, capture_output=True, check=True, timeout=300
+    )
+    failures = FAILURES.findall((folder / "fort.9").read_text())
+    if failures:
+        raise RuntimeError(f"AUTO, {run}, h = {damping}, {setting}: {', '.join(failures)}")
+    labelled = list(solutions(folder / "fort.8"))
+    if labelled[-1][0] == OUT_OF_STEPS:
+        raise RuntimeError(f"AUTO, {run}, h = {damping}, {setting}: not enough steps")
+    found = [
+        {"damping": damping, "branch": branch, "kind": KINDS[kind]} | measured(solution, periods)
+        for kind, solution in labelled
+        if kind in KINDS
+    ]
+    return [point for point in found if kinds is None or point["kind"] in kinds]
+
+
+def first_orbit(damping, frequency, start, periods):
+    """T, Z1, Z1', sin W T, cos W T over one orbit that the start leads to."""
+
+    def rate(time, z):
+        return z[1], math.cos(frequency * time) - damping * z[1] - z[0] ** 3
+
+    length = periods * 2 * math.pi / frequency
+    options = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-12}
+    settled = solve_ivp(rate, (0, 150 * length), start, **options).y[:, -1]
+    times = np.linspace(0, length, 200 * periods + 1)
+    z = solve_ivp(rate, (0, length), settled, t_eval=times, **options).y
+    return np.column_stack([times, *z, np.sin(frequency * times), np.cos(frequency * times)])
+
+
+def solutions(path):
+    """Type and (parameters, profile) of each solution that AUTO stored.
+
+    A header says how many values follow: rows of t, U, then direction and parameters. The
+    profile has columns t over the period, Z1, Z1', sin W T, cos W T.
+    """
+    lines = path.read_text().splitlines()
+    while lines:
+        header = [int(word) for word in lines[0].split()]
+        kind, rows, columns, length, parameters = (header[k] for k in (2, 6, 7, 8, 11))
+        words = np.array(" ".join(lines[1 : length + 1]).split(), float)
+        yield abs(kind) % 10, (words[-parameters:], words[: rows * columns].reshape(rows, columns))
+        lines = lines[length + 1 :]
+
+
+def measured(solution, periods):
+    """Frequency and largest |Z1| of a solution; its period must be that of the forcing."""
+    parameters, profile = solution
+    frequency, period = parameters[[0, 10]]
+    if not math.isclose(period * frequency, 2 * math.pi * periods, rel_tol=1e-6):
+        raise RuntimeError(f"period {period} at W = {frequency}: not that of {periods} forcings")
+    time, displacement, velocity = profile[:, 0] * period, profile[:, 1], profile[:, 2]
+    curve = CubicHermiteSpline(time, displacement, velocity)
+    turns = curve.derivative().roots(extrapolate=False)
+    return {
+        "frequency": float(frequency),
+        "maximum_displacement": float(f"{np.max(np.abs(curve(turns))):.9g}"),
+    }
+
+
+def found_in(folder, damping, run, settings):
+    """The points by the last of some settings, each with the error that the others suggest.
+
+    It is the largest difference of two runs, but no less than AUTO's tolerance of a solution
+    and the last digit that it writes. Folds met again further round a closed branch are left
+    out.
+    """
+    runs = [points(folder, damping, run, setting) for setting in settings]
+    if len({tuple(point["kind"] for point in run) for run in runs}) != 1:
+        raise RuntimeError("refinements of AUTO's mesh differ in the points they find")
+    least = max(settings[-1]["EPSU"], LAST_DIGIT)
+    kept = []
+    for same in zip(*runs, strict=True):
+        frequencies = [point["frequency"] for point in same]
+        spread = max(frequencies) - min(frequencies)
+        if not any(abs(point["frequency"] - frequencies[-1]) < 1e-6 for point in kept):
+            kept.append(same[-1] | {"frequency_error": max(float(f"{spread:.1e}"), least)})
+    return kept
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        build(name)
+        found = [
+            point
+            for damping in DAMPINGS
+            for run, (*_, settings) in RUNS.items()
+            for point in found_in(Path(name), damping, run, settings)
+        ]
+    made = {
+        "source": "AUTO-07p (E. J. Doedel and others), run by tests/auto/folds.py on the equations "
+        "in tests/auto/forced_cubic.f90 with the constants in tests/auto/constants.txt",
+        "equation": "Z1'' + h Z1' + Z1^3 = cos(W T)",
+        "date": datetime.date.today().isoformat(),
+        **versions(),
+        "maximum_displacement": "largest |Z1|, of a cubic through AUTO's mesh",
+        "settings": {run: settings for run, (*_, settings) in RUNS.items()},
+        "frequency_error": "largest difference between the settings of a run, of which the last is "
+        "kept; no less than EPSU and the last digit that AUTO writes, 1e-10",
+    }
+    print(json.dumps({"made": made, "points": found}, indent=1))
+
+
+if __name__ == "__main__":
+    main()
