@@ -18,6 +18,7 @@ from impact_damper.datasets import dataset, flag, is_settled
 from impact_damper.design import optimum_clearance
 from impact_damper.parameters import Damper, Oscillator, check_increasing, check_number, pack
 from impact_damper.quiet_orbit import is_symmetric_pair, quiet_orbits, straight_flight_end
+from impact_damper.recording import MOTION
 from impact_damper.slow_flow import fixed_points, growth_rate, stability
 
 PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
@@ -25,6 +26,9 @@ PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
 # foretold within that share of it.
 HIGH = 0.5
 NEAR = 0.2
+# So many chaotic high motions are run so many times as long as the patience.
+CHECKED = 50
+LONG = 10
 
 
 class _Row(NamedTuple):
@@ -131,6 +135,7 @@ def balance_map(
         "high_run_displacement": high_runs["maximum_displacement"],
         "high_run_exponent": high_runs["lyapunov_exponent"],
         "high_run_error": high_runs["lyapunov_error"],
+        "high_long_outcome": _long(parameters, said.high_start, high_kind, settling, workers),
         "high_verdict": _high_verdict(said, high_kind, high_runs["maximum_displacement"]),
     }
     made = fixed | {"parameter": parameter} | vars(settling)
@@ -223,7 +228,7 @@ def _start(amplitude, relative_amplitude, phase, frequency):
 def _run(parameters, starts, settling, workers, progress):
     """Records of the motions from the starts that there are, in their cells."""
     asked = np.isfinite(starts[..., 0])
-    records = np.zeros(asked.shape, ensemble.MOTION)
+    records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
     for name in ("maximum_displacement", "lyapunov_exponent", "lyapunov_error", "contacts"):
         records[name] = np.nan
@@ -231,6 +236,19 @@ def _run(parameters, starts, settling, workers, progress):
         parameters[asked], starts[asked], settling, workers=workers, progress=progress
     )
     return records
+
+
+def _long(parameters, starts, kinds, settling, workers):
+    """What chaotic high motions, evenly spread over the map, come to in a longer run."""
+    cells = np.flatnonzero(kinds == flag("high_run_motion", "high_chaotic"))
+    outcome = np.full(kinds.size, flag("high_long_outcome", "absent"))
+    if len(cells):
+        chosen = np.unique(cells[np.linspace(0, len(cells) - 1, CHECKED).astype(int)])
+        patience = LONG * settling.patience
+        longer = replace(settling, patience=patience, limit=max(settling.limit, patience + 100))
+        given = parameters.reshape(-1, 7)[chosen], starts.reshape(-1, 4)[chosen]
+        outcome[chosen] = ensemble.settle(*given, longer, workers=workers)["outcome"]
+    return outcome.reshape(kinds.shape)
 
 
 def _kinds(records, resonance):

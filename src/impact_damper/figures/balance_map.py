@@ -70,7 +70,7 @@ def draw_balance_map(*, balance_map):
     matplotlib.figure.Figure
     """
     (data,) = balance_map
-    drawn = figure("double", 5.0)
+    drawn = figure("double", 5.6)
     quiet, high = drawn.subplots(1, 2, sharex=True, sharey=True)
     _draw_classes(quiet, data, "quiet_verdict", QUIET)
     _draw_classes(high, data, "high_verdict", HIGH)
@@ -137,4 +137,6 @@ def _draw_chaos(axes, data):
     row, column = np.nonzero(np.isin(data["quiet_run_motion"], kinds))
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]
     look = {"color": BLACK, "marker": ".", "markersize": 1.6, "linestyle": "none"}
-    axes.plot(*place, markeredgewidth=0, label="chaos from a start at the balance's", **look)
+    axes.plot(
+        *place, markeredgewidth=0, label="chaos from a start at the balance's solution", **look
+    )

@@ -113,6 +113,11 @@ VARIABLES = {
     "high_run_displacement": Variable(CELL, "its largest displacement", "max |Z1|"),
     "high_run_exponent": Variable(CELL, "its largest Lyapunov exponent per unit time"),
     "high_run_error": Variable(CELL, "standard error of that exponent"),
+    "high_long_outcome": Variable(
+        CELL,
+        "what some of the chaotic ones come to within ten times the patience",
+        flags=OUTCOME,
+    ),
     "high_verdict": Variable(
         CELL,
         "whether harmonic balance has a stable high motion, and where a start there leads",
