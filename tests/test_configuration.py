@@ -101,7 +101,7 @@ def test_unknown_keys_are_rejected(section):
 @pytest.mark.parametrize(
     ("path", "value", "allowed"),
     [
-        ("tolerance", 1.0e-9, "unknown key; known: collisions, contact_stiffness"),
+        ("tolerance", 1.0e-9, "unknown key; known: balance_map, collisions, contact_stiffness"),
         ("seed", 0.5, "a whole number, at least 0"),
         ("contact_stiffness", 0, "greater than 0"),
         ("contact_stiffness", "2000", "a finite number"),
@@ -130,6 +130,11 @@ def test_unknown_keys_are_rejected(section):
         ("curves/3", 3, "keys with values"),
         ("curves", {}, "with 1 or more entries"),
         ("figures/figure_05a/data", ["figure_5a"], "one of figure_03a"),
+        ("balance_map/over_clearance/parameter", "frequency", "one of damping, mass_ratio"),
+        ("balance_map/over_clearance/clearance", 2, "left out (it changes from row to row)"),
+        ("balance_map/over_clearance/values", {"first": 2, "last": 1}, "less than last = 1"),
+        ("balance_map/over_restitution/values/last", 1.5, "must be from 0.05 to 1"),
+        ("balance_map/over_restitution/parameter", "clearance", "restitution: missing"),
         ("figures/figure_05a/data", [], "with 1 or more entries"),
         ("figures/figure_05a/kind", "curve", "one of schematic, free"),
         ("figures/figure_01/data", ["elastic"], "one of elastic_model"),

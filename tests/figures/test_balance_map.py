@@ -48,8 +48,8 @@ def drawing():
 
 
 def test_every_class_is_named(drawing):
-    for axes, classes in zip(drawing.axes, (QUIET, HIGH), strict=True):
-        words = [text.get_text() for text in axes.get_legend().get_texts()]
+    for legend, classes in zip(drawing.legends, (QUIET, HIGH), strict=True):
+        words = [text.get_text() for text in legend.get_texts()]
         assert {label for label, _, _ in classes.values()} <= set(words)
         assert len(set(words)) == len(words)
 
@@ -64,9 +64,10 @@ def test_legends_lie_on_the_sheet_and_beside_the_panels(drawing):
     box = drawing.get_tightbbox()
     assert min(box.x0, box.y0) >= 0
     assert box.x1 <= drawing.get_figwidth() and box.y1 <= drawing.get_figheight()
+    left, right = (legend.get_window_extent() for legend in drawing.legends)
+    assert not left.overlaps(right)
     for axes in drawing.axes:
-        area = axes.get_legend().get_window_extent()
-        assert not any(area.overlaps(other.get_window_extent()) for other in drawing.axes)
+        assert not left.overlaps(axes.get_tightbbox()) and not right.overlaps(axes.get_tightbbox())
 
 
 def test_ends_of_the_map_are_not_ends_of_the_orbit(drawing):

@@ -86,8 +86,11 @@ def draw_balance_map(*, balance_map):
         ylim=_span(data["map_value"].values),
     )
     letter_panels([quiet, high])
-    for axes, words in ((quiet, "Quiet motion"), (high, "High motion")):
-        axes.legend(title=words, loc="upper center", bbox_to_anchor=(0.5, -0.14))
+    for axes, words, side in (
+        (quiet, "(a) quiet motion", "left"),
+        (high, "(b) high motion", "right"),
+    ):
+        drawn.legend(*axes.get_legend_handles_labels(), title=words, loc=f"outside lower {side}")
     return drawn
 
 
@@ -104,9 +107,11 @@ def _draw_classes(axes, data, name, classes):
         here = values == flag(name, meaning)
         if here.any():
             cells = np.ma.masked_where(~here, values)
+            paint = {"cmap": ListedColormap([color]), "rasterized": True}
+            axes.pcolormesh(*grid, cells, **paint)
             look = {"hatch": hatch, "edgecolor": GREY}
-            paint = {"cmap": ListedColormap([color]), "linewidth": 0, "antialiased": False}
-            axes.pcolor(*grid, cells, rasterized=True, **paint, **look)
+            if hatch:
+                axes.pcolor(*grid, cells, linewidth=0, antialiased=False, **paint, **look)
             axes.fill([], [], facecolor=color, label=label, linewidth=0.4, **look)
 
 
