@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from conftest import PAPER
 
-from impact_damper.balance_map import HIGH, balance_map
+from impact_damper.balance_cells import HIGH
+from impact_damper.balance_map import balance_map
 from impact_damper.balance_map_table import balance_map as table_of
 from impact_damper.datasets import flag
 from impact_damper.design import harmonic_balance_response, optimum_clearance

@@ -7,24 +7,21 @@ lead? The balance knows elastic contact only: with e < 1 its verdict is that for
 """
 
 from dataclasses import replace
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from impact_damper import ensemble
 from impact_damper import harmonic_balance as balance
+from impact_damper.balance_cells import HIGH, balance_cells
 from impact_damper.datasets import dataset, flag, is_settled
 from impact_damper.design import optimum_clearance
 from impact_damper.parameters import Damper, Oscillator, check_increasing, check_number, pack
 from impact_damper.quiet_orbit import is_symmetric_pair, quiet_orbits, straight_flight_end
 from impact_damper.recording import MOTION
-from impact_damper.slow_flow import fixed_points, growth_rate, stability
 
 PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
-# A motion is high from this share of the free resonance's amplitude on, and near what is
-# foretold within that share of it.
-HIGH = 0.5
+# A settled motion is near what is foretold if it is within this share of it.
 NEAR = 0.2
 # So many chaotic high motions are run so many times as long as the patience.
 CHECKED = 50
@@ -37,19 +34,6 @@ class _Row(NamedTuple):
     oscillator: Oscillator
     damper: Damper
     frequencies: np.ndarray
-
-
-class _Cell(NamedTuple):
-    """What harmonic balance says in one cell, and where its runs start; NaN for no run."""
-
-    resonance: float
-    quiet: int
-    quiet_amplitude: float
-    quiet_growth: float
-    quiet_start: np.ndarray
-    high: int
-    high_amplitude: float
-    high_start: np.ndarray
 
 
 def balance_map(
@@ -92,8 +76,7 @@ def balance_map(
     parameters = np.array(
         [[pack(row.oscillator, row.damper, w) for w in row.frequencies] for row in rows]
     )
-    cells = [[_cell(row, w) for w in row.frequencies] for row in rows]
-    said = _Cell(*(np.array(column) for column in _transposed(cells)))
+    said = balance_cells(rows)
     quiet_runs, high_runs = (
         _run(parameters, starts, settling, workers, progress)
         for starts in (said.quiet_start, said.high_start)
@@ -101,45 +84,62 @@ def balance_map(
     quiet_kind, high_kind = (_kinds(runs, said.resonance) for runs in (quiet_runs, high_runs))
     landed = quiet_kind == flag("quiet_run_motion", "quiet")
     orbits = quiet_orbits(parameters, np.where(landed[..., None], quiet_runs["state"], np.nan))
-    truth = _truth(orbits)
-    ratios = np.asarray(frequency_ratios, float)
-    coordinates = {
-        "map_value": np.asarray(values, float),
-        "frequency_ratio": ratios,
-        "edge": ["lower", "upper"],
-    }
     data = {
         "map_frequency": parameters[..., 0],
         "map_clearance": [row.damper.clearance for row in rows],
         "resonance_amplitude": said.resonance,
+        "straight_flight_end": [_rigid_end(row) for row in rows],
+        "high_long_outcome": _long(parameters, said.high_start, high_kind, settling, workers),
+    }
+    data |= _quiet_data(said, quiet_kind, quiet_runs)
+    data |= _orbit_data(said, orbits, parameters[..., 0], frequency_ratios)
+    data |= _high_data(said, high_kind, high_runs)
+    coordinates = {
+        "map_value": np.asarray(values, float),
+        "frequency_ratio": np.asarray(frequency_ratios, float),
+        "edge": ["lower", "upper"],
+    }
+    made = fixed | {"parameter": parameter} | vars(settling)
+    return dataset(data, coordinates, made, "Harmonic balance against the true motions")
+
+
+def _quiet_data(said, kinds, runs):
+    return {
         "balance_quiet": said.quiet,
         "balance_quiet_amplitude": said.quiet_amplitude,
         "balance_quiet_growth": said.quiet_growth,
+        "quiet_run_motion": kinds,
+        "quiet_run_exponent": runs["lyapunov_exponent"],
+        "quiet_run_error": runs["lyapunov_error"],
+    }
+
+
+def _orbit_data(said, orbits, frequency, ratios):
+    truth = _truth(orbits)
+    return {
         "quiet_orbit": truth,
-        "quiet_orbit_growth": np.log(np.abs(orbits.multiplier)) * parameters[..., 0] / np.pi,
+        "quiet_orbit_growth": np.log(np.abs(orbits.multiplier)) * frequency / np.pi,
         "quiet_orbit_displacement": orbits.displacement,
         "quiet_orbit_harmonic": orbits.harmonic,
         "quiet_verdict": _quiet_verdict(said.quiet, truth),
         "quiet_end": np.interp(orbits.end, np.arange(len(ratios)), ratios),
         "quiet_end_event": orbits.end_event,
-        "straight_flight_end": [_rigid_end(row) for row in rows],
-        "quiet_run_motion": quiet_kind,
-        "quiet_run_exponent": quiet_runs["lyapunov_exponent"],
-        "quiet_run_error": quiet_runs["lyapunov_error"],
+    }
+
+
+def _high_data(said, kinds, runs):
+    return {
         "balance_high": said.high,
         "balance_high_amplitude": said.high_amplitude,
-        "high_run_motion": high_kind,
-        "high_run_outcome": high_runs["outcome"],
-        "high_run_period": high_runs["period"],
-        "high_run_contacts": high_runs["contacts"],
-        "high_run_displacement": high_runs["maximum_displacement"],
-        "high_run_exponent": high_runs["lyapunov_exponent"],
-        "high_run_error": high_runs["lyapunov_error"],
-        "high_long_outcome": _long(parameters, said.high_start, high_kind, settling, workers),
-        "high_verdict": _high_verdict(said, high_kind, high_runs["maximum_displacement"]),
+        "high_run_motion": kinds,
+        "high_run_outcome": runs["outcome"],
+        "high_run_period": runs["period"],
+        "high_run_contacts": runs["contacts"],
+        "high_run_displacement": runs["maximum_displacement"],
+        "high_run_exponent": runs["lyapunov_exponent"],
+        "high_run_error": runs["lyapunov_error"],
+        "high_verdict": _high_verdict(said, kinds, runs["maximum_displacement"]),
     }
-    made = fixed | {"parameter": parameter} | vars(settling)
-    return dataset(data, coordinates, made, "Harmonic balance against the true motions")
 
 
 def _rows(parameter, values, ratios, fixed):
@@ -159,70 +159,6 @@ def _rows(parameter, values, ratios, fixed):
             given["clearance"] = optimum_clearance(oscillator, given["mass_ratio"])
         rows.append(_Row(oscillator, Damper(**given), ratios * balance.peak_frequency(oscillator)))
     return rows
-
-
-def _transposed(cells):
-    """The fields of a table of named tuples, each as a table."""
-    return ([[cell[k] for cell in row] for row in cells] for k in range(len(_Cell._fields)))
-
-
-def _cell(row, frequency):
-    """Harmonic balance in one cell."""
-    resonance, top = _resonance(row.oscillator, frequency)
-    high_start = np.full(4, np.nan)
-    if top is not None:
-        # the loose mass at rest amid the gap
-        start = _start(resonance, 0.0, top, frequency)
-        high_start = np.array([start[0], start[1], 0.0, start[1]])
-    nothing = np.nan, np.nan, np.full(4, np.nan)
-    elastic = replace(row.damper, restitution=1.0)
-    try:
-        found, growth = _solutions(row.oscillator, elastic, frequency)
-    except ArithmeticError:
-        unresolved = flag("balance_quiet", "unresolved")
-        return _Cell(resonance, unresolved, *nothing, unresolved, np.nan, high_start)
-    signs = stability(growth)
-    size = np.abs(found.amplitude)
-    quiet = flag("balance_quiet", "none"), *nothing
-    if len(size) and np.min(size) < HIGH * resonance:
-        k = np.argmin(size)
-        verdict = {1: "stable", -1: "unstable", 0: "unresolved"}[int(signs[k])]
-        start = _start(found.amplitude[k], found.relative_amplitude[k], found.phase[k], frequency)
-        quiet = flag("balance_quiet", verdict), size[k], growth[k], start
-    high = flag("balance_high", "none"), np.nan, high_start
-    large = np.flatnonzero((signs == flag("stability", "stable")) & (size >= HIGH * resonance))
-    if len(large):
-        k = large[np.argmax(size[large])]
-        start = _start(found.amplitude[k], found.relative_amplitude[k], found.phase[k], frequency)
-        high = flag("balance_high", "stable"), size[k], start
-    return _Cell(resonance, *quiet, *high)
-
-
-@lru_cache(4096)
-def _solutions(oscillator, damper, frequency):
-    """Solutions of (7) and their growth rates; kept, for over e they do not change."""
-    found = balance.impacting_solutions(oscillator, damper, frequency)
-    return found, growth_rate(fixed_points(found), oscillator, damper, frequency)
-
-
-@lru_cache(4096)
-def _resonance(oscillator, frequency):
-    """Amplitude and phase of the free resonance branch; beyond its end that amplitude and None."""
-    folds = _folds(oscillator)
-    if folds and frequency > folds[-1].frequency:
-        return folds[-1].amplitude, None
-    free = balance.free_solutions(oscillator, frequency)
-    return free.amplitude[-1], free.phase[-1]
-
-
-_folds = lru_cache(balance.free_folds)
-
-
-def _start(amplitude, relative_amplitude, phase, frequency):
-    """State at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
-    inline, across = np.cos(phase), -frequency * np.sin(phase)
-    sizes = amplitude, relative_amplitude
-    return np.array([part for size in sizes for part in (size * inline, size * across)])
 
 
 def _run(parameters, starts, settling, workers, progress):
