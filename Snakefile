@@ -37,6 +37,7 @@ include: "workflow/rules/harmonics.smk"
 include: "workflow/rules/missed_contacts.smk"
 include: "workflow/rules/stable_steps.smk"
 include: "workflow/rules/verdicts.smk"
+include: "workflow/rules/balance_map.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -59,5 +60,6 @@ rule all:
         rules.missed_contacts.input,
         rules.stable_steps.input,
         rules.verdicts.input,
+        rules.balance_map.input,
         rules.figures.input,
         rules.tables.input,

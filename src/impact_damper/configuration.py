@@ -26,6 +26,15 @@ SECTIONS = {
     "missed_contacts": "missed_contacts",
     "stable_steps": "stable_steps",
     "verdicts": "verdicts",
+    "balance_map": "balance_map",
+}
+
+# What may change over a map, and its bounds.
+MAPPED = {
+    "damping": (0, 10),
+    "mass_ratio": (0, 10),
+    "clearance": (0, 1000),
+    "restitution": (0.05, 1),
 }
 
 # Sections whose entries name an oscillator.
@@ -254,6 +263,8 @@ def _contradictions(config):
             reason = f"must be at most passages = {entry['passages']} (it is some of them)"
             path = ["missed_contacts", name, "implicit_passages"]
             yield _problem(path, entry["implicit_passages"], reason)
+    for name, entry in config["balance_map"].items():
+        yield from _wrong_map(["balance_map", name], entry)
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, scene in config["harmonics"].items():
@@ -305,6 +316,21 @@ def _part_of_damper(path, scene):
         for key in sorted(set(keys) - set(given)):
             words = f"needed with {', '.join(given)} (a damper is whole or absent)"
             yield f"{_path([*path, key])}: missing; {words}"
+def _wrong_map(path, entry):
+    yield from _reversed([*path, "frequency_ratios"], entry["frequency_ratios"])
+    yield from _reversed([*path, "values"], entry["values"])
+    changing = entry["parameter"]
+    least, most = MAPPED[changing]
+    for end, value in entry["values"].items():
+        if not least <= value <= most:
+            reason = f"must be from {least} to {most} (bounds of {changing})"
+            yield _problem([*path, "values", end], value, reason)
+    for name in MAPPED:
+        if name == changing and name in entry:
+            reason = "must be left out (it changes from row to row)"
+            yield _problem([*path, name], entry[name], reason)
+        elif name != changing and name not in entry:
+            yield f"{_path([*path, name])}: missing; needed where {changing} changes"
 
 
 def _wrong_data(path, figure, config):

@@ -36,6 +36,7 @@ wildcard_constraints:
     figure="[A-Za-z0-9_]+",
     contact="[A-Za-z0-9_]+",
     limit="[A-Za-z0-9_]+",
+    balance_map="[A-Za-z0-9_]+",
     table="[a-z_]+",
 
 

@@ -17,6 +17,7 @@ KINDS = {
     "missed_contacts": "Where methods fail",
     "stable_steps": "Where methods fail",
     "verdicts": "Where methods fail",
+    "balance_map": "Where methods fail",
 }
 
 

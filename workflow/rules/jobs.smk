@@ -21,6 +21,7 @@ STAGES = {
     "missed_contacts": "missed_contacts",
     "stable_steps": "stable_steps",
     "verdicts": "verdicts",
+    "balance_map": "balance_map",
 }
 
 # Stages whose data a table holds; the claims rest on all.
@@ -41,6 +42,7 @@ TABLES = {
     "grazing": ["missed_contacts"],
     "steps": ["stable_steps"],
     "verdicts": ["verdicts"],
+    "balance_map": ["balance_map"],
     "claims": list(STAGES),
 }
 
@@ -222,6 +224,16 @@ def contact_model_job(wildcards):
             "restitutions": [model["smallest_restitution"], 1, model["cells"]["restitutions"]],
             "loads": [model["largest_load"], model["cells"]["loads"]],
         },
+def balance_map_job(wildcards):
+    entry = config["balance_map"][wildcards.balance_map]
+    fixed = {key: entry[key] for key in ("damping", "linear_frequency") if key in entry}
+    # the function follows rule (19) where it is given no clearance
+    fixed |= {key: value for key, value in damper_of(entry).items() if value != "rule"}
+    return {
+        "parameter": entry["parameter"],
+        "values": grid(entry["values"], "map_values"),
+        "frequency_ratios": grid(entry["frequency_ratios"], "map_frequencies"),
+        "fixed": fixed,
         "settling": config["settling"],
     }
 
@@ -306,6 +318,8 @@ def drawn(kind, name):
     if kind == "free":
         return {"oscillator": oscillator_of(name)}
     entry = config[SECTIONS[kind]][name]
+    if kind == "balance_map":
+        return entry
     frequency = {"frequency": entry["frequency"]} if "frequency" in entry else {}
     return {
         "oscillator": oscillator_of(entry["oscillator"]),

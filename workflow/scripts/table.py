@@ -3,6 +3,7 @@
 """Tables of designs, bands, optima, rules, subharmonics, migration and releases."""
 """Tables of designs, bands, optima, subharmonics, migration, releases and harmonics."""
 """Tables of the results, and of where integrators fail."""
+"""Tables of designs, bands, optima, subharmonics, migration, releases and maps."""
 
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ from impact_damper import contact_tables, tables
 from impact_damper import rule_tables, tables
 from impact_damper import harmonics_table, tables
 from impact_damper import integrator_tables, tables
+from impact_damper import balance_map_table, tables
 from impact_damper.datasets import load
 from impact_damper.table_files import save
 
@@ -28,4 +30,6 @@ make = getattr({"design_rules": rule_tables}.get(name, tables), name)
 table = snakemake.wildcards.table
 make = getattr({"harmonics": harmonics_table}.get(table, tables), table)
 make = getattr(tables if hasattr(tables, name) else integrator_tables, name)
+table = snakemake.wildcards.table
+make = getattr({"balance_map": balance_map_table}.get(table, tables), table)
 save(make(datasets), snakemake.output.csv, snakemake.output.markdown)

@@ -3,7 +3,14 @@
 A module holds the variables of one subject; a name stands in one of them only.
 """
 
-from impact_damper.variables import harmonic_balance, migration, motions, orbits, subharmonic
+from impact_damper.variables import (
+    balance_map,
+    harmonic_balance,
+    migration,
+    motions,
+    orbits,
+    subharmonic,
+)
 from impact_damper.variables.variable import Variable
 
 MODULES = (motions, harmonic_balance, migration, subharmonic, orbits)
@@ -23,6 +30,7 @@ from impact_damper.variables import harmonic_balance, integrators, migration, mo
 from impact_damper.variables.variable import Variable
 
 MODULES = (motions, harmonic_balance, migration, subharmonic, integrators)
+MODULES = (motions, harmonic_balance, migration, subharmonic, orbits, balance_map)
 VARIABLES: dict[str, Variable] = {
     name: entry for module in MODULES for name, entry in module.VARIABLES.items()
 }

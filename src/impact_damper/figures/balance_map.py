@@ -1,0 +1,147 @@
+"""Maps of where harmonic balance agrees with the true motions and where it does not."""
+
+import numpy as np
+from matplotlib.colors import ListedColormap
+
+from impact_damper.datasets import flag, parameters_of
+from impact_damper.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PALE,
+    PALE_SKY,
+    PURPLE,
+    SKY,
+    VERMILION,
+    WHITE,
+    axis_label,
+    figure,
+    letter_panels,
+    style,
+)
+
+PARAMETERS = {
+    "damping": "Damping, $h$",
+    "mass_ratio": "Mass ratio, $r_m$",
+    "clearance": "Clearance, $d_0$",
+    "restitution": "Coefficient of restitution, $e$",
+}
+# What the balance says and what is true, colour and hatching of each class.
+QUIET = {
+    "stable_stable": ("balance stable, orbit stable", PALE_SKY, ""),
+    "stable_unstable": ("balance stable, orbit unstable", VERMILION, "////"),
+    "stable_absent": ("balance stable, no orbit", ORANGE, ""),
+    "unstable_stable": ("balance unstable, orbit stable", PURPLE, "...."),
+    "unstable_unstable": ("balance unstable, orbit unstable", GREEN, "||||"),
+    "unstable_absent": ("balance unstable, no orbit", GREY, ""),
+    "none_stable": ("balance none, orbit stable", BLUE, ""),
+    "none_unstable": ("balance none, orbit unstable", SKY, "----"),
+    "none_absent": ("balance none, no orbit", WHITE, ""),
+    "unresolved": ("unresolved", WHITE, "xxxxxx"),
+}
+HIGH = {
+    "stable_near": ("balance stable, settled near it", BLUE, ""),
+    "stable_far": ("balance stable, settled further off", GREEN, "----"),
+    "stable_chaotic": ("balance stable, chaotic", ORANGE, ""),
+    "stable_low": ("balance stable, becomes low", PALE_SKY, "...."),
+    "stable_no_contact": ("balance stable, without contact", SKY, "||||"),
+    "none_settled": ("balance none, settled", PURPLE, ""),
+    "none_chaotic": ("balance none, chaotic", VERMILION, "////"),
+    "none_low": ("balance none, becomes low", WHITE, ""),
+    "none_no_contact": ("balance none, without contact", GREY, "||||"),
+    "not_run": ("balance none, nor free resonance", PALE, ""),
+    "unresolved": ("unresolved", WHITE, "xxxxxx"),
+}
+
+
+@style()
+def draw_balance_map(*, balance_map):
+    """The quiet motion and the high one, a panel each.
+
+    Parameters
+    ----------
+    balance_map : list of xarray.Dataset
+        One, of `balance_map`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    (data,) = balance_map
+    drawn = figure("double", 5.6)
+    quiet, high = drawn.subplots(1, 2, sharex=True, sharey=True)
+    _draw_classes(quiet, data, "quiet_verdict", QUIET)
+    _draw_classes(high, data, "high_verdict", HIGH)
+    _draw_edge(quiet, data["balance_quiet"])
+    _draw_edge(high, data["balance_high"])
+    _draw_ends(quiet, data)
+    _draw_chaos(quiet, data)
+    for axes in (quiet, high):
+        axes.set_xlabel(axis_label(data["frequency_ratio"]))
+    quiet.set(
+        ylabel=PARAMETERS[parameters_of(data)["parameter"]],
+        xlim=_span(data["frequency_ratio"].values),
+        ylim=_span(data["map_value"].values),
+    )
+    letter_panels([quiet, high])
+    for axes, words, side in (
+        (quiet, "(a) quiet motion", "left"),
+        (high, "(b) high motion", "right"),
+    ):
+        drawn.legend(*axes.get_legend_handles_labels(), title=words, loc=f"outside lower {side}")
+    return drawn
+
+
+def _span(centres):
+    """Outer edges of the first and the last cell."""
+    return centres[0] - np.diff(centres)[0] / 2, centres[-1] + np.diff(centres)[-1] / 2
+
+
+def _draw_classes(axes, data, name, classes):
+    """Cells in the colours of their classes, hatched where these have a hatching."""
+    grid = data["frequency_ratio"].values, data["map_value"].values
+    values = data[name].values
+    for meaning, (label, color, hatch) in classes.items():
+        here = values == flag(name, meaning)
+        if here.any():
+            cells = np.ma.masked_where(~here, values)
+            paint = {"cmap": ListedColormap([color]), "rasterized": True}
+            axes.pcolormesh(*grid, cells, **paint)
+            look = {"hatch": hatch, "edgecolor": GREY}
+            if hatch:
+                axes.pcolor(*grid, cells, linewidth=0, antialiased=False, **paint, **look)
+            axes.fill([], [], facecolor=color, label=label, linewidth=0.4, **look)
+
+
+def _draw_edge(axes, verdict):
+    """Edge of the cells in which the balance has a stable solution."""
+    stable = verdict == flag(verdict.name, "stable")
+    if stable.any() and not stable.all():
+        line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}
+        axes.contour(verdict["frequency_ratio"], verdict["map_value"], stable, [0.5], **line)
+    axes.plot([], [], "--", color=BLACK, linewidth=1.0, label="edge of balance stable")
+
+
+def _draw_ends(axes, data):
+    """Where the true quiet orbits end within the map, and where they would for rigid walls."""
+    inside = data["quiet_end_event"] != flag("quiet_end_event", "map_ends")
+    for end in data["quiet_end"].where(inside).values.T:
+        axes.plot(end, data["map_value"], color=BLACK, linewidth=1.6)
+    axes.plot([], [], color=BLACK, linewidth=1.6, label="end of the orbit")
+    rigid = data["straight_flight_end"].values
+    if np.isfinite(rigid).any():
+        look = {"color": BLACK, "linestyle": (0, (1, 1.2)), "label": "its end for rigid walls"}
+        axes.plot(rigid, data["map_value"], **look)
+
+
+def _draw_chaos(axes, data):
+    """Cells in which a start at the quiet solution of the balance leads to chaos."""
+    kinds = [flag("quiet_run_motion", name) for name in ("low_chaotic", "high_chaotic")]
+    row, column = np.nonzero(np.isin(data["quiet_run_motion"], kinds))
+    place = data["frequency_ratio"].values[column], data["map_value"].values[row]
+    look = {"color": BLACK, "marker": ".", "markersize": 1.6, "linestyle": "none"}
+    axes.plot(
+        *place, markeredgewidth=0, label="chaos from a start at the balance's solution", **look
+    )

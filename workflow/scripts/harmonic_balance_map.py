@@ -1,0 +1,22 @@
+"""Where harmonic balance fails, over frequency and another parameter."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.balance_map import balance_map
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+found = balance_map(
+    job["parameter"],
+    np.linspace(*job["values"]),
+    np.linspace(*job["frequency_ratios"]),
+    job["fixed"],
+    settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.balance_map,
+)
+save(found, snakemake.output[0])
