@@ -11,12 +11,12 @@ import yaml
 from snakemake.exceptions import WorkflowError
 
 from impact_damper.configuration import (
-    SECTIONS,
     ConfigurationError,
     check_configuration,
     check_unique_keys,
     without_left_out,
 )
+from impact_damper.contradictions import SECTIONS
 
 ROOT = Path(workflow.basedir)
 PACKAGE = Path(find_spec("impact_damper").origin).parent

@@ -1,5 +1,5 @@
 # Kinds of figures: the category of each in the report. A kind has a script, a caption, and
-# a place in SECTIONS of `configuration.py`.
+# a place in SECTIONS of `contradictions.py`.
 KINDS = {
     "schematic": "Models and schemes",
     "free": "Free oscillator",

@@ -1,21 +1,39 @@
 """Every table but that of the claims."""
-"""Tables of all but the claims."""
-"""Tables of designs, bands, optima, rules, subharmonics, migration and releases."""
-"""Tables of designs, bands, optima, subharmonics, migration, releases and harmonics."""
-"""Tables of the results, and of where integrators fail."""
-"""Tables of designs, bands, optima, subharmonics, migration, releases and maps."""
 
 import sys
 from pathlib import Path
 
-from impact_damper import orbit_tables, tables
-from impact_damper import contact_tables, tables
-from impact_damper import rule_tables, tables
-from impact_damper import harmonics_table, tables
-from impact_damper import integrator_tables, tables
-from impact_damper import balance_map_table, tables
+from impact_damper import (
+    balance_map_table,
+    contact_tables,
+    harmonics_table,
+    integrator_tables,
+    orbit_tables,
+    rule_tables,
+    tables,
+)
 from impact_damper.datasets import load
 from impact_damper.table_files import save
+
+TABLES = {
+    "design": tables.design,
+    "bands": tables.bands,
+    "optima": tables.optima,
+    "subharmonics": tables.subharmonics,
+    "migration": tables.migration,
+    "releases": tables.releases,
+    "orbits": orbit_tables.orbits,
+    "bifurcations": orbit_tables.bifurcations,
+    "harmonics": harmonics_table.harmonics,
+    "design_rules": rule_tables.design_rules,
+    "balance_map": balance_map_table.balance_map,
+    "contact_model": contact_tables.contact_model,
+    "contact_motions": contact_tables.contact_motions,
+    "rigid_limit": contact_tables.rigid_limit,
+    "grazing": integrator_tables.grazing,
+    "steps": integrator_tables.steps,
+    "verdicts": integrator_tables.verdicts,
+}
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
 datasets = {
@@ -23,13 +41,5 @@ datasets = {
     for stage, paths in snakemake.input.items()
     if stage != "code"
 }
-name = snakemake.wildcards.table
-make = next(getattr(module, name) for module in (tables, orbit_tables) if hasattr(module, name))
-make = getattr(contact_tables if hasattr(contact_tables, name) else tables, name)
-make = getattr({"design_rules": rule_tables}.get(name, tables), name)
-table = snakemake.wildcards.table
-make = getattr({"harmonics": harmonics_table}.get(table, tables), table)
-make = getattr(tables if hasattr(tables, name) else integrator_tables, name)
-table = snakemake.wildcards.table
-make = getattr({"balance_map": balance_map_table}.get(table, tables), table)
-save(make(datasets), snakemake.output.csv, snakemake.output.markdown)
+table = TABLES[snakemake.wildcards.table](datasets)
+save(table, snakemake.output.csv, snakemake.output.markdown)

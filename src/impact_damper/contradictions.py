@@ -1,0 +1,189 @@
+"""Problems between values of the configuration that are each allowed by themselves."""
+
+import itertools
+import reprlib
+
+# Section in which a figure's data are found, by the figure's kind.
+SECTIONS = {
+    "free": "oscillators",
+    "design": "curves",
+    "response": "curves",
+    "branches": "curves",
+    "motion": "motions",
+    "optimum": "optima",
+    "migration": "migration",
+    "release": "migration",
+    "contact_model": "contact_model",
+    "rigid_limit": "rigid_limit",
+    "design_rules": "design_rules",
+    "harmonics": "harmonics",
+    "missed_contacts": "missed_contacts",
+    "stable_steps": "stable_steps",
+    "verdicts": "verdicts",
+    "balance_map": "balance_map",
+}
+
+# What a figure of the kind `schematic` may name instead.
+SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
+
+# Sections whose entries name an oscillator.
+WITH_OSCILLATOR = (
+    "curves",
+    "motions",
+    "collisions",
+    "optima",
+    "migration",
+    "release_scans",
+    "harmonics",
+    "design_rules",
+    "contact_model",
+    "rigid_limit",
+    "missed_contacts",
+    "stable_steps",
+    "verdicts",
+)
+
+# Ranges of the entries of a section, that ascend.
+RANGES = {
+    "oscillators": ("frequencies",),
+    "optima": ("clearances",),
+    "release_scans": ("frequencies",),
+    "rigid_limit": ("frequencies", "stiffnesses"),
+    "missed_contacts": ("depths", "tolerances", "steps"),
+    "stable_steps": ("stiffnesses", "scaled_steps"),
+    "verdicts": ("tolerances", "steps"),
+}
+
+# What may change over a map, and its bounds.
+MAPPED = {
+    "damping": (0, 10),
+    "mass_ratio": (0, 10),
+    "clearance": (0, 1000),
+    "restitution": (0.05, 1),
+}
+
+
+def contradictions(config):
+    """Problems between values that are each allowed."""
+    for section in WITH_OSCILLATOR:
+        for name, entry in config[section].items():
+            yield from _unknown(
+                [section, name, "oscillator"], entry["oscillator"], config["oscillators"]
+            )
+    settling = config["settling"]
+    if settling["limit"] < settling["patience"]:
+        reason = f"must be at least settling.patience = {settling['patience']} (it comes later)"
+        yield problem(["settling", "limit"], settling["limit"], reason)
+    for name, model in config["contact_model"].items():
+        if model["smallest_restitution"] == 1:
+            reason = "must be less than 1 (where the map ends)"
+            yield problem(["contact_model", name, "smallest_restitution"], 1, reason)
+        for key in ("restitutions", "frequencies"):
+            yield from _not_increasing(["contact_model", name, key], model[key])
+    for name, grid in config["design_rules"].items():
+        yield from _wrong_grid(["design_rules", name], grid, config["oscillators"])
+    for section, ranges in RANGES.items():
+        for name, entry in config[section].items():
+            for key in ranges:
+                yield from _reversed([section, name, key], entry[key])
+    for name, entry in config["missed_contacts"].items():
+        if entry["implicit_passages"] > entry["passages"]:
+            reason = f"must be at most passages = {entry['passages']} (it is some of them)"
+            path = ["missed_contacts", name, "implicit_passages"]
+            yield problem(path, entry["implicit_passages"], reason)
+    for name, entry in config["balance_map"].items():
+        yield from _wrong_map(["balance_map", name], entry)
+    for name, curve in config["curves"].items():
+        yield from _wrong_stages(["curves", name], curve)
+    for name, scene in config["harmonics"].items():
+        yield from _part_of_damper(["harmonics", name], scene)
+    for name, figure in config["figures"].items():
+        yield from _wrong_data(["figures", name, "data"], figure, config)
+
+
+def _unknown(path, value, known):
+    if value not in known:
+        yield problem(path, value, f"must be one of {', '.join(known)}")
+
+
+def _reversed(path, span):
+    if span["first"] >= span["last"]:
+        reason = f"must be less than last = {span['last']!r} (a range ascends)"
+        yield problem([*path, "first"], span["first"], reason)
+
+
+def _not_increasing(path, values):
+    if sorted(set(values)) != values:
+        yield problem(path, values, "must increase (each is looked at once, in order)")
+
+
+def _wrong_grid(path, grid, oscillators):
+    for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies"):
+        if any(first >= second for first, second in itertools.pairwise(grid[key])):
+            yield problem([*path, key], grid[key], "must increase (a grid ascends)")
+    linear = oscillators.get(grid["oscillator"], {}).get("linear_frequency", 0)
+    if grid["frequencies"][0] <= linear:
+        reason = f"must lie above the linear frequency {linear!r} (the rules hold above it)"
+        yield problem([*path, "frequencies"], grid["frequencies"], reason)
+
+
+def _wrong_stages(path, curve):
+    if "branches" in curve["stages"] and "response" not in curve["stages"]:
+        reason = "must hold response with branches (orbits are followed from the motions found)"
+        yield problem([*path, "stages"], curve["stages"], reason)
+    if "design" in curve["stages"] and curve["restitution"] != 1:
+        reason = "must be 1 with the stage design (harmonic balance knows elastic contact only)"
+        yield problem([*path, "restitution"], curve["restitution"], reason)
+    if curve["clearance"] == "rule" and curve["stages"] != ["design"]:
+        reason = "must be a number with stages beside design (the designs table lists the rule)"
+        yield problem([*path, "clearance"], curve["clearance"], reason)
+
+
+def _part_of_damper(path, scene):
+    keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+    given = [key for key in keys if key in scene]
+    if given:
+        for key in sorted(set(keys) - set(given)):
+            words = f"needed with {', '.join(given)} (a damper is whole or absent)"
+            yield f"{dotted([*path, key])}: missing; {words}"
+
+
+def _wrong_map(path, entry):
+    yield from _reversed([*path, "frequency_ratios"], entry["frequency_ratios"])
+    yield from _reversed([*path, "values"], entry["values"])
+    changing = entry["parameter"]
+    least, most = MAPPED[changing]
+    for end, value in entry["values"].items():
+        if not least <= value <= most:
+            reason = f"must be from {least} to {most} (bounds of {changing})"
+            yield problem([*path, "values", end], value, reason)
+    for name in MAPPED:
+        if name == changing and name in entry:
+            reason = "must be left out (it changes from row to row)"
+            yield problem([*path, name], entry[name], reason)
+        elif name != changing and name not in entry:
+            yield f"{dotted([*path, name])}: missing; needed where {changing} changes"
+
+
+def _wrong_data(path, figure, config):
+    kind = figure["kind"]
+    known = SCHEMATICS if kind == "schematic" else config[SECTIONS[kind]]
+    for name in figure["data"]:
+        yield from _unknown(path, name, known)
+        if (
+            kind in ("design", "response", "branches")
+            and name in known
+            and kind not in known[name]["stages"]
+        ):
+            reason = f"must hold {kind} (what {'.'.join(path[:2])} draws)"
+            yield problem(["curves", name, "stages"], known[name]["stages"], reason)
+
+
+def problem(path, value, reason):
+    """One line on a value: its key, what it is, and what it must be."""
+    return f"{dotted(path)} = {reprlib.repr(value)}: {reason}"
+
+
+def dotted(path):
+    """A path of keys as one key with dots."""
+    return ".".join(map(str, path)) or "configuration"
