@@ -126,9 +126,10 @@ def _changes_of_contact(at, start, end, length):
                 inner = middle
             else:
                 outer, after = middle, orbit
-        point = at(outer)
-        richer = max(at(inner).orbit, point.orbit, key=lambda orbit: len(orbit.sequence))
-        found.append((outer, Event(_contact_event(richer), point, before, after.sequence)))
+        # of the two sides the one on which the contact exists
+        point = max(at(inner), at(outer), key=lambda side: len(side.orbit.sequence))
+        kind = _contact_event(point.orbit)
+        found.append((outer, Event(kind, point, before, after.sequence)))
         inner, before = outer, after.sequence
     return found
 

@@ -24,7 +24,7 @@ from impact_damper.parameters import (
 from impact_damper.variables.contact import SCENE, VARIABLES
 
 LINEAR = 1e-3
-LOG = ("contact_used", "contact_frequency", "contact_size")
+LOG = ("contact_used", "contact_row", "contact_size")
 SEEN = {
     "load": "contact_load",
     "restitution": "contact_restitution",

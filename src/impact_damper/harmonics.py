@@ -5,17 +5,18 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from impact_damper import fourier, harmonic_balance, harmonics_theory, hill, recording
+from impact_damper import fourier, harmonic_balance, harmonics_theory, hill
 from impact_damper.datasets import dataset, flag
-from impact_damper.exact_orbit import TOLERANCE, exact_orbit
 from impact_damper.motions import simulate
 from impact_damper.multiharmonic import Balance, solve
 from impact_damper.parameters import check_count, describe, pack
+from impact_damper.shooting import find_orbit
 
 SAMPLES = 2**14
 SAME = 1e-6
 # Errors below are rounding, and left out of the fits.
 ROUNDING = 1e-12
+FINEST = 1e-14
 
 
 def ladder(highest) -> np.ndarray:
@@ -70,7 +71,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     best = [each for each in solutions if each.status == "converged"]
     state = state_of(best[-1]) if best else np.zeros(4)
     p = pack(oscillator, damper, frequency)
-    exact = exact_orbit(p, state)
+    exact = find_orbit(p, state)
     data = {
         "series_status": [flag("series_status", each.status) for each in solutions],
         "series_steps": [each.iterations for each in solutions],
@@ -86,7 +87,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
         ],
     }
     data |= hill_table(solutions, exact)
-    data |= exact_table(exact, p, 2 if damper is None else 4)
+    data |= exact_table(exact, 2 if damper is None else 4)
     data["series_error"] = errors(data, solutions, exact, p)
     data |= decay_table(harmonics, data, damper, p, exact)
     made = describe(oscillator, damper) | {"frequency": float(frequency)}
@@ -162,7 +163,7 @@ def hill_table(solutions, exact):
     trace = -oscillator.damping
     if damper is not None:
         # in contact the dashpot adds its own rate to Liouville's theorem
-        trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.contact_time / period
+        trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.touching / period
     multipliers = np.full((len(solutions), 2 if damper is None else 4), complex(np.nan, np.nan))
     status = np.full(len(solutions), flag("hill_status", "not_tried"))
     traces = np.full(len(solutions), np.nan)
@@ -176,15 +177,17 @@ def hill_table(solutions, exact):
         "hill_status": status,
         "hill_multiplier_real": multipliers.real,
         "hill_multiplier_imaginary": multipliers.imag,
-        "hill_trace_error": np.abs(traces - trace) if exact.found else np.full_like(traces, np.nan),
+        "hill_trace_error": np.abs(traces - trace)
+        if exact.converged
+        else np.full_like(traces, np.nan),
     }
 
 
-def exact_table(exact, p, number):
+def exact_table(exact, number):
     """What is known of the exact orbit, with so many multipliers."""
-    found = exact.found and len(exact.multipliers) == number
-    multipliers = exact.multipliers if found else np.full(number, complex(np.nan, np.nan))
-    maximum = recording.measured(p, exact.state, 1, TOLERANCE)["maximum_displacement"]
+    found = exact.converged and exact.active == number
+    multipliers = exact.multipliers[:number] if found else np.full(number, complex(np.nan, np.nan))
+    maximum = exact.record["maximum_displacement"]
     return {
         "exact_status": flag("exact_status", "found" if found else "not_found"),
         "exact_residual": exact.residual,
@@ -200,15 +203,16 @@ def errors(data, solutions, exact, p):
     if data["exact_status"] == flag("exact_status", "not_found"):
         return found
     balance, size = solutions[0].balance, data["exact_maximum"]
+    start = exact.strobe_states[0]
     orbit = simulate(
         balance.oscillator,
         balance.damper,
         balance.frequency,
-        exact.state if balance.damper is not None else exact.state[:2],
+        start if balance.damper is not None else start[:2],
         periods=1,
         samples=SAMPLES,
         start=np.pi / (2 * balance.frequency),
-        tolerance=TOLERANCE,
+        tolerance=FINEST,
     )
     # the orbit begins a quarter of a forcing period late
     coefficients = np.fft.rfft(np.roll(orbit["displacement"].values[:-1], SAMPLES // 4)) / SAMPLES
@@ -223,7 +227,7 @@ def errors(data, solutions, exact, p):
             multipliers = (
                 data["hill_multiplier_real"][k] + 1j * data["hill_multiplier_imaginary"][k]
             )
-            found[3, k] = _farthest(multipliers, exact.multipliers)
+            found[3, k] = _farthest(multipliers, exact.multipliers[: exact.active])
     return found
 
 
@@ -239,7 +243,7 @@ def decay_table(harmonics, data, damper, p, exact):
     """Rates at which the errors fall from `harmonics_theory.asymptotic_harmonic` on."""
     measures = len(harmonics_theory.MEASURES)
     lowest = harmonics_theory.asymptotic_harmonic(damper, p[0])
-    kind, predicted = harmonics_theory.decay(damper, p, exact.state)
+    kind, predicted = harmonics_theory.decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics
     observed, fitted = np.full(measures, np.nan), np.zeros(measures, int)
     for k, error in enumerate(data["series_error"]):

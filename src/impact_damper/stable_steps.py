@@ -226,7 +226,7 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
         "step_slope_error": slopes[..., 1],
         "linear_limit": limits,
         "contact_frequency": contact,
-        "orbit_displacement": _of(found, "displacement"),
+        "reference_displacement": _of(found, "displacement"),
         "orbit_multiplier": _of(found, "multiplier"),
         "free_bound": bound,
     }

@@ -29,6 +29,9 @@ MODULES = (
     integrators,
     balance_map,
 )
-VARIABLES: dict[str, Variable] = {
-    name: entry for module in MODULES for name, entry in module.VARIABLES.items()
-}
+VARIABLES: dict[str, Variable] = {}
+for module in MODULES:
+    twice = VARIABLES.keys() & module.VARIABLES.keys()
+    if twice:
+        raise ValueError(f"{', '.join(sorted(twice))}: stands in two modules of the registry")
+    VARIABLES |= module.VARIABLES

@@ -15,7 +15,6 @@ VARIABLES = {
     # map
     "exit_rule": Variable(("exit_rule",), "what ends a contact"),
     "load": Variable(("load",), "load in contact", "g/(omega_n v0)"),
-    "restitution": Variable(("restitution",), "coefficient of restitution by (25)", "e"),
     "realised_restitution": Variable(CELL, "departure speed over approach speed"),
     "contact_duration": Variable(CELL, "time in contact over that of an elastic contact"),
     "contact_verdict": Variable(
@@ -57,7 +56,7 @@ VARIABLES = {
         SCENE, "error of the closed form's time in contact that 99 % of them do not exceed"
     ),
     "contact_used": Variable(("contact",), "place, along used, of a contact's damper"),
-    "contact_frequency": Variable(("contact",), "place, along frequency, of a contact's motion"),
+    "contact_row": Variable(("contact",), "place, along frequency, of a contact's motion"),
     "contact_size": Variable(("contact",), "place, along size, of a contact's motion"),
     "contact_load": Variable(("contact",), "load at the beginning of a contact"),
     "contact_restitution": Variable(("contact",), "departure speed over approach speed"),

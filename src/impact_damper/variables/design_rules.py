@@ -7,8 +7,6 @@ BEST = (*SWEPT, "criterion")
 
 VARIABLES = {
     "mass_ratio": Variable(("mass_ratio",), "mass ratio", "r_m"),
-    "restitution": Variable(("restitution",), "coefficient of restitution", "e"),
-    "contact_stiffness": Variable(("contact_stiffness",), "contact stiffness", "r1"),
     "criterion": Variable(("criterion",), "what is least at an optimum"),
     "rule": Variable(("rule",), "rule for the clearance"),
     "best_ratio": Variable(BEST, "r_m Omega^2 d0 at the optimum"),

@@ -53,7 +53,6 @@ VARIABLES = {
     "extremum_curvature": Variable(("passage",), "|Z2''| there"),
     # largest stable steps
     "fixed_method": Variable(("fixed_method",), "method with equal steps"),
-    "contact_stiffness": Variable(("contact_stiffness",), "stiffness of the contact", "r1"),
     "scaled_step": Variable(("scaled_step",), "step times contact frequency", "h omega_c"),
     "accuracy": Variable(("accuracy",), "relative deviation allowed in max |Z1|"),
     "step_verdict": Variable(
@@ -82,7 +81,7 @@ VARIABLES = {
     "contact_frequency": Variable(
         ("contact_stiffness",), "natural frequency of an undamped contact", "omega_c"
     ),
-    "orbit_displacement": Variable(
+    "reference_displacement": Variable(
         ("contact_stiffness",), "largest displacement of the exact orbit", "max |Z1|"
     ),
     "orbit_multiplier": Variable(

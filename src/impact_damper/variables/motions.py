@@ -6,6 +6,8 @@ VARIABLES = {
     # coordinates
     "frequency": Variable(("frequency",), "forcing frequency", "Omega"),
     "clearance": Variable(("clearance",), "clearance of the loose mass", "d0"),
+    "restitution": Variable(("restitution",), "coefficient of restitution", "e"),
+    "contact_stiffness": Variable(("contact_stiffness",), "stiffness of the contact", "r1"),
     "time": Variable(("time",), "time", "T"),
     # state
     "displacement": Variable(("time",), "displacement of the primary mass", "Z1"),
