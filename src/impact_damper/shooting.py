@@ -106,19 +106,23 @@ class Orbit:
         """
         begin = self.phase / self.p[0]
         end = begin + self.periods * TURN / self.p[0]
+        # A contact under way at the phase is whole where it comes again.
+        touching = side_of(self.p, self.state) != 0
+        last = end + touching * (end - begin)
         log = np.empty((CONTACTS, 5))
         count = recording.trace(
             self.p,
             self.state.copy(),
             begin,
-            np.array([end]),
+            np.array([last]),
             POLISH_TOLERANCE,
             np.empty((1, 4)),
             log,
         )
         if count > CONTACTS:
             raise ArithmeticError(f"{count} contacts an orbit: at most {CONTACTS} are listed")
-        return log[:count]
+        log = log[touching:count]
+        return log[log[:, 1] < end]
 
     @property
     def sequence(self):
