@@ -180,11 +180,14 @@ def test_a_curve_reruns_itself_and_what_draws_it(edit):
         "Harmonic balance and suppression band of the curve figure_08",
         "Motions with the damper over frequency, of the curve figure_08",
         "What the damper makes of the one-third subharmonic, for the curve figure_08",
+        "Branches of orbits with the damper, for the curve figure_08",
         "Drawing figure_08",
         "Caption of figure_08",
         "Table of design",
         "Table of bands",
         "Table of subharmonics",
+        "Table of orbits",
+        "Table of bifurcations",
         "Table of claims",
     }
 

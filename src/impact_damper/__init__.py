@@ -20,6 +20,9 @@ _HOMES = {
     "clearance_sweep": "optimum",
     "subharmonic_suppression": "subharmonic",
     "migrate": "migration",
+    "periodic_orbit": "periodic",
+    "orbit_branch": "periodic",
+    "complete_branches": "periodic",
     "harmonic_convergence": "harmonics",
 }
 

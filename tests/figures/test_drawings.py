@@ -10,6 +10,7 @@ from impact_damper.figures.free import draw_free
 from impact_damper.figures.migration import draw_migration, draw_release
 from impact_damper.figures.motion import draw_motion
 from impact_damper.figures.optimum import draw_optimum
+from impact_damper.figures.orbits import draw_branches
 from impact_damper.figures.response import draw_response
 from impact_damper.figures.style import ROLES, style
 from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION, OUTCOME
@@ -110,15 +111,37 @@ def migration():
     return dataset(data, {"time": time}, DAMPER | {"frequency": 2.0}, "made up")
 
 
-FREE = {"free": [response()], "free_design": [balance()]}
+def orbits(**parameters):
+    """Branches of periods 1, 2 and 3, each stable, then unstable from a fold on, at own heights."""
+    periods = [1, 2, 3]
+    count = len(FREQUENCY)
+    value = np.concatenate([FREQUENCY, FREQUENCY[::-1]])
+    stable = np.repeat([flag("stability", "stable"), flag("stability", "unstable")], count)
+    size = np.concatenate([FREQUENCY + n + edge for n in periods for edge in (0.0, 0.5)])
+    data = {
+        "followed_value": np.tile(value, len(periods)),
+        "orbit_displacement": size,
+        "orbit_branch": np.repeat(np.arange(len(periods)), 2 * count),
+        "orbit_stability": np.tile(stable, len(periods)),
+        "branch_period": periods,
+        "event_kind": [flag("event_kind", "fold"), flag("event_kind", "grazing")],
+        "event_value": [2.0, 1.5],
+        "event_displacement": [3.0, 2.5],
+    }
+    return dataset(data, {}, DAMPER | parameters, "made up")
+
+
+FREE = {"free_branches": [orbits()]}
+DAMPED = {"branches": [orbits()], **FREE}
 STATUSES = ["period_1", "higher_period", "subharmonic_damped", "chaotic", "non_colliding"]
 STATUSES += ["unresolved"]
 FREE_ROLES = ["free_stable", "free_unstable", "subharmonic_free", "free_higher"]
+FREE_ROLES += ["subharmonic_unstable"]
 BALANCE_ROLES = ["harmonic_balance", "band"]
 DRAWINGS = {
     "free": (lambda: draw_free(**FREE), FREE_ROLES),
     "two free": (
-        lambda: draw_free(free=2 * FREE["free"], free_design=2 * FREE["free_design"]),
+        lambda: draw_free(free_branches=2 * FREE["free_branches"]),
         FREE_ROLES,
     ),
     "design": (
@@ -127,18 +150,27 @@ DRAWINGS = {
     ),
     "response": (
         lambda: draw_response(
-            response=[response()], design=[balance()], subharmonic=[response()], **FREE
+            response=[response()], design=[balance()], subharmonic=[response()], **DAMPED
         ),
-        FREE_ROLES + BALANCE_ROLES + STATUSES,
+        FREE_ROLES + BALANCE_ROLES + STATUSES + ["unstable_orbit"],
+    ),
+    "branches": (
+        lambda: draw_branches(**DAMPED),
+        ["free_stable", "free_unstable"],
     ),
     "inelastic": (
         lambda: draw_response(
             response=[response(restitution=0.75), response()],
             design=[balance()],
             subharmonic=[response()],
+            branches=[orbits(restitution=0.75), orbits()],
             **FREE,
         ),
-        FREE_ROLES + BALANCE_ROLES + STATUSES + [f"inelastic_{name}" for name in STATUSES],
+        FREE_ROLES
+        + BALANCE_ROLES
+        + [
+            f"{kind}{name}" for kind in ("", "inelastic_") for name in [*STATUSES, "unstable_orbit"]
+        ],
     ),
     "motion": (lambda: draw_motion(motion=[motion()]), []),
     "optimum": (
@@ -209,6 +241,7 @@ def looks(drawn, labels):
             hollow = line.get_markerfacecolor() == "none"
             found[line.get_label()] = (
                 line.get_linestyle(),
+                str(line._unscaled_dash_pattern[1]),
                 line.get_marker(),
                 hollow,
                 line.get_linewidth() > 2,
@@ -225,13 +258,25 @@ def test_what_differs_in_colour_differs_in_grey_too(name):
     assert len(set(found.values())) == len(found)
 
 
-def test_free_unstable_branch_reaches_both_folds():
-    drawn = draw_free(**FREE)
+def test_balance_unstable_branch_reaches_both_folds():
+    drawn = draw_design(design=[balance()])
     (line,) = (
         line for line in drawn.axes[0].lines if line.get_label() == ROLES["free_unstable"]["label"]
     )
     shown = np.isfinite(line.get_ydata())
     assert shown.sum() == len(FREQUENCY) + 2
+
+
+def test_stable_and_unstable_parts_of_a_branch_meet():
+    drawn = draw_free(**FREE)
+    parts = {
+        line.get_label(): line.get_xydata()
+        for line in drawn.axes[0].lines
+        if line.get_label()
+        in (ROLES["subharmonic_free"]["label"], ROLES["subharmonic_unstable"]["label"])
+    }
+    stable, unstable = parts.values()
+    assert np.array_equal(stable[-1], unstable[0])
 
 
 def test_contacts_are_marked_where_they_are():

@@ -95,7 +95,7 @@ ROLES = {
     "subharmonic_unstable": _line(
         "free, one-third subharmonic, unstable",
         PURPLE,
-        linestyle=(0, (4, 2)),
+        linestyle=(0, (5, 1.5, 1, 1.5)),
         linewidth=0.8,
         zorder=2.1,
     ),
@@ -103,7 +103,7 @@ ROLES = {
         "elastic, unstable orbit", BLUE, linestyle=(0, (1, 1.5)), linewidth=0.8, zorder=1.9
     ),
     "inelastic_unstable_orbit": _line(
-        "inelastic, unstable orbit", VERMILION, linestyle=(0, (1, 1.5)), linewidth=0.8, zorder=1.9
+        "inelastic, unstable orbit", VERMILION, linestyle=(0, (1, 4)), linewidth=1.0, zorder=1.9
     ),
     "subharmonic_damped": _points("elastic, subharmonic (period $3n$)", PURPLE, "v"),
     "chaotic": _points("elastic, chaotic", ORANGE, ".", filled=True),
