@@ -111,9 +111,7 @@ def _orbits_beside(datasets):
         reach.append(max(around, default=0.0) / peak)
         lower, edge = 0.75 * peak, suppression_band(datasets, name).lower
         beside.append(exact.covered(exact.high(branches, free), lower, edge) / (edge - lower))
-        found = exact.counterparts(design, branches)
-        level = exact.HALF * exact.resonance(free, found.frequency)
-        pairs.append(found[found.balance_stable & (np.abs(found.a) > level)])
+        pairs.append(exact.high_counterparts(design, branches, free))
     pairs = pd.concat(pairs)
     return {
         "orbit_reach": np.min(reach),

@@ -182,6 +182,13 @@ def counterparts(design, branches) -> pd.DataFrame:
     return pairs.loc[pairs.groupby("index").difference.idxmin()]
 
 
+def high_counterparts(design, branches, free):
+    """The counterparts of the stable solutions of (7) above half of the free resonance branch."""
+    pairs = counterparts(design, branches)
+    limit = HALF * resonance(free, pairs.frequency)
+    return pairs[pairs.balance_stable & (np.abs(pairs.a) > limit)]
+
+
 def subharmonic(free):
     """Pieces of the free one-third subharmonic, or raise Missing.
 
