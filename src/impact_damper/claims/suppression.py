@@ -41,9 +41,9 @@ def chaotic_high(response, free):
 def suppression_band(datasets, name):
     """Range below the fold of the free resonance branch without any high motion, or raise Missing.
 
-    The lower edge is the upper end of the last branch of stable high orbits. Where a high motion
-    that has not settled is found above it, all that is known is that it is gone at the next
-    frequency of the response.
+    The lower edge is the upper end of the last branch of stable high orbits, or the last frequency
+    of the response with a high motion that has not settled, of which all that is known is that
+    it is gone at the next one.
     """
     branches, free = exact.of_curve(datasets, name)
     response = extract.get(datasets, "response", name)
