@@ -1,6 +1,7 @@
 """Made-up datasets in which every claim of the paper holds, small and with closed forms."""
 
 import numpy as np
+from made_up_orbits import branch, branches
 
 from impact_damper.datasets import dataset, flag
 from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION
@@ -108,63 +109,58 @@ def motions(frequency, columns):
         "period": 0,
         "contacts": np.nan,
         "maximum_displacement": np.nan,
-        "asymmetry": np.nan,
-        "phase_relative": np.nan,
-        "phase_loose": np.nan,
-        "branch": -1,
         "share": 0,
     }
     usual = {
         "outcome": flag("outcome", "settled"),
         "period": 1,
-        "asymmetry": 0.0,
-        "phase_relative": 0.0,
-        "phase_loose": 0.0,
         "share": 1,
     }
     data = {}
     for name, absent in fill.items():
         data[name] = np.stack(
-            [
-                np.where(present, (usual | others | {"branch": k}).get(name), absent)
-                for k, (present, others) in enumerate(columns)
-            ],
+            [np.where(present, (usual | others).get(name), absent) for present, others in columns],
             axis=-1,
         )
     return data
 
 
-def ends(*rows):
-    """Ends of branches, each (value, direction, branch, size)."""
-    value, direction, branch, size = zip(*rows, strict=True)
-    return {
-        "end_value": np.array(value),
-        "end_branch": np.array(branch),
-        "end_displacement": np.array(size),
-        "end_direction": [flag("end_direction", each) for each in direction],
-    }
-
-
-def free(damping):
+def free_branches(damping):
+    """A resonance branch that folds at the peak, and the one-third subharmonic, an isola."""
     peak = PEAKS[damping]
-    frequency = frequencies(peak)
-    third = (frequency > 0.8 * peak) & (frequency < 1.1 * peak)
-    data = motions(
-        frequency,
-        [
-            (
-                frequency <= peak,
-                {"contacts": 0.0, "maximum_displacement": resonance_size(frequency, peak, damping)},
-            ),
-            (third, {"contacts": 0.0, "maximum_displacement": 0.8, "period": 3}),
-            (frequency > 0, {"contacts": 0.0, "maximum_displacement": 0.2}),
-        ],
-    ) | ends(
-        (peak, "up", 0, 1 / (damping * peak)),
-        (1.1 * peak, "up", 1, 0.8),
-        (0.8 * peak, "down", 1, 0.8),
+    rising, falling = np.linspace(0.5, 1, 101) * peak, np.linspace(1, 0.6, 81)[1:] * peak
+    beyond = np.linspace(0.6, 1.5, 181)[1:] * peak
+    top = 1 / (damping * peak)
+    size = [resonance_size(rising, peak, damping), np.linspace(top, 0.5, 80), 0.2 * beyond / beyond]
+    stable = np.repeat([True, False, True], [101, 80, 180])
+    curve = np.concatenate([rising, falling, beyond])
+    there = np.linspace(0.8, 1.1, 61) * peak
+    return branches(
+        branch(curve, np.concatenate(size), stable=stable, contacts=0.0, phase=0.0),
+        branch(there, 0.8, contacts=0.0, phase=0.0, period=3),
+        folds=[(0, peak, top), (0, 0.6 * peak, 0.5)],
+        parameters=parameters(damping),
     )
-    return dataset(data, {"frequency": frequency}, parameters(damping), "made up")
+
+
+def damped_branches(name, damping=0.215, restitution=1.0, third=None):
+    """High orbits up to the band, quiet ones everywhere, and orbits of period 3 of a size.
+
+    The orbits that the high solutions of (7) stand for are not stable.
+    """
+    peak, mass_ratio = PEAKS[damping], DAMPERS[name]
+    below, all_over = np.linspace(0.5, BAND_START[name], 101) * peak, frequencies(peak)
+    high = 0.9 * resonance_size(below, peak, damping)
+    size = quiet_size(all_over, peak, mass_ratio) * (1 if restitution == 1 else 1.3)
+    phase = np.where(all_over < peak, np.pi, 0.0)
+    parts = [
+        branch(below, high, contacts=4.0, restitution=restitution),
+        branch(below, high, phase=0.0, stable=False, restitution=restitution),
+        branch(all_over, size, phase=phase, restitution=restitution),
+    ]
+    if third is not None:
+        parts.append(branch(np.linspace(0.8, 1.1, 61) * peak, third, period=3))
+    return branches(*parts, parameters=parameters(damping, **damper(mass_ratio, peak, restitution)))
 
 
 def response(name, damping=0.215, restitution=1.0):
@@ -172,7 +168,6 @@ def response(name, damping=0.215, restitution=1.0):
     frequency = frequencies(peak)
     edge = BAND_START[name] * peak
     size = quiet_size(frequency, peak, mass_ratio) * (1 if restitution == 1 else 1.3)
-    relative = np.where(frequency < peak, np.pi, 0.0)
     high = 0.9 * resonance_size(frequency, peak, damping)
     chaos = np.abs(frequency / peak - 0.7) < 0.01
     data = motions(
@@ -193,12 +188,10 @@ def response(name, damping=0.215, restitution=1.0):
                 {
                     "contacts": 2.0,
                     "maximum_displacement": size,
-                    "phase_relative": relative,
-                    "phase_loose": np.pi - relative,
                 },
             ),
         ],
-    ) | ends((edge, "up", 0, 0.9 * resonance_size(edge, peak, damping)))
+    )
     data["run_outcome"] = np.ones((len(frequency), 2))
     return dataset(
         data,
@@ -262,18 +255,11 @@ def subharmonic(name, damping=0.215, damped=np.nan):
         ],
     )
     ratio = np.where(present, damped, 0.0) / size
-    state = np.where(present, flag("suppression", "reduced"), flag("suppression", "removed"))
-    count = int(present.any())
     data |= {
         "free_subharmonic": np.full(len(frequency), size),
         "damped_subharmonic": np.where(present, damped, np.nan),
         "subharmonic_ratio": ratio,
-        "suppression": state,
-        "free_subharmonic_frequency": np.array([0.799, 1.101]) * peak,
         "switched_share": 0.5 * present[:, None],
-        "subharmonic_period": np.full(count, 3),
-        "subharmonic_displacement": np.full(count, damped),
-        "subharmonic_frequency": np.tile(np.array([0.8, 1.1]) * peak, (count, 1)),
     }
     return dataset(
         data,
@@ -364,7 +350,14 @@ def world():
     }
     return {
         "design": designs,
-        "free": {f"h{1000 * h:.0f}": free(h) for h in PEAKS},
+        "free_branches": {f"h{1000 * h:.0f}": free_branches(h) for h in PEAKS},
+        "branches": {
+            "figure_05a": damped_branches("figure_05a"),
+            "figure_05b": damped_branches("figure_05b"),
+            "figure_05c": damped_branches("figure_05c", third=0.1),
+            "figure_08": damped_branches("figure_08", 0.107),
+            "figure_10": damped_branches("figure_10", restitution=0.75),
+        },
         "response": responses,
         "motion": {"figure_04": motion()},
         "collisions": {"figure_05a": collisions()},

@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 import pytest
-from made_up import PEAKS, world
+from made_up import PEAKS, damped_branches, world
 
-from impact_damper.claims import CLAIMS, claims, extract
+from impact_damper.claims import CLAIMS, claims, exact, extract
 from impact_damper.claims.claim import (
     DIFFERENT,
     NOT_DECIDABLE,
@@ -18,7 +18,11 @@ from impact_damper.claims.claim import (
     Number,
 )
 from impact_damper.claims.extract import ELASTIC
+from impact_damper.claims.suppression import suppression_band
 from impact_damper.datasets import flag, parameters_of
+from impact_damper.motions import steady_motion
+from impact_damper.parameters import Oscillator
+from impact_damper.periodic import orbit_branch
 
 BY_NUMBER = {claim.number: claim for claim in CLAIMS}
 
@@ -66,6 +70,28 @@ def copy(stage, name, source):
 
     def change(data):
         data[stage][name] = data[stage][source]
+
+    return change
+
+
+def put(stage, name, dataset):
+    """A change of the made-up data: another dataset in place of one."""
+
+    def change(data):
+        data[stage][name] = dataset
+
+    return change
+
+
+def unstable(name, lower, upper):
+    """A change of the made-up data: no stable orbit between two frequencies over the peak."""
+
+    def change(data):
+        old = data["branches"][name]
+        peak = float(data["design"][name].peak_frequency)
+        kept = (old.followed_value < lower * peak) | (old.followed_value > upper * peak)
+        multipliers = old.orbit_multiplier_real.where(kept, 2.0)
+        data["branches"][name] = old.assign(orbit_multiplier_real=multipliers)
 
     return change
 
@@ -128,37 +154,38 @@ REFUTED = {
     "2": scale("design", "figure_05a", rigid_amplitude=1.1),
     "3": assign("design", "figure_03b", stability=flag("stability", "unstable")),
     "4": scale("design", "figure_05c", band_width=0.1),
-    "5": assign("response", "figure_05b", contacts=3.0),
+    "5": assign("branches", "figure_05b", orbit_contacts=3.0),
     "6": each(ELASTIC, lambda name: scale("response", name, contacts=0.5)),
-    "7": scale("response", "figure_05a", phase_relative=0.5),
+    "7": scale("branches", "figure_05a", orbit_phase_relative=0.5),
     "8": scale("collisions", "figure_05a", colliding=0.5),
     "9": scale("optimum", "0.215_0.12_1.0", optimum_clearance=0.9),
-    "10": copy("subharmonic", "figure_05b", "figure_05c"),
-    "11": copy("response", "figure_10", "figure_05c"),
+    "10": copy("branches", "figure_05b", "figure_05c"),
+    "11": copy("branches", "figure_10", "figure_05c"),
     "12": share("figure_13", "quiet", 0.1),
     "13": share("figure_15", "quiet", 0.0),
     "14": each(("figure_13", "figure_15"), lambda name: scale("migration", name, within_share=0.1)),
     "15": renamed("response", "figure_10", restitution=0.2),
-    "16": scale("response", "figure_05a", maximum_displacement=30),
-    "17": scale("response", "figure_05c", maximum_displacement=10),
+    "16": scale("branches", "figure_05a", orbit_displacement=30),
+    "17": scale("branches", "figure_05c", orbit_displacement=10),
     "18": scale("subharmonic", "figure_08", free_subharmonic=0.2),
     "19": early(0),
     "S1": power,
     "S2": renamed("design", "figure_03a", clearance=0.69),
     "S3": fourth,
     "S4": renamed("design", "figure_05a", clearance=2),
-    "S5": scale("free", "h150", end_value=1.02),
+    "S5": scale("free_branches", "h150", event_value=1.02),
     "S6": renamed("optimum", "0.215_0.12_0.75", frequency=1.0),
 }
 
 DIFFERENCES = {
+    "3": unstable("figure_05a", 0.8, 0.85),
     "4": scale("design", "figure_03b", reduction=0.5),
     "6": assign("response", "figure_05b", outcome=flag("outcome", "chaotic")),
     "8": scale("collisions", "figure_05a", colliding=0.995),
     "9": scale("optimum", "0.215_0.12_1.0", optimum_displacement=2),
     "12": share("figure_13", "unsettled", 0.1),
     "14": scale("migration", "figure_13", within_share=0.8),
-    "18": assign("subharmonic", "figure_08", suppression=flag("suppression", "unchanged")),
+    "18": put("branches", "figure_08", damped_branches("figure_08", 0.107, third=0.8)),
     "19": early(1),
 }
 
@@ -264,29 +291,59 @@ def test_words():
     )
 
 
-def test_simulated_band(data):
-    """The edge is the end of the high branch; only the next frequency bounds a chaotic one."""
-    response, free = data["response"]["figure_05a"], data["free"]["h215"]
-    band = extract.simulated_band(response, free)
-    assert band.lower == pytest.approx(0.95 * PEAKS[0.215])
-    assert band.width == pytest.approx(0.05 * PEAKS[0.215])
+def test_suppression_band(data):
+    """The edge is the end of the high orbits; a chaotic motion above it leaves a grid's step."""
+    peak = PEAKS[0.215]
+    band = suppression_band(data, "figure_05a")
+    assert band.lower == pytest.approx(0.95 * peak)
+    assert band.width == pytest.approx(0.05 * peak)
     assert band.resolution == 0
-    chaotic = response.assign(
-        end_value=0 * response.end_value,
-        outcome=response.outcome.where(response.contacts != 4, flag("outcome", "chaotic")),
-    )
-    band = extract.simulated_band(chaotic, free)
-    assert band.lower == pytest.approx(0.945 * PEAKS[0.215])
-    assert band.least_width == pytest.approx(0.05 * PEAKS[0.215])
-
-
-def test_quiet_motion_touches_and_has_settled(data):
     response = data["response"]["figure_05a"]
-    rest = response.assign(
-        outcome=response.outcome.where(response.contacts != 2, flag("outcome", "non_colliding"))
+    chaos = np.abs(response.frequency / peak - 0.96) < 0.001
+    wild = response.assign(
+        outcome=response.outcome.where(~chaos, flag("outcome", "chaotic")),
+        maximum_displacement=response.maximum_displacement.where(~chaos, 2.0),
+        contacts=response.contacts.where(~chaos, 4.0),
     )
-    assert np.isnan(extract.quiet(rest).maximum_displacement[-1])
-    assert extract.quiet(response).maximum_displacement[-1] < 0.2
+    band = suppression_band(data | {"response": {"figure_05a": wild}}, "figure_05a")
+    assert band.lower == pytest.approx(0.96 * peak)
+    assert band.least_width == pytest.approx(0.035 * peak)
+
+
+def test_band_without_high_motions_has_no_lower_edge(data):
+    unstable("figure_05a", 0.4, 1.6)(data)
+    calm = data["response"]["figure_05a"]
+    calm = calm.assign(contacts=calm.contacts.where(calm.contacts != 4, np.nan))
+    band = suppression_band(data | {"response": {"figure_05a": calm}}, "figure_05a")
+    assert np.isnan(band.lower) and np.isnan(band.width)
+
+
+def test_a_quiet_orbit_is_stable_and_smaller_than_half_the_resonance(data):
+    curve = exact.of_curve(data, "figure_05a")
+    quiet = exact.quiet(*curve)
+    assert exact.ranges(quiet) == [pytest.approx([1.0, 3.0])]
+    assert quiet["size"].max() < 0.2
+    unstable("figure_05a", 0.8, 0.9)(data)
+    broken = exact.ranges(exact.quiet(*exact.of_curve(data, "figure_05a")))
+    assert np.ravel(broken) == pytest.approx([1.0, 1.6, 1.8, 3.0], abs=0.02)
+    assert exact.covered(exact.high(*curve), 1.5, 2.0) == pytest.approx(0.4)
+
+
+def test_between_neighbouring_orbits_a_straight_line_is_close():
+    """Against motions simulated at other frequencies; the folds bound the stable pieces."""
+    oscillator, span = Oscillator(damping=0.215), (1.2, 2.6)
+    free = orbit_branch(oscillator, None, 1.8, (2.2, 0.1), span=span)
+    part = exact.pieces(free)
+    part = part[part.stable]
+    end, _ = exact.resonance_fold(free)
+    assert exact.ranges(part[part["size"] > 1.2]) == [pytest.approx([span[0], end])]
+    first = float(free.event_value.min())
+    assert exact.ranges(part[part["size"] < 1.2]) == [pytest.approx([first, span[1]])]
+    for frequency in (1.51, 1.77):
+        motion = steady_motion(oscillator, None, frequency, (2.2, 0.1))
+        size = exact.resonance(free, [frequency])
+        assert size == pytest.approx(float(motion.maximum_displacement), rel=1e-3)
+    assert np.isnan(exact.resonance(free, [2.2]))
 
 
 def test_release_phase_decides_in_the_nearest_range_of_all_scans(data):

@@ -150,22 +150,23 @@ def simulate(
     return dataset(data, {"time": times}, made, "Motion of the oscillator")
 
 
+def phase_of(harmonic, reference):
+    """Phase of complex amplitudes to others, radian, NaN where the others are rounding only."""
+    phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
+    return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
+
+
 def tabulate(records):
     """Registered variables, by name, of an array of motion records of any shape."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
-
-    def phase(reference):
-        phaseless = np.abs(reference) <= PHASELESS * np.abs(first)
-        return np.where(phaseless, np.nan, np.angle(first * np.conj(reference)))
-
     return {
         "outcome": records["outcome"],
         "period": records["period"],
         "contacts": records["contacts"],
         "maximum_displacement": records["maximum_displacement"],
         "asymmetry": records["asymmetry"],
-        "phase_relative": phase(second),
-        "phase_loose": phase(first - second),
+        "phase_relative": phase_of(first, second),
+        "phase_loose": phase_of(first, first - second),
         "multiplier_real": records["multiplier"].real,
         "multiplier_imaginary": records["multiplier"].imag,
         "residual": records["residual"],

@@ -10,7 +10,7 @@ import numpy as np
 from impact_damper.branches import SAME, follow_branch
 from impact_damper.continuation import Problem
 from impact_damper.datasets import dataset, flag
-from impact_damper.motions import COMPONENTS, check_state
+from impact_damper.motions import COMPONENTS, check_state, phase_of
 from impact_damper.parameters import Damper, Oscillator, check_count, check_number, describe, pack
 from impact_damper.shooting import STROBE, find_orbit
 
@@ -240,6 +240,10 @@ def _orbits(pairs):
     """Columns over `point` of pairs of a parameter and its orbit."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = [orbit.record for orbit in orbits]
+    first, second = (
+        np.array([record[name] for record in records], complex)
+        for name in ("harmonic_displacement", "harmonic_relative")
+    )
     multipliers = np.array([orbit.multipliers for orbit in orbits]).reshape(-1, 4)
     stable = [flag("stability", "stable" if orbit.stable else "unstable") for orbit in orbits]
     return {
@@ -248,6 +252,9 @@ def _orbits(pairs):
         "orbit_stability": np.array(stable, int),
         "orbit_contacts": np.array([record["contacts"] for record in records]),
         "orbit_asymmetry": np.array([record["asymmetry"] for record in records]),
+        "orbit_amplitude": np.abs(first),
+        "orbit_phase_relative": phase_of(first, second),
+        "orbit_phase_loose": phase_of(first, first - second),
         "orbit_phase": np.array([orbit.phase for orbit in orbits]),
         "orbit_state": np.array([orbit.state for orbit in orbits]).reshape(-1, 4),
         "orbit_residual": np.array([orbit.residual for orbit in orbits]),
@@ -255,6 +262,7 @@ def _orbits(pairs):
         "orbit_multiplier_imaginary": multipliers.imag,
         "liouville_error": np.array([orbit.liouville_error for orbit in orbits]),
         "least_speed": np.array([orbit.least_speed for orbit in orbits]),
+        "orbit_restitution": np.array([orbit.restitution for orbit in orbits]),
     }
 
 

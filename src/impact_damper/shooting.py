@@ -135,6 +135,12 @@ class Orbit:
         """Least relative speed at which a contact begins: small near grazing; NaN without."""
         return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
 
+    @property
+    def restitution(self):
+        """Least ratio of the relative speeds after and before a contact; NaN without."""
+        before, after = np.abs(self.contacts[:, 3]), np.abs(self.contacts[:, 4])
+        return np.min(after / before, initial=np.inf) if self.touching else np.nan
+
     def at(self, phase):
         """The state at a phase not before the orbit's own."""
         y = self.state.copy()

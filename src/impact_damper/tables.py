@@ -3,8 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from impact_damper.claims import extract
+from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Missing
+from impact_damper.claims.suppression import chaotic_high, high_motions, suppression_band
 from impact_damper.datasets import flag
 
 PARAMETERS = {
@@ -60,7 +61,7 @@ def bands(datasets) -> pd.DataFrame:
         if name in designs:
             row |= _balance_band(designs[name])
         if name in responses:
-            row |= _simulated_band(datasets, responses[name])
+            row |= _existing_band(datasets, name)
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -78,26 +79,27 @@ def _balance_band(data):
     }
 
 
-def _simulated_band(datasets, response):
+def _existing_band(datasets, name):
+    response = datasets["response"][name]
     try:
-        free = extract.free_of(datasets, response)
-        band = extract.simulated_band(response, free)
+        free = exact.free_of(datasets, response)
+        band = suppression_band(datasets, name)
     except Missing:
         return {}
     motions = extract.touching(response).sum("motion")
     inside = response.frequency.values[
         (response.frequency > band.lower + band.resolution) & (response.frequency <= band.upper)
     ]
-    chaotic = extract.chaotic_high(response, free)
+    chaotic = chaotic_high(response, free).values
     frequency, step = response.frequency.values, extract.spacing(response)
     starts = response.sizes["start"]
-    high = extract.high(response, free) & extract.is_outcome(response, "chaotic")
+    high = high_motions(response, free) & extract.is_outcome(response, "chaotic")
     share = response.share.where(high, 0).sum("motion").values[chaotic] / starts
     return {
-        "lower, simulated": band.lower,
+        "lower, motions": band.lower,
         "or up to": band.lower + band.resolution,
-        "upper, simulated": band.upper,
-        "width, simulated": band.width,
+        "upper, motions": band.upper,
+        "width, motions": band.width,
         "share of it with a single motion": float((motions.sel(frequency=inside) == 1).mean())
         if len(inside)
         else np.nan,
@@ -136,12 +138,12 @@ def optima(datasets) -> pd.DataFrame:
 
 
 def subharmonics(datasets) -> pd.DataFrame:
-    """Where the one-third subharmonic exists without the damper, and each branch of it with."""
+    """Where the one-third subharmonic is stable without the damper, and each branch of it with."""
     rows = [
         {"data": name, "damper": "off"}
         | _parameters(free, "damping", "linear_frequency")
         | _free_subharmonic(free)
-        for name, free in datasets.get("free", {}).items()
+        for name, free in datasets.get("free_branches", {}).items()
     ]
     for name, curve in datasets.get("subharmonic", {}).items():
         given = _parameters(curve, "damping", "linear_frequency", "mass_ratio", "clearance")
@@ -157,35 +159,30 @@ def subharmonics(datasets) -> pd.DataFrame:
                 "share of runs from the free one": float(runs.mean()),
             }
         )
-        for k in range(curve.sizes["subharmonic"]):
-            lower, upper = curve.subharmonic_frequency.values[k]
-            rows.append(
-                summary
-                | {
-                    "branch": f"{k + 1}",
-                    "period": int(curve.subharmonic_period[k]),
-                    "from W": lower,
-                    "to W": upper,
-                    "largest max |Z1|": float(curve.subharmonic_displacement[k]),
-                }
-            )
+        if name in datasets.get("branches", {}):
+            part = exact.stable_subharmonics(datasets["branches"][name])
+            rows += [summary | _stable_part(branch) for _, branch in part.groupby("branch")]
     return pd.DataFrame(rows)
 
 
+def _stable_part(part):
+    """Number and period of a branch of subharmonics, and where it is stable."""
+    return {
+        "branch": f"{part.branch.iloc[0] + 1}",
+        "period": part.period.iloc[0],
+        "from W": part.lower.min(),
+        "to W": part.upper.max(),
+        "largest max |Z1|": part["size"].max(),
+    }
+
+
 def _free_subharmonic(free):
-    """Ends and size of the free subharmonic of a dataset."""
+    """The free subharmonic of a dataset of branches."""
     try:
-        lower, upper = extract.subharmonic_range(free)
+        part = exact.subharmonic(free)
     except Missing:
         return {"branch": "none"}
-    size = free.maximum_displacement.where(extract.free_subharmonic(free))
-    return {
-        "branch": "1",
-        "period": 3,
-        "from W": lower,
-        "to W": upper,
-        "largest max |Z1|": float(size.max()),
-    }
+    return _stable_part(part[part.stable])
 
 
 def migration(datasets) -> pd.DataFrame:

@@ -27,9 +27,9 @@ STAGES = {
 # Stages whose data a table holds; the claims rest on all.
 TABLES = {
     "design": ["design"],
-    "bands": ["design", "free", "response"],
+    "bands": ["design", "free_branches", "branches", "response"],
     "optima": ["optimum"],
-    "subharmonics": ["free", "subharmonic"],
+    "subharmonics": ["free_branches", "branches", "subharmonic"],
     "orbits": ["free_branches", "branches"],
     "bifurcations": ["free_branches", "branches"],
     "migration": ["migration"],

@@ -2,7 +2,7 @@
 
 import math
 
-from impact_damper.claims import extract
+from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
 from impact_damper.contact_law import damping_ratio
 
@@ -34,7 +34,10 @@ def model(datasets):
     used = [value for value in used if value < 1]
     if not used:
         raise Missing("There is no dataset with inelastic contact")
+    curve = exact.of_curve(datasets, extract.INELASTIC)
+    kept = exact.quiet(*curve).restitution / extract.parameter(curve[0], "restitution")
     return {
+        "realised": (kept - 1).abs().max(),
         "high": max(map(pull_free_error, used)),
         "low": pull_free_error(LOW),
         "pulling": 2 * math.asin(damping_ratio(LOW)) / math.pi,
@@ -49,7 +52,9 @@ CLAIMS = (
         "appendix B",
         "Good: walls that cannot pull would return nearly the same share of the "
         "velocity. From the closed form of an isolated contact, for the e < 1 of the datasets "
-        f"and for e = {LOW}. The paper's reason is that a contact takes longer.",
+        f"and for e = {LOW}; and from the contacts of the exact quiet orbits of figure 10, which "
+        "the forcing and the spring of the primary act on meanwhile. The paper's reason is that a "
+        "contact takes longer.",
         (
             Number(
                 "high",
@@ -58,6 +63,12 @@ CLAIMS = (
                 decisive=True,
             ),
             Number("low", f"the same for e = {LOW}", least=0.2, decisive=True),
+            Number(
+                "realised",
+                "largest relative difference to e of the restitution in quiet orbits, e = 0.75",
+                most=0.05,
+                decisive=True,
+            ),
             Number("duration", f"time in contact for e = {LOW} over that for e = 1", least=1.2),
             Number("pulling", f"share of it in which the wall pulls, e = {LOW}"),
         ),

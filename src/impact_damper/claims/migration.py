@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.claims import extract
+from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
 from impact_damper.datasets import flag
 
@@ -72,7 +72,7 @@ def release_phase(datasets):
     """Numbers of claim 13."""
     case = extract.get(datasets, "migration", "figure_15")
     frequency = extract.parameter(case, "frequency")
-    lower, upper = extract.subharmonic_range(extract.free_of(datasets, case))
+    lower, upper = exact.subharmonic_range(exact.free_of(datasets, case))
     scan = scanned(datasets, case)
     near = nearest_range(scan, "quiet", frequency)
     there = [here for here in scan if both_outcomes(here, "unsettled")]
@@ -164,8 +164,8 @@ CLAIMS = (
                 least=0,
                 decisive=True,
             ),
-            Number("lower", "W at which the free one-third subharmonic begins"),
-            Number("upper", "W at which it ends"),
+            Number("lower", "W of the fold at which the free one-third subharmonic begins"),
+            Number("upper", "W of the fold at which it ends"),
             Number("frequency", "W of the case"),
             Number(
                 "quiet_goal",

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.claims import extract
+from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
 
 
@@ -11,21 +11,20 @@ def phases(datasets):
     below, above, turns, balance, loose_below, loose_above, loose_turns = ([] for _ in range(7))
     for name in extract.BY_MASS:
         design = extract.get(datasets, "design", name)
-        quiet = extract.quiet(extract.get(datasets, "response", name))
         peak = float(design.peak_frequency)
-        near = quiet.sel(frequency=slice(0.75 * peak, None)).dropna("frequency")
-        frequency = near.frequency.values
-        relative, loose = (np.abs(near[key].values) for key in ("phase_relative", "phase_loose"))
+        around = extract.quiet_balance(design).sel(frequency=slice(0.75 * peak, None))
+        near = exact.smallest(exact.quiet(*exact.of_curve(datasets, name)), around.frequency)
+        frequency = near.frequency.to_numpy()
+        relative, loose = (np.abs(np.angle(near[key])) for key in ("amplitude", "loose"))
         under = frequency < peak
         if not under.any() or under.all():
-            raise Missing(f"There is no quiet motion on both sides of Wp, response/{name}")
+            raise Missing(f"There is no quiet orbit on both sides of Wp, branches/{name}")
         below.append(np.max(np.pi - relative[under]))
         above.append(relative[-1])
         loose_below.append(np.max(loose[under]))
         loose_above.append(np.pi - loose[-1])
         turns.append(extract.crossing(frequency, relative, np.pi / 2) / peak)
         loose_turns.append(extract.crossing(frequency, loose, np.pi / 2) / peak)
-        around = extract.quiet_balance(design).sel(frequency=slice(0.75 * peak, None))
         balance.append(extract.crossing(around.frequency.values, around.values, 0.0) / peak)
 
     def farthest(ratios):
@@ -48,8 +47,9 @@ CLAIMS = (
         "Primary and loose mass move almost in antiphase for W < Wp, almost in phase for W > Wp.",
         "section 3, figure 5",
         "The paper's phase is that of Z1 to Z2, the sign of a; for the place x2 = Z1 - Z2 of the "
-        "loose mass it is the reverse where |a| < b. Quiet motion, from 0.75 Wp on; phases of the "
-        "first harmonics in radian; almost: within 0.3. Of three dampers the worst.",
+        "loose mass it is the reverse where |a| < b. The smallest stable orbit of period 1, from "
+        "0.75 Wp on; phases of the first harmonics in radian; almost: within 0.3. Of three dampers "
+        "the worst.",
         (
             Number(
                 "below",
@@ -70,7 +70,7 @@ CLAIMS = (
                 most=1.05,
             ),
             Number(
-                "turn", "W/Wp where Z1 and Z2 are a quarter apart, simulated", least=0.95, most=1.05
+                "turn", "W/Wp where Z1 and Z2 are a quarter apart, orbits", least=0.95, most=1.05
             ),
             Number("loose_below", "largest distance to phase of Z1 and x2 below Wp"),
             Number("loose_above", "largest distance to antiphase of Z1 and x2 at the highest W"),

@@ -2,43 +2,37 @@
 
 import numpy as np
 
-from impact_damper.claims import extract
-from impact_damper.claims.claim import Claim, Missing, Number
-from impact_damper.datasets import flag
+from impact_damper.claims import exact, extract
+from impact_damper.claims.claim import Claim, Number
 
 LIGHT, HEAVY, LOW_DAMPING = extract.BY_MASS[:2], extract.BY_MASS[2], "figure_08"
+AS_LARGE = 0.95
 
 
-def in_free_range(curve):
-    """The part of a subharmonic dataset in which the free one exists, or raise Missing."""
-    lower, upper = curve.free_subharmonic_frequency.values
-    if not upper > lower:
-        raise Missing("There is no one-third subharmonic without the damper")
-    return extract.within(curve, lower, upper)
-
-
-def width(curve, part):
-    """Width of W in which, in a part of a dataset, a subharmonic exists with the damper."""
-    return float(part.damped_subharmonic.notnull().sum()) * extract.spacing(curve)
+def compared(part, free):
+    """Largest ratio of the size of some pieces to that of the free subharmonic, NaN if none."""
+    sizes = exact.largest(exact.subharmonic(free), part.frequency)
+    return (part["size"] / sizes).max()
 
 
 def reappearance(datasets):
     """Numbers of claim 10."""
-    curves = extract.select(datasets, "subharmonic", (*LIGHT, HEAVY))
-    bands = [
-        extract.within(curve, *extract.band_edges(design))
-        for curve, design in zip(
-            curves, extract.select(datasets, "design", (*LIGHT, HEAVY)), strict=True
-        )
-    ]
-    widths = [width(curve, band) for curve, band in zip(curves, bands, strict=True)]
-    light, heavy = curves[: len(LIGHT)], bands[-1]
+    in_band, anywhere, ratios = [], [], []
+    for name in (*LIGHT, HEAVY):
+        branches, free = exact.of_curve(datasets, name)
+        part = exact.stable_subharmonics(branches)
+        lower, upper = extract.band_edges(extract.get(datasets, "design", name))
+        in_band.append(exact.covered(part, lower, upper))
+        anywhere.append(exact.covered(part, *exact.subharmonic_range(free)))
+        inside = part.frequency.between(lower, upper) if name == HEAVY else slice(None)
+        ratios.append(compared(part[inside], free))
+    heavy = extract.within(extract.get(datasets, "subharmonic", HEAVY), lower, upper)
     return {
-        "light": max(widths[: len(LIGHT)]),
-        "light_anywhere": max(width(curve, curve) for curve in light),
-        "light_ratio": float(np.max([curve.subharmonic_ratio.max() for curve in light])),
-        "heavy": widths[-1],
-        "ratio": float(heavy.subharmonic_ratio.where(heavy.subharmonic_ratio > 0).max()),
+        "light": max(in_band[: len(LIGHT)]),
+        "light_anywhere": max(anywhere[: len(LIGHT)]),
+        "light_ratio": np.nanmax([*ratios[: len(LIGHT)], 0.0]),
+        "heavy": in_band[-1],
+        "ratio": ratios[-1],
         "reached": float(heavy.switched_share.sel(switched_motion="subharmonic").max()),
     }
 
@@ -50,16 +44,23 @@ def expected(curve):
     return (share * curve.maximum_displacement).where(third, 0.0).sum("motion")
 
 
-def unchanged(curve):
-    """Share of the frequencies at which the damper leaves a subharmonic as it was."""
-    return float((curve.suppression == flag("suppression", "unchanged")).mean())
+def unchanged(branches, free):
+    """Share of the free subharmonic's range in which one with the damper is as large."""
+    lower, upper = exact.subharmonic_range(free)
+    part = exact.stable_subharmonics(branches)
+    part = part[part.frequency.between(lower, upper)]
+    alike = part["size"] >= AS_LARGE * exact.largest(exact.subharmonic(free), part.frequency)
+    return exact.covered(part[alike], lower, upper) / (upper - lower)
 
 
 def by_damping(datasets):
     """Numbers of claim 18."""
+    names = (LOW_DAMPING, extract.BY_MASS[0])
+    curves = [exact.of_curve(datasets, name) for name in names]
+    ends = [exact.subharmonic_range(free) for _, free in curves]
     low, high = (
-        in_free_range(extract.get(datasets, "subharmonic", name))
-        for name in (LOW_DAMPING, extract.BY_MASS[0])
+        extract.within(extract.get(datasets, "subharmonic", name), *pair)
+        for name, pair in zip(names, ends, strict=True)
     )
     falls = [float((curve.free_subharmonic - expected(curve)).mean()) for curve in (low, high)]
     relative = [
@@ -71,10 +72,9 @@ def by_damping(datasets):
         "low": falls[0],
         "high": falls[1],
         "relative": relative[0] / relative[1],
-        "unchanged": unchanged(low),
-        "unchanged_high": unchanged(high),
-        "range": np.ptp(low.free_subharmonic_frequency.values)
-        / np.ptp(high.free_subharmonic_frequency.values),
+        "unchanged": unchanged(*curves[0]),
+        "unchanged_high": unchanged(*curves[1]),
+        "range": np.ptp(ends[0]) / np.ptp(ends[1]),
     }
 
 
@@ -84,21 +84,26 @@ CLAIMS = (
         "A properly designed damper removes the one-third subharmonic; a larger rm lets it "
         "reappear within the band with a much lower amplitude.",
         "section 3, figure 5",
-        "Removed: no motion whose period is a multiple of 3 in the suppression band, figures 5 (a) "
-        "and (b), and in full nowhere. Reappears: figure 5 (c). Much lower: half at most. Followed "
-        "motions count, however small their basins.",
+        "Removed: no stable orbit whose period is a multiple of 3 in the suppression band by "
+        "harmonic balance, figures 5 (a) and (b), and in full nowhere between the folds of the "
+        "free one. Reappears: figure 5 (c). Much lower: half at most of the free one at the same "
+        "W. All stable orbits count, however small their basins.",
         (
             Number(
                 "light",
-                "width of W in the band with such a motion, (a) and (b)",
+                "width of W in the band with such an orbit, (a) and (b)",
                 most=0,
                 decisive=True,
             ),
-            Number("light_anywhere", "width of W with such a motion anywhere, (a) and (b)", most=0),
+            Number(
+                "light_anywhere",
+                "width of W between the folds of the free one with such an orbit, (a) and (b)",
+                most=0,
+            ),
             Number("light_ratio", "its largest amplitude over that without the damper"),
             Number(
                 "heavy",
-                "width of W in the band with such a motion, (c)",
+                "width of W in the band with such an orbit, (c)",
                 least=0.005,
                 decisive=True,
             ),
@@ -117,8 +122,8 @@ CLAIMS = (
         "The control of the one-third subharmonic is more prominent at lower h.",
         "section 3, figure 8",
         "By how much its amplitude falls, where starts lead, mean over the free range: h = 0.107 "
-        "against h = 0.215, both rm = 0.12. Motions with small basins, which only following "
-        "finds, are counted apart.",
+        "against h = 0.215, both rm = 0.12. Free range: between the folds. Stable orbits whose "
+        "period is a multiple of 3 are counted apart, for they may have small basins.",
         (
             Number(
                 "fall",

@@ -34,6 +34,15 @@ VARIABLES = {
     "orbit_asymmetry": Variable(
         ("point",), "distance of an orbit from its mirror image half a period on"
     ),
+    "orbit_amplitude": Variable(
+        ("point",), "amplitude of the first harmonic of Z1 in an orbit, |a| of harmonic balance"
+    ),
+    "orbit_phase_relative": Variable(
+        ("point",), "phase of Z1 to Z2 in an orbit, first harmonics", units="radian"
+    ),
+    "orbit_phase_loose": Variable(
+        ("point",), "phase of Z1 to Z1 - Z2 in an orbit, first harmonics", units="radian"
+    ),
     "orbit_phase": Variable(("point",), "phase Omega T at which the state is given", "", "radian"),
     "orbit_state": Variable(("point", "component"), "state of an orbit at its phase, in flight"),
     "orbit_residual": Variable(("point",), "distance of an orbit's state from its return"),
@@ -48,6 +57,9 @@ VARIABLES = {
     ),
     "least_speed": Variable(
         ("point",), "least relative speed at which a contact of an orbit begins"
+    ),
+    "orbit_restitution": Variable(
+        ("point",), "least ratio of the relative speeds after and before a contact of an orbit"
     ),
     # branches
     "branch_period": Variable(("branch",), "period in forcing periods of the orbits", "n"),
