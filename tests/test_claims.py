@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from made_up import PEAKS, damped_branches, world
 
-from impact_damper.claims import CLAIMS, claims, exact, extract
+from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import (
     DIFFERENT,
     NOT_DECIDABLE,
@@ -19,6 +19,7 @@ from impact_damper.claims.claim import (
 )
 from impact_damper.claims.extract import ELASTIC
 from impact_damper.claims.suppression import suppression_band
+from impact_damper.claims.verdicts import CLAIMS, claims
 from impact_damper.datasets import flag, parameters_of
 from impact_damper.motions import steady_motion
 from impact_damper.parameters import Oscillator

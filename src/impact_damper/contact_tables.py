@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from impact_damper.claims import extract
-from impact_damper.tables import _parameters
+from impact_damper.tables import parameters_by_symbol
 from impact_damper.variables import VARIABLES
 
 
@@ -57,7 +57,7 @@ def contact_motions(datasets) -> pd.DataFrame:
             size = float(motion.scene_displacement)
             rows.append(
                 {"case": name}
-                | _parameters(data, "mass_ratio", "clearance")
+                | parameters_by_symbol(data, "mass_ratio", "clearance")
                 | {
                     "e": float(motion.used),
                     "W": float(motion.frequency),
@@ -91,7 +91,9 @@ def rigid_limit(datasets) -> pd.DataFrame:
         edges = [0.0, *data.threshold.values, np.inf]
         rows.append(
             {"case": name}
-            | _parameters(data, "damping", "mass_ratio", "clearance", "restitution", "frequency")
+            | parameters_by_symbol(
+                data, "damping", "mass_ratio", "clearance", "restitution", "frequency"
+            )
             | {
                 "r1": extract.parameter(data, "contact_stiffness"),
                 "max |Z1|": float(data.own_displacement),

@@ -18,7 +18,7 @@ PARAMETERS = {
 }
 
 
-def _parameters(data, *names):
+def parameters_by_symbol(data, *names):
     """Columns of the parameters that made a dataset, by the paper's symbols."""
     return {PARAMETERS[name]: extract.parameter(data, name) for name in names}
 
@@ -28,7 +28,7 @@ def design(datasets) -> pd.DataFrame:
     rows = []
     for name, data in datasets.get("design", {}).items():
         peak = float(data.peak_frequency)
-        given = _parameters(data, "damping", "linear_frequency", "mass_ratio", "clearance")
+        given = parameters_by_symbol(data, "damping", "linear_frequency", "mass_ratio", "clearance")
         inertia = given["rm"] * peak**2
         rows.append(
             {"curve": name}
@@ -50,7 +50,7 @@ def bands(datasets) -> pd.DataFrame:
     designs, responses = datasets.get("design", {}), datasets.get("response", {})
     rows = []
     for name in dict.fromkeys([*designs, *responses]):
-        row = {"curve": name} | _parameters(
+        row = {"curve": name} | parameters_by_symbol(
             designs.get(name, responses.get(name)),
             "damping",
             "linear_frequency",
@@ -119,7 +119,7 @@ def optima(datasets) -> pd.DataFrame:
         lower, upper = data.near_clearance.values
         rows.append(
             {"sweep": name}
-            | _parameters(data, "damping", "frequency", "mass_ratio", "restitution")
+            | parameters_by_symbol(data, "damping", "frequency", "mass_ratio", "restitution")
             | {
                 "d0 of (18) at W": rule,
                 "d0 of (19) at Wp": float(data.peak_rule_clearance),
@@ -141,12 +141,14 @@ def subharmonics(datasets) -> pd.DataFrame:
     """Where the one-third subharmonic is stable without the damper, and each branch of it with."""
     rows = [
         {"data": name, "damper": "off"}
-        | _parameters(free, "damping", "linear_frequency")
+        | parameters_by_symbol(free, "damping", "linear_frequency")
         | _free_subharmonic(free)
         for name, free in datasets.get("free_branches", {}).items()
     ]
     for name, curve in datasets.get("subharmonic", {}).items():
-        given = _parameters(curve, "damping", "linear_frequency", "mass_ratio", "clearance")
+        given = parameters_by_symbol(
+            curve, "damping", "linear_frequency", "mass_ratio", "clearance"
+        )
         shared = curve.where(curve.free_subharmonic.notnull())
         runs = shared.switched_share.sel(switched_motion="subharmonic")
         summary = {"data": name, "damper": "on"} | given
@@ -206,7 +208,7 @@ def migration(datasets) -> pd.DataFrame:
             shares = case.release_share.isel(damped=k)
             rows.append(
                 {"case": name}
-                | _parameters(case, "frequency")
+                | parameters_by_symbol(case, "frequency")
                 | {
                     "released from": extract.meaning("damped_kind", case.damped_kind[k]),
                     "period": int(case.damped_period[k]),
@@ -241,7 +243,9 @@ def releases(datasets) -> pd.DataFrame:
             for led, part in motion.groupby(ends, sort=False):
                 rows.append(
                     {"scan": name}
-                    | _parameters(scan, "damping", "mass_ratio", "clearance", "restitution")
+                    | parameters_by_symbol(
+                        scan, "damping", "mass_ratio", "clearance", "restitution"
+                    )
                     | {
                         "released from": extract.meaning("damped_kind", kind),
                         "period": int(period),

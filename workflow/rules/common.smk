@@ -89,9 +89,9 @@ def module_file(name):
 
 
 @cache
-def code(script):
-    """A script and all modules it imports: inputs of its rule, so that their contents count."""
-    found, new = set(), {ROOT / "workflow/scripts" / script}
+def code(script, *others):
+    """A script, other files, and all modules they import: inputs, so that their contents count."""
+    found, new = set(), {ROOT / "workflow/scripts" / script, *others}
     while new:
         found |= new
         new = set().union(*map(imports, new)) - found

@@ -24,7 +24,7 @@ STAGES = {
     "balance_map": "balance_map",
 }
 
-# Stages whose data a table holds; the claims rest on all.
+# Stages whose data a table holds.
 TABLES = {
     "design": ["design"],
     "bands": ["design", "free_branches", "branches", "response"],
@@ -43,7 +43,33 @@ TABLES = {
     "steps": ["stable_steps"],
     "verdicts": ["verdicts"],
     "balance_map": ["balance_map"],
-    "claims": list(STAGES),
+    "claims": [
+        "design",
+        "free_branches",
+        "branches",
+        "response",
+        "motion",
+        "collisions",
+        "optimum",
+        "subharmonic",
+        "migration",
+        "release_scan",
+    ],
+}
+
+# Module of the package that makes a table, where it is not `tables`.
+TABLE_MODULES = {
+    "orbits": "orbit_tables",
+    "bifurcations": "orbit_tables",
+    "contact_model": "contact_tables",
+    "contact_motions": "contact_tables",
+    "rigid_limit": "contact_tables",
+    "design_rules": "rule_tables",
+    "harmonics": "harmonics_table",
+    "grazing": "integrator_tables",
+    "steps": "integrator_tables",
+    "verdicts": "integrator_tables",
+    "balance_map": "balance_map_table",
 }
 
 
@@ -234,6 +260,16 @@ def caption(wildcards):
     """Template of a figure's caption."""
     kind = config["figures"][wildcards.figure]["kind"]
     return local(ROOT / "workflow/report" / f"{kind}.rst")
+
+
+def table_module(wildcards):
+    """Full name of the module that makes a table."""
+    return f"impact_damper.{TABLE_MODULES.get(wildcards.table, 'tables')}"
+
+
+def table_code(wildcards):
+    """Sources of a table's script and of the module that makes it."""
+    return code("table.py", module_file(table_module(wildcards)))
 
 
 def table_data(wildcards):

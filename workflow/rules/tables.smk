@@ -10,7 +10,7 @@ rule tables:
 rule table:
     input:
         unpack(table_data),
-        code=code("table.py"),
+        code=table_code,
     output:
         csv=report(
             "<results>/tables/{table}.csv",
@@ -28,6 +28,8 @@ rule table:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    params:
+        module=table_module,
     message:
         "Table of {wildcards.table}"
     script:

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from impact_damper.claims import claims, document
+from impact_damper.claims.verdicts import claims, document
 from impact_damper.datasets import load
 from impact_damper.table_files import save
 
