@@ -326,6 +326,15 @@ def release_scan(frequency, subharmonic_share):
     return dataset(data, coordinates, parameters(**damper(0.12, 2.0)), "made up")
 
 
+LINEAR_OF = {"3a": 1.5, "3b": 1.0, "3c": 0.0}
+
+
+def design_orbit(linear):
+    """A small orbit, stable at every damping."""
+    made = parameters(linear=linear) | damper(0.12, LINEAR[linear])
+    return branches(branch([0.215, 2.0], [0.05, 0.04]), parameters=made)
+
+
 def world():
     """Datasets by stage and name, in which every claim is reproduced."""
     linear = {"a": 1.5, "b": 1.0}
@@ -357,6 +366,11 @@ def world():
             "figure_05c": damped_branches("figure_05c", third=0.1),
             "figure_08": damped_branches("figure_08", 0.107),
             "figure_10": damped_branches("figure_10", restitution=0.75),
+        },
+        "design_orbit": {
+            name: design_orbit(LINEAR_OF[name[8:10]])
+            for name in designs
+            if name.startswith("figure_03")
         },
         "response": responses,
         "motion": {"figure_04": motion()},

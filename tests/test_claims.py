@@ -292,6 +292,11 @@ def test_words():
     )
 
 
+def test_an_unstable_quiet_orbit_refutes_whatever_omega_l(data):
+    assign("design_orbit", "figure_03a", orbit_multiplier_real=1.2)(data)
+    assert BY_NUMBER["3"].judge(data)["verdict"] == NOT_REPRODUCED
+
+
 def test_suppression_band(data):
     """The edge is the end of the high orbits; a chaotic motion above it leaves a grid's step."""
     peak = PEAKS[0.215]

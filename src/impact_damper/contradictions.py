@@ -134,8 +134,8 @@ def _wrong_stages(path, curve):
     if "design" in curve["stages"] and curve["restitution"] != 1:
         reason = "must be 1 with the stage design (harmonic balance knows elastic contact only)"
         yield problem([*path, "restitution"], curve["restitution"], reason)
-    if curve["clearance"] == "rule" and curve["stages"] != ["design"]:
-        reason = "must be a number with stages beside design (the designs table lists the rule)"
+    if curve["clearance"] == "rule" and set(curve["stages"]) - {"design", "design_orbit"}:
+        reason = "must be a number with stages beside design and design_orbit (see table design)"
         yield problem([*path, "clearance"], curve["clearance"], reason)
 
 

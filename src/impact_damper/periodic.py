@@ -111,7 +111,7 @@ def orbit_branch(
     ArithmeticError
         If Newton's method finds no orbit near the state.
     """
-    family, value, span = _family(oscillator, damper, frequency, parameter, span)
+    family, value, span = family_of(oscillator, damper, frequency, parameter, span)
     check_count("limit", limit, most=10**6)
     periodic_orbit(oscillator, damper, frequency, state, period=period)
     orbit = find_orbit(family(value), check_state(state, damper), period)
@@ -122,7 +122,7 @@ def orbit_branch(
         "parameter": parameter,
     }
     back = float if parameter in LINEAR else np.exp
-    return _branches_dataset([branch], back, made, "Branch of periodic orbits")
+    return branches_dataset([branch], back, made, "Branch of periodic orbits")
 
 
 def complete_branches(oscillator, damper, frequencies, motions, *, limit=2000):
@@ -159,13 +159,19 @@ def complete_branches(oscillator, damper, frequencies, motions, *, limit=2000):
         elif not any(_holds(branch, family, orbit, frequency) for branch in branches):
             branches.append(follow_branch(family, orbit, frequency, frequencies, limit=limit))
     made = describe(oscillator, damper) | {"parameter": "frequency"}
-    data = _branches_dataset(branches, float, made, "Branches of periodic orbits")
+    data = branches_dataset(branches, float, made, "Branches of periodic orbits")
     counts = dataset({"seeds": seeds, "seeds_lost": lost}, {}, made, data.attrs["title"])
     return data.assign(counts.variables)
 
 
-def _family(oscillator, damper, frequency, parameter, span):
-    """Packed parameters by the parameter's coordinate along a branch, and that of the values."""
+def family_of(oscillator, damper, frequency, parameter, span):
+    """Packed parameters by the parameter's coordinate along a branch, and that of the values.
+
+    Raises
+    ------
+    ValueError
+        If there is no such parameter, or its value lies outside the span.
+    """
     if parameter not in PARAMETERS:
         raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(PARAMETERS)}")
     owner = PARAMETERS[parameter]
@@ -266,7 +272,7 @@ def _orbits(pairs):
     }
 
 
-def _branches_dataset(branches, back, parameters, title):
+def branches_dataset(branches, back, parameters, title):
     """Dataset of branches; `back` takes the coordinate along a branch to the parameter."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]

@@ -41,8 +41,22 @@ def design(datasets) -> pd.DataFrame:
                 "|a| at Wp": float(data.quiet_amplitude),
                 "reduction at Wp": float(data.reduction),
             }
+            | _true_orbit(datasets.get("design_orbit", {}).get(name))
         )
     return pd.DataFrame(rows)
+
+
+def _true_orbit(orbit):
+    """What the exact quiet orbit at the design point is, where it was followed to it."""
+    if orbit is None or orbit.sizes["point"] == 0:
+        return {}
+    at = orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
+    modulus = np.hypot(at.orbit_multiplier_real, at.orbit_multiplier_imaginary)
+    return {
+        "max |Z1| of the orbit": float(at.orbit_displacement),
+        "largest multiplier": float(modulus.max()),
+        "stable from h": orbit.event_value.values.max(initial=float(at.followed_value)),
+    }
 
 
 def bands(datasets) -> pd.DataFrame:

@@ -1,17 +1,3 @@
-def balance_map_job(wildcards):
-    entry = config["balance_map"][wildcards.balance_map]
-    fixed = {key: entry[key] for key in ("damping", "linear_frequency") if key in entry}
-    # the function follows rule (19) where it is given no clearance
-    fixed |= {key: value for key, value in damper_of(entry).items() if value != "rule"}
-    return {
-        "parameter": entry["parameter"],
-        "values": grid(entry["values"], "map_values"),
-        "frequency_ratios": grid(entry["frequency_ratios"], "map_frequencies"),
-        "fixed": fixed,
-        "settling": config["settling"],
-    }
-
-
 rule balance_map:
     input:
         data("balance_map"),

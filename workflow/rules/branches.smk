@@ -1,36 +1,3 @@
-def span_of(oscillator):
-    """Ends of an oscillator's range of frequencies."""
-    span = config["oscillators"][oscillator]["frequencies"]
-    return [span["first"], span["last"]]
-
-
-def free_branches_job(wildcards):
-    return {
-        "oscillator": oscillator_of(wildcards.oscillator),
-        "frequencies": span_of(wildcards.oscillator),
-    }
-
-
-def branches_job(wildcards):
-    curve = config["curves"][wildcards.curve]
-    return {
-        "oscillator": oscillator_of(curve["oscillator"]),
-        "damper": damper_of(curve),
-        "frequencies": span_of(curve["oscillator"]),
-    }
-
-
-def branch_motions(wildcards):
-    """Files of the motions from which the branches of a curve begin."""
-    stages = config["curves"][wildcards.curve]["stages"]
-    return [
-        path
-        for stage in ("response", "subharmonic")
-        if stage in stages
-        for path in data(stage, [wildcards.curve])
-    ]
-
-
 rule branches:
     input:
         data("free_branches"),

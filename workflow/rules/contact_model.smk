@@ -1,21 +1,3 @@
-def contact_model_job(wildcards):
-    model = config["contact_model"][wildcards.contact]
-    return {
-        "oscillator": oscillator_of(model["oscillator"]),
-        "damper": damper_of(model),
-        "frequencies": model["frequencies"],
-        "used": model["restitutions"],
-        "periods": model["periods"],
-        "starts": config["search"]["scan_starts"],
-        "seed": config["seed"],
-        "map": {
-            "restitutions": [model["smallest_restitution"], 1, model["cells"]["restitutions"]],
-            "loads": [model["largest_load"], model["cells"]["loads"]],
-        },
-        "settling": config["settling"],
-    }
-
-
 rule contact_model:
     input:
         data("contact_model"),

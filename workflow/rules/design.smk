@@ -2,6 +2,7 @@ rule design:
     input:
         data("free_design"),
         data("design"),
+        data("design_orbit"),
 
 
 rule free_harmonic_balance:
@@ -42,3 +43,24 @@ rule harmonic_balance:
         "Harmonic balance and suppression band of the curve {wildcards.curve}"
     script:
         "../scripts/harmonic_balance.py"
+
+
+rule design_orbit:
+    input:
+        code=code("design_orbit.py"),
+        kernels=ancient("<results>/kernels.compiled"),
+    output:
+        "<results>/design_orbit/{curve}.nc",
+    log:
+        "<logs>/design_orbit/{curve}.log",
+    benchmark:
+        "<benchmarks>/design_orbit/{curve}.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    params:
+        job=design_orbit_job,
+    message:
+        "True quiet orbit at the design point of the curve {wildcards.curve}"
+    script:
+        "../scripts/design_orbit.py"

@@ -1,14 +1,3 @@
-def design_rules_job(wildcards):
-    grids = config["design_rules"][wildcards.grid]
-    return {
-        "oscillator": oscillator_of(grids["oscillator"]),
-        "grid": [
-            grids[key]
-            for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
-        ],
-    }
-
-
 rule design_rules:
     input:
         data("design_rules"),

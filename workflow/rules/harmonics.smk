@@ -1,14 +1,3 @@
-def harmonics_job(wildcards):
-    scene = config["harmonics"][wildcards.harmonics]
-    return {
-        "oscillator": oscillator_of(scene["oscillator"]),
-        "damper": damper_of(scene) if "mass_ratio" in scene else None,
-        "frequency": scene["frequency"],
-        "highest": scene["highest"],
-        "highest_cold": scene["highest_cold"],
-    }
-
-
 rule harmonics:
     input:
         data("harmonics"),

@@ -4,6 +4,7 @@
 STAGES = {
     "free_design": "oscillators",
     "design": "curves",
+    "design_orbit": "curves",
     "free": "oscillators",
     "response": "curves",
     "free_branches": "oscillators",
@@ -26,7 +27,7 @@ STAGES = {
 
 # Stages whose data a table holds.
 TABLES = {
-    "design": ["design"],
+    "design": ["design", "design_orbit"],
     "bands": ["design", "free_branches", "branches", "response"],
     "optima": ["optimum"],
     "subharmonics": ["free_branches", "branches", "subharmonic"],
@@ -45,6 +46,7 @@ TABLES = {
     "balance_map": ["balance_map"],
     "claims": [
         "design",
+        "design_orbit",
         "free_branches",
         "branches",
         "response",

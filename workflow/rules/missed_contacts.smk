@@ -1,8 +1,3 @@
-def missed_contacts_job(wildcards):
-    given = config["missed_contacts"][wildcards.passage]
-    return given | {"oscillator": oscillator_of(given["oscillator"]), "seed": config["seed"]}
-
-
 rule missed_contacts:
     input:
         data("missed_contacts"),

@@ -1,19 +1,3 @@
-def rigid_limit_job(wildcards):
-    limit = config["rigid_limit"][wildcards.limit]
-    ends = [limit["stiffnesses"]["first"], limit["stiffnesses"]["last"]]
-    frequencies = [limit["frequencies"]["first"], limit["frequencies"]["last"]]
-    return {
-        "oscillator": oscillator_of(limit["oscillator"]),
-        "damper": damper_of(limit),
-        "frequency": limit["frequency"],
-        "frequencies": [*frequencies, limit["cells"]["frequencies"]],
-        "stiffnesses": [*ends, limit["cells"]["stiffnesses"]],
-        "starts": config["search"]["scan_starts"],
-        "seed": config["seed"],
-        "settling": config["settling"],
-    }
-
-
 rule rigid_limit:
     input:
         data("rigid_limit"),

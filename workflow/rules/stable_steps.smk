@@ -1,15 +1,3 @@
-def stable_steps_job(wildcards):
-    given = config["stable_steps"][wildcards.stepping]
-    return {
-        "oscillator": oscillator_of(given["oscillator"]),
-        "damper": damper_of(given),
-        **{
-            key: given[key]
-            for key in ("frequency", "stiffnesses", "scaled_steps", "most_steps", "periods")
-        },
-    }
-
-
 rule stable_steps:
     input:
         data("stable_steps"),

@@ -1,11 +1,3 @@
-def verdicts_job(wildcards):
-    given = config["verdicts"][wildcards.judged]
-    return given | {
-        "oscillator": oscillator_of(given["oscillator"]),
-        "contact_stiffness": config["contact_stiffness"],
-    }
-
-
 rule verdicts:
     input:
         data("verdicts"),

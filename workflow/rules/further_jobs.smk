@@ -1,0 +1,139 @@
+"""Jobs of the stages beyond the paper: exact orbits, harmonics, rules, and where methods fail."""
+
+
+def design_orbit_job(wildcards):
+    curve = config["curves"][wildcards.curve]
+    return {
+        "oscillator": oscillator_of(curve["oscillator"]),
+        "damper": damper_of(curve),
+        "search": search("sweep_starts"),
+        "settling": config["settling"],
+    }
+
+
+def span_of(oscillator):
+    """Ends of an oscillator's range of frequencies."""
+    span = config["oscillators"][oscillator]["frequencies"]
+    return [span["first"], span["last"]]
+
+
+def free_branches_job(wildcards):
+    return {
+        "oscillator": oscillator_of(wildcards.oscillator),
+        "frequencies": span_of(wildcards.oscillator),
+    }
+
+
+def branches_job(wildcards):
+    curve = config["curves"][wildcards.curve]
+    return {
+        "oscillator": oscillator_of(curve["oscillator"]),
+        "damper": damper_of(curve),
+        "frequencies": span_of(curve["oscillator"]),
+    }
+
+
+def branch_motions(wildcards):
+    """Files of the motions from which the branches of a curve begin."""
+    stages = config["curves"][wildcards.curve]["stages"]
+    return [
+        path
+        for stage in ("response", "subharmonic")
+        if stage in stages
+        for path in data(stage, [wildcards.curve])
+    ]
+
+
+def harmonics_job(wildcards):
+    scene = config["harmonics"][wildcards.harmonics]
+    return {
+        "oscillator": oscillator_of(scene["oscillator"]),
+        "damper": damper_of(scene) if "mass_ratio" in scene else None,
+        "frequency": scene["frequency"],
+        "highest": scene["highest"],
+        "highest_cold": scene["highest_cold"],
+    }
+
+
+def design_rules_job(wildcards):
+    grids = config["design_rules"][wildcards.grid]
+    return {
+        "oscillator": oscillator_of(grids["oscillator"]),
+        "grid": [
+            grids[key]
+            for key in ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
+        ],
+    }
+
+
+def balance_map_job(wildcards):
+    entry = config["balance_map"][wildcards.balance_map]
+    fixed = {key: entry[key] for key in ("damping", "linear_frequency") if key in entry}
+    # the function follows rule (19) where it is given no clearance
+    fixed |= {key: value for key, value in damper_of(entry).items() if value != "rule"}
+    return {
+        "parameter": entry["parameter"],
+        "values": grid(entry["values"], "map_values"),
+        "frequency_ratios": grid(entry["frequency_ratios"], "map_frequencies"),
+        "fixed": fixed,
+        "settling": config["settling"],
+    }
+
+
+def contact_model_job(wildcards):
+    model = config["contact_model"][wildcards.contact]
+    return {
+        "oscillator": oscillator_of(model["oscillator"]),
+        "damper": damper_of(model),
+        "frequencies": model["frequencies"],
+        "used": model["restitutions"],
+        "periods": model["periods"],
+        "starts": config["search"]["scan_starts"],
+        "seed": config["seed"],
+        "map": {
+            "restitutions": [model["smallest_restitution"], 1, model["cells"]["restitutions"]],
+            "loads": [model["largest_load"], model["cells"]["loads"]],
+        },
+        "settling": config["settling"],
+    }
+
+
+def rigid_limit_job(wildcards):
+    limit = config["rigid_limit"][wildcards.limit]
+    ends = [limit["stiffnesses"]["first"], limit["stiffnesses"]["last"]]
+    frequencies = [limit["frequencies"]["first"], limit["frequencies"]["last"]]
+    return {
+        "oscillator": oscillator_of(limit["oscillator"]),
+        "damper": damper_of(limit),
+        "frequency": limit["frequency"],
+        "frequencies": [*frequencies, limit["cells"]["frequencies"]],
+        "stiffnesses": [*ends, limit["cells"]["stiffnesses"]],
+        "starts": config["search"]["scan_starts"],
+        "seed": config["seed"],
+        "settling": config["settling"],
+    }
+
+
+def missed_contacts_job(wildcards):
+    given = config["missed_contacts"][wildcards.passage]
+    return given | {"oscillator": oscillator_of(given["oscillator"]), "seed": config["seed"]}
+
+
+def stable_steps_job(wildcards):
+    given = config["stable_steps"][wildcards.stepping]
+    return {
+        "oscillator": oscillator_of(given["oscillator"]),
+        "damper": damper_of(given),
+        **{
+            key: given[key]
+            for key in ("frequency", "stiffnesses", "scaled_steps", "most_steps", "periods")
+        },
+    }
+
+
+def verdicts_job(wildcards):
+    given = config["verdicts"][wildcards.judged]
+    return given | {
+        "oscillator": oscillator_of(given["oscillator"]),
+        "contact_stiffness": config["contact_stiffness"],
+    }
