@@ -91,6 +91,18 @@ def test_symmetry_is_lost_where_simulation_loses_it(resonance):
         assert (record["asymmetry"] < 1e-6) == symmetric
 
 
+def test_period_doubles_where_simulation_doubles_it():
+    """The large motion, followed down in frequency: period 1 above the event, 2 below."""
+    orbit = find_orbit(damped(1.7), scene_of("large").state)
+    branch = follow_branch(damped, orbit, 1.7, (1.58, 1.8))
+    doubling = event(branch, "period_doubling")
+    for side, period in ((2e-3, 1), (-2e-3, 2)):
+        p = damped(doubling.value + side)
+        nudged = doubling.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
+        record = settle(p[None], nudged[None], SETTLING, from_strobe=True)[0]
+        assert (record["outcome"], record["period"]) == (1, period)
+
+
 def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
     """One branch holds both; on it the quiet motion is stable from the fold on."""
     assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
@@ -204,6 +216,13 @@ def test_contacts_on_both_sides_of_grazing(grazing):
         sides = {round(counts[place + side] * n) for side in (-1, 0, 1)}
         words = branches["walls_before"].values[k], branches["walls_after"].values[k]
         assert {len(words[0]), len(words[1])} <= sides
+
+
+def test_orbits_near_grazing_are_flagged(grazing):
+    _, branches, changes = grazing
+    slow = branches["least_speed"].values < 0.01
+    flagged = branches["orbit_status"].values == 2
+    assert np.array_equal(slow, flagged) and flagged.any() and not flagged.all()
 
 
 def test_bad_arguments_are_named():

@@ -33,6 +33,9 @@ def orbits(datasets) -> pd.DataFrame:
                     "branch": branch + 1,
                     "period": int(data["branch_period"][branch]),
                     "orbits": len(value),
+                    "near grazing": int(
+                        (part["orbit_status"].values == flag("orbit_status", "near_grazing")).sum()
+                    ),
                     "from W": value.min(),
                     "to W": value.max(),
                     "stable from W": value[stable].min() if stable.any() else np.nan,

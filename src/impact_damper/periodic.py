@@ -15,6 +15,8 @@ from impact_damper.parameters import Damper, Oscillator, check_count, check_numb
 from impact_damper.shooting import STROBE, find_orbit
 
 NEARBY = 0.02
+# At a slower contact the 3/2-power term of the map at grazing is felt.
+SLOW = 0.01
 # Owner of each parameter that a branch can be followed in; all but the frequency and the
 # restitution are followed by their logarithm.
 PARAMETERS = {
@@ -99,10 +101,11 @@ def orbit_branch(
     -------
     xarray.Dataset
         Over `point` the orbits in order along the branch: parameter, largest displacement,
-        stability, multipliers, contacts, state and its phase, residual, error of Liouville's
-        determinant. Over `event` folds, symmetry breakings, period doublings, Neimark-Sacker
-        points, and changes of contact, which are grazing (a contact is born in flight) or
-        merging (two contacts of a wall become one). Over (branch, edge) what ends the branch.
+        stability, multipliers, contacts, state and its phase, status, residual, error of
+        Liouville's determinant. Over `event` folds, symmetry breakings, period doublings,
+        Neimark-Sacker points, and changes of contact, which are grazing (a contact is born in
+        flight) or merging (two contacts of a wall become one). Over (branch, edge) what ends the
+        branch.
 
     Raises
     ------
@@ -242,6 +245,14 @@ def _holds(branch, family, orbit, value):
     return False
 
 
+def _status(orbit):
+    """Flag that says how far an orbit and its multipliers can be relied on."""
+    if not orbit.converged:
+        return flag("orbit_status", "not_converged")
+    slow = orbit.touching > 0 and orbit.least_speed < SLOW
+    return flag("orbit_status", "near_grazing" if slow else "regular")
+
+
 def _orbits(pairs):
     """Columns over `point` of pairs of a parameter and its orbit."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
@@ -256,6 +267,7 @@ def _orbits(pairs):
         "followed_value": np.array(values, float),
         "orbit_displacement": np.array([record["maximum_displacement"] for record in records]),
         "orbit_stability": np.array(stable, int),
+        "orbit_status": np.array([_status(orbit) for orbit in orbits], int),
         "orbit_contacts": np.array([record["contacts"] for record in records]),
         "orbit_asymmetry": np.array([record["asymmetry"] for record in records]),
         "orbit_amplitude": np.abs(first),

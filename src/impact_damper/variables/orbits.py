@@ -30,6 +30,12 @@ VARIABLES = {
     "orbit_stability": Variable(
         ("point",), "whether all Floquet multipliers are less than 1", flags=STABILITY
     ),
+    "orbit_status": Variable(
+        ("point",),
+        "whether an orbit returns, and whether a contact begins so slowly that its multipliers "
+        "hold for the smallest changes only",
+        flags={"not_converged": 0, "regular": 1, "near_grazing": 2},
+    ),
     "orbit_contacts": Variable(("point",), "contacts begun per forcing period in an orbit"),
     "orbit_asymmetry": Variable(
         ("point",), "distance of an orbit from its mirror image half a period on"
