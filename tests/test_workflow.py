@@ -181,7 +181,6 @@ def test_a_curve_reruns_itself_and_what_draws_it(edit):
         "Motions with the damper over frequency, of the curve figure_08",
         "What the damper makes of the one-third subharmonic, for the curve figure_08",
         "Branches of orbits with the damper, for the curve figure_08",
-        "True quiet orbit at the design point of the curve figure_08",
         "Drawing figure_08",
         "Caption of figure_08",
         "Table of design",
