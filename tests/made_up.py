@@ -332,7 +332,13 @@ LINEAR_OF = {"3a": 1.5, "3b": 1.0, "3c": 0.0}
 def design_orbit(linear):
     """A small orbit, stable at every damping."""
     made = parameters(linear=linear) | damper(0.12, LINEAR[linear])
-    return branches(branch([0.215, 2.0], [0.05, 0.04]), parameters=made)
+    runs = {
+        "design_orbit_status": flag("design_orbit_status", "found"),
+        "design_run_outcome": np.full(4, flag("outcome", "settled")),
+        "design_run_displacement": np.full(4, 0.05),
+    }
+    orbit = branches(branch([0.215, 2.0], [0.05, 0.04]), parameters=made)
+    return orbit.assign(dataset(runs, {}, made, "made up").variables)
 
 
 def world():

@@ -134,7 +134,11 @@ def test_unknown_keys_are_rejected(section):
         ("curves/figure_05a/stages", [], "with 1 or more entries"),
         ("curves/figure_05a/stages", ["design"], "must hold response"),
         ("curves/figure_10/stages", ["response", "response"], "without repetition"),
-        ("curves/figure_10/stages", ["responses"], "one of design, response, subharmonic"),
+        (
+            "curves/figure_10/stages",
+            ["responses"],
+            "one of design, design_orbit, response, subharmonic",
+        ),
         ("curves/a b", PAPER["curves"]["figure_10"], "a file name"),
         ("curves/new\n", PAPER["curves"]["figure_10"], "a file name"),
         ("curves/3", 3, "keys with values"),

@@ -47,3 +47,16 @@ def test_it_is_stable_without_a_linear_spring():
     data = design_orbit(Oscillator(0.215), Damper(0.12, 2.0))
     assert data["orbit_stability"][0] == flag("orbit_stability", "stable")
     assert data["orbit_contacts"][0] == 2 and data["orbit_asymmetry"][0] < 1e-9
+
+
+def test_starts_do_not_settle_where_it_is_unstable(linear):
+    assert linear["design_orbit_status"] == flag("design_orbit_status", "found")
+    assert not np.any(linear["design_run_outcome"] == flag("design_run_outcome", "settled"))
+    assert linear["design_run_displacement"].max() > 5 * float(linear["orbit_displacement"][0])
+
+
+def test_an_orbit_that_is_not_found_is_said_so():
+    """Where the only start meets no wall there is nothing to follow."""
+    data = design_orbit(LINEAR, Damper(0.12, 500.0), starts=1)
+    assert data["design_orbit_status"] == flag("design_orbit_status", "no_start")
+    assert data.sizes["point"] == 0

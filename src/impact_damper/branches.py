@@ -1,4 +1,4 @@
-"""A branch of periodic orbits, followed both ways from one of them to its true ends."""
+"""A branch of periodic orbits, followed both ways from one of them as far as it goes."""
 
 from typing import NamedTuple
 
@@ -17,6 +17,7 @@ from impact_damper.continuation import (
 SAME = 1e-5
 WEAK = 0.02
 GLANCE = 1e-4
+MOST_POINTS = 2000
 # Beyond these an orbit is one of the countless saddles of a chaotic motion, and rounding takes
 # the digits that are asked for: its largest multiplier, and how much its map amplifies.
 UNSTABLE = 100.0
@@ -46,7 +47,7 @@ class Branch(NamedTuple):
     lost: int
 
 
-def follow_branch(family, orbit, value, span, *, scale=1.0, limit=2000) -> Branch:
+def follow_branch(family, orbit, value, span) -> Branch:
     """Follow a branch from an orbit in both directions of a parameter.
 
     Parameters
@@ -59,10 +60,6 @@ def follow_branch(family, orbit, value, span, *, scale=1.0, limit=2000) -> Branc
         The parameter there.
     span : tuple of float
         Least and greatest value of the parameter.
-    scale : float
-        Unit of length of the parameter: a step changes it by at most 0.05 of it.
-    limit : int
-        Most points in a direction.
 
     Returns
     -------
@@ -73,13 +70,13 @@ def follow_branch(family, orbit, value, span, *, scale=1.0, limit=2000) -> Branc
     ArithmeticError
         If the orbit is not one of the family at the value.
     """
-    problem = Problem.of(family, scale, orbit)
+    problem = Problem.of(family, orbit)
     walks = []
     for direction in (-1, 1):
         first = problem.begin(orbit, value, direction)
         if first is None:
             raise ArithmeticError(f"no orbit of the family at {value:g} close to the one given")
-        walks.append(_walk(problem, first, span, limit))
+        walks.append(_walk(problem, first, span))
         if walks[0].ends[1] == "closed":
             return walks[0]._replace(ends=("closed", "closed"))
     down, up = walks
@@ -94,11 +91,11 @@ def _reversed(event):
     return event._replace(before=event.after, after=event.before)
 
 
-def _walk(problem, first, span, limit):
+def _walk(problem, first, span):
     """The part of a branch that begins at a point in the direction of its tangent."""
     points, events, lost, end = [first], [], 0, "point_limit"
     length = FIRST_STEP
-    while len(points) < limit:
+    while len(points) < MOST_POINTS:
         here = points[-1]
         there = _next(problem, here, span, length)
         if there is None:
@@ -112,7 +109,8 @@ def _walk(problem, first, span, limit):
         lost += missed
         if _deviation(here.orbit) @ _deviation(there.orbit) < 0:
             end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
-            news = _up_to_fold(news, end)
+            news, turned = _up_to_fold(news, end)
+            lost += not turned and not missed
         for event in news:
             events.append((len(points), event))
             points.append(event.point)
@@ -151,11 +149,11 @@ def _deviation(orbit):
 
 
 def _up_to_fold(events, kind):
-    """The events up to the fold at which a branch meets another, which is of a kind in truth."""
+    """The events up to the fold at which a branch meets another, of a kind in truth; if found."""
     for k, event in enumerate(events):
         if event.kind == "fold":
-            return [*events[:k], event._replace(kind=kind)]
-    return []
+            return [*events[:k], event._replace(kind=kind)], True
+    return events, False
 
 
 def _next(problem, here, span, length):

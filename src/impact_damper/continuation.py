@@ -33,7 +33,7 @@ class Point(NamedTuple):
         The parameter.
     orbit : Orbit
     x : numpy.ndarray
-        Unknowns: Z1, Z1' (and Z2, Z2' with a damper), and the parameter over its scale.
+        Unknowns: Z1, Z1' (and Z2, Z2' with a damper), and the parameter.
     tangent : numpy.ndarray
         Unit tangent in these.
     """
@@ -52,8 +52,6 @@ class Problem:
     ----------
     family : callable
         From the parameter to packed parameters.
-    scale : float
-        The parameter's unit of length along a branch.
     periods : int
     phase : float
     loose : numpy.ndarray, shape (2,)
@@ -65,7 +63,6 @@ class Problem:
     """
 
     family: Callable[[float], np.ndarray]
-    scale: float
     periods: int
     phase: float
     loose: np.ndarray
@@ -73,11 +70,10 @@ class Problem:
     symmetric: bool
 
     @classmethod
-    def of(cls, family, scale, orbit):
+    def of(cls, family, orbit):
         """The problem that an orbit solves."""
         return cls(
             family,
-            scale,
             orbit.periods,
             orbit.phase,
             orbit.state[2:] - orbit.state[:2],
@@ -88,7 +84,7 @@ class Problem:
     def shoot(self, x):
         """The orbit at some unknowns, not iterated, and how far its state is from its return."""
         state = x[:-1] if self.damped else np.concatenate([x[:2], x[:2] + self.loose])
-        p = self.family(x[-1] * self.scale)
+        p = self.family(x[-1])
         orbit, end = shoot(p, state, self.periods, self.phase, symmetric=self.symmetric)
         return orbit, (end - state)[: len(x) - 1]
 
@@ -127,7 +123,7 @@ class Problem:
     def point(self, x, orbit, rows, border):
         """The point at some unknowns, its tangent along the border."""
         tangent = np.linalg.lstsq(np.vstack([rows, border]), np.eye(len(x))[-1], SINGULAR)[0]
-        return Point(x[-1] * self.scale, orbit, x, tangent / np.linalg.norm(tangent))
+        return Point(x[-1], orbit, x, tangent / np.linalg.norm(tangent))
 
     def step(self, point, length):
         """The point a step further along the branch, or None."""
@@ -139,8 +135,8 @@ class Problem:
     def at_value(self, point, value):
         """The point at a value of the parameter close to a point's, or None."""
         direction = point.tangent[-1] or np.inf
-        x = point.x + (value / self.scale - point.x[-1]) / direction * point.tangent
-        x[-1] = value / self.scale
+        x = point.x + (value - point.x[-1]) / direction * point.tangent
+        x[-1] = value
         found = self.correct(x, np.eye(len(x))[-1])
         if found is None:
             return None
@@ -149,7 +145,7 @@ class Problem:
     def begin(self, orbit, value, direction):
         """The point at an orbit, its tangent in the direction (-1 or 1) of the parameter."""
         size = 4 if self.damped else 2
-        x = np.append(orbit.state[:size], value / self.scale)
+        x = np.append(orbit.state[:size], value)
         return self.correct(x, direction * np.eye(size + 1)[-1])
 
     def rephased(self, point):
@@ -164,7 +160,7 @@ class Problem:
         problem = replace(self, phase=phase % TURN)
         x = np.append(orbit.at(phase), point.x[-1])
         nudged = point.x + NUDGE * point.tangent
-        family = self.family(nudged[-1] * self.scale)
+        family = self.family(nudged[-1])
         ahead = replace(orbit, p=family, state=nudged[:-1]).at(phase)
         border = np.append(ahead, nudged[-1]) - x
         found = problem.correct(x, border / np.linalg.norm(border))

@@ -11,7 +11,7 @@ import numpy as np
 
 from impact_damper import ensemble
 from impact_damper.branches import follow_branch
-from impact_damper.datasets import dataset, is_settled
+from impact_damper.datasets import dataset, flag, is_settled
 from impact_damper.harmonic_balance import peak_frequency
 from impact_damper.motions import random_states
 from impact_damper.parameters import check_damper, describe, pack
@@ -39,8 +39,8 @@ def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settli
     -------
     xarray.Dataset
         As of `periodic.orbit_branch` in the damping, from that of the oscillator up to the heavy
-        one, and `peak_frequency`. Without branches if no start became an orbit of period 1 with
-        two contacts.
+        one; whether the orbit was found, and followed to the oscillator; over `design_start` what
+        the same starts come to with the oscillator's own damping; and `peak_frequency`.
 
     Raises
     ------
@@ -48,18 +48,29 @@ def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settli
         If there is no damper, or an argument is out of range.
     """
     check_damper(damper)
+    settling = settling or ensemble.Settling()
     peak = peak_frequency(oscillator)
     heavy = replace(oscillator, damping=min(max(HEAVY, 2 * oscillator.damping), 10.0))
-    p = pack(heavy, damper, peak)
     states = random_states(starts, radius, damper, seed)
-    records = ensemble.settle(np.tile(p, (starts, 1)), states, settling or ensemble.Settling())
+    branches, status = [], "no_start"
+    p = pack(heavy, damper, peak)
+    records = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
     quiet = records[is_settled(records) & (records["period"] == 1) & (records["contacts"] == 2)]
-    branches = []
     if len(quiet):
-        state = quiet[np.argmin(quiet["maximum_displacement"])]["state"]
+        orbit = find_orbit(p, quiet[np.argmin(quiet["maximum_displacement"])]["state"])
         span = oscillator.damping, heavy.damping
         family, value, span = family_of(heavy, damper, peak, "damping", span)
-        branches = [follow_branch(family, find_orbit(p, state), value, span)]
+        branches = [follow_branch(family, orbit, value, span)] if orbit.converged else []
+        reached = branches and np.isclose(branches[0].points[0].value, span[0], rtol=1e-9)
+        status = "found" if reached else "not_followed"
+    runs = ensemble.settle(np.tile(pack(oscillator, damper, peak), (starts, 1)), states, settling)
     made = describe(oscillator, damper) | {"parameter": "damping", "frequency": peak}
-    data = branches_dataset(branches, np.exp, made, "Quiet orbit at the design point over damping")
-    return data.assign(dataset({"peak_frequency": peak}, {}, made, "").variables)
+    title = "Quiet orbit at the design point over damping"
+    others = {
+        "peak_frequency": peak,
+        "design_orbit_status": flag("design_orbit_status", status),
+        "design_run_outcome": runs["outcome"],
+        "design_run_displacement": runs["maximum_displacement"],
+    }
+    data = branches_dataset(branches, np.exp, made, title)
+    return data.assign(dataset(others, {}, made, title).variables)

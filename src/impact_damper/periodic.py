@@ -81,9 +81,7 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
     return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit")
 
 
-def orbit_branch(
-    oscillator, damper, frequency, state, *, span, parameter="frequency", period=1, limit=2000
-):
+def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequency", period=1):
     """The branch of orbits through the one near a state, followed in a parameter.
 
     Parameters
@@ -94,8 +92,6 @@ def orbit_branch(
         Least and greatest value of the parameter.
     parameter : str
         frequency, damping, mass_ratio, clearance, restitution or contact_stiffness.
-    limit : int
-        Most orbits in each direction.
 
     Returns
     -------
@@ -115,10 +111,9 @@ def orbit_branch(
         If Newton's method finds no orbit near the state.
     """
     family, value, span = family_of(oscillator, damper, frequency, parameter, span)
-    check_count("limit", limit, most=10**6)
     periodic_orbit(oscillator, damper, frequency, state, period=period)
     orbit = find_orbit(family(value), check_state(state, damper), period)
-    branch = follow_branch(family, orbit, value, span, limit=limit)
+    branch = follow_branch(family, orbit, value, span)
     made = describe(oscillator, damper) | {
         "frequency": float(frequency),
         "period": period,
@@ -128,8 +123,8 @@ def orbit_branch(
     return branches_dataset([branch], back, made, "Branch of periodic orbits")
 
 
-def complete_branches(oscillator, damper, frequencies, motions, *, limit=2000):
-    """Every branch of orbits over frequency that settled motions lie on, to its true ends.
+def complete_branches(oscillator, damper, frequencies, motions):
+    """Every branch of orbits over frequency that settled motions lie on, as far as it goes.
 
     Parameters
     ----------
@@ -139,8 +134,6 @@ def complete_branches(oscillator, damper, frequencies, motions, *, limit=2000):
         Least and greatest frequency W, dimensionless.
     motions : list of xarray.Dataset
         Of `response.frequency_response` or `subharmonic.subharmonic_suppression` for them.
-    limit : int
-        Most orbits in each direction of a branch.
 
     Returns
     -------
@@ -160,7 +153,7 @@ def complete_branches(oscillator, damper, frequencies, motions, *, limit=2000):
         if not orbit.converged or orbit.repeats_sooner():
             lost += 1
         elif not any(_holds(branch, family, orbit, frequency) for branch in branches):
-            branches.append(follow_branch(family, orbit, frequency, frequencies, limit=limit))
+            branches.append(follow_branch(family, orbit, frequency, frequencies))
     made = describe(oscillator, damper) | {"parameter": "frequency"}
     data = branches_dataset(branches, float, made, "Branches of periodic orbits")
     counts = dataset({"seeds": seeds, "seeds_lost": lost}, {}, made, data.attrs["title"])
@@ -238,7 +231,7 @@ def _holds(branch, family, orbit, value):
         ):
             continue
         nearer = min(here, there, key=lambda point: abs(point.value - value))
-        problem = Problem.of(family, 1.0, nearer.orbit)
+        problem = Problem.of(family, nearer.orbit)
         found = problem.at_value(nearer, value)
         if found is not None and found.orbit.is_same(orbit, SAME):
             return True

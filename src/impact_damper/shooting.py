@@ -22,7 +22,7 @@ MARGIN = 0.15
 RESIDUAL = 1e-12
 ITERATIONS = 20
 FAR, NEAR = 10.0, 1e-6
-CONTACTS = 256
+CONTACTS = 64  # most contacts a forcing period that are listed
 
 
 @dataclass(frozen=True)
@@ -102,14 +102,14 @@ class Orbit:
         Raises
         ------
         ArithmeticError
-            If there are more than 256.
+            If there are more than 64 a forcing period.
         """
         begin = self.phase / self.p[0]
         end = begin + self.periods * TURN / self.p[0]
         # A contact under way at the phase is whole where it comes again.
         touching = side_of(self.p, self.state) != 0
         last = end + touching * (end - begin)
-        log = np.empty((CONTACTS, 5))
+        log = np.empty(((1 + touching) * self.periods * CONTACTS, 5))
         count = recording.trace(
             self.p,
             self.state.copy(),
@@ -119,8 +119,8 @@ class Orbit:
             np.empty((1, 4)),
             log,
         )
-        if count > CONTACTS:
-            raise ArithmeticError(f"{count} contacts an orbit: at most {CONTACTS} are listed")
+        if count > len(log):
+            raise ArithmeticError(f"{count} contacts an orbit: more than {CONTACTS} a period")
         log = log[touching:count]
         return log[log[:, 1] < end]
 

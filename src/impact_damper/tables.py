@@ -6,7 +6,7 @@ import pandas as pd
 from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Missing
 from impact_damper.claims.suppression import chaotic_high, high_motions, suppression_band
-from impact_damper.datasets import flag
+from impact_damper.datasets import flag, is_settled
 
 PARAMETERS = {
     "damping": "h",
@@ -47,16 +47,24 @@ def design(datasets) -> pd.DataFrame:
 
 
 def _true_orbit(orbit):
-    """What the exact quiet orbit at the design point is, where it was followed to it."""
-    if orbit is None or orbit.sizes["point"] == 0:
+    """The exact quiet orbit at the design point, and what starts come to there."""
+    if orbit is None:
         return {}
-    at = orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
-    modulus = np.hypot(at.orbit_multiplier_real, at.orbit_multiplier_imaginary)
-    return {
-        "max |Z1| of the orbit": float(at.orbit_displacement),
-        "largest multiplier": float(modulus.max()),
-        "stable from h": orbit.event_value.values.max(initial=float(at.followed_value)),
+    runs = {
+        "starts that settle": float(np.mean(is_settled({"outcome": orbit.design_run_outcome}))),
+        "largest max |Z1| of starts": float(orbit.design_run_displacement.max()),
     }
+    try:
+        at = extract.design_point(orbit)
+    except Missing:
+        return {"quiet orbit": "not found"} | runs
+    size = float(extract.largest_multiplier(at))
+    return {
+        "quiet orbit": "stable" if size < 1 else "unstable",
+        "its max |Z1|": float(at.orbit_displacement),
+        "largest multiplier": size,
+        "stable from h": extract.stable_from(orbit),
+    } | runs
 
 
 def bands(datasets) -> pd.DataFrame:

@@ -76,7 +76,7 @@ def balance_map_job(wildcards):
         "values": grid(entry["values"], "map_values"),
         "frequency_ratios": grid(entry["frequency_ratios"], "map_frequencies"),
         "fixed": fixed,
-        "settling": config["settling"],
+        "settling": config["settling"] | {"tolerance": entry["tolerance"]},
     }
 
 

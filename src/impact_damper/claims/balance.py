@@ -6,7 +6,7 @@ import pandas as pd
 from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
 from impact_damper.claims.suppression import suppression_band
-from impact_damper.datasets import flag
+from impact_damper.datasets import flag, is_settled
 
 NEAR = 0.1
 
@@ -103,20 +103,15 @@ def quiet_and_high(datasets):
 def _designs(datasets):
     """Numbers of claim 3 on the true quiet orbits at the designs with a linear spring."""
     names = (*extract.CAPTIONS[1:], *extract.RULES)
-    multipliers, dampings = [], []
-    for orbit in extract.select(datasets, "design_orbit", names):
-        first = int(np.argmin(orbit.followed_value.values))
-        multipliers.append(
-            np.hypot(
-                float(orbit.orbit_multiplier_real[first, 0]),
-                float(orbit.orbit_multiplier_imaginary[first, 0]),
-            )
-        )
-        dampings.append(orbit.event_value.values.max(initial=0.0))
+    orbits = extract.select(datasets, "design_orbit", names)
+    multipliers = [extract.largest_multiplier(extract.design_point(orbit)) for orbit in orbits]
+    unstable = [orbit for orbit, size in zip(orbits, multipliers, strict=True) if not size < 1]
+    settled = [np.mean(is_settled({"outcome": orbit.design_run_outcome})) for orbit in unstable]
     return {
         "designs_stable": np.mean(np.array(multipliers) < 1),
         "design_multiplier": np.max(multipliers),
-        "design_damping": np.max(dampings),
+        "design_damping": max(map(extract.stable_from, orbits)),
+        "design_settled": np.max(settled, initial=0.0),
     }
 
 
@@ -272,6 +267,9 @@ CLAIMS = (
             ),
             Number("design_multiplier", "its largest modulus of a multiplier there"),
             Number("design_damping", "damping h above which all of them would be stable"),
+            Number(
+                "design_settled", "largest share of starts that settle at an unstable one of them"
+            ),
         ),
         quiet_and_high,
     ),

@@ -110,3 +110,22 @@ def crossing(x, y, level):
 def select(datasets, stage, names):
     """Several datasets of a stage, or raise Missing."""
     return [get(datasets, stage, name) for name in names]
+
+
+def design_point(orbit):
+    """The quiet orbit of a `design_orbit` at the design point, or raise Missing."""
+    if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
+        raise Missing("A quiet orbit was not followed to its design point")
+    return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
+
+
+def largest_multiplier(orbit):
+    """Largest modulus of the multipliers of an orbit, or of each of several."""
+    modulus = np.hypot(orbit.orbit_multiplier_real, orbit.orbit_multiplier_imaginary)
+    return modulus.max("multiplier").values
+
+
+def stable_from(orbit):
+    """Damping above which the quiet orbit of a `design_orbit` is stable."""
+    value = orbit.followed_value.values
+    return float(np.max(value[largest_multiplier(orbit) >= 1], initial=value.min()))

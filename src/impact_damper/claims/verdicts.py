@@ -39,10 +39,11 @@ def claims(datasets) -> pd.DataFrame:
 
 def document(frame) -> str:
     """The claims table in Markdown: the verdicts at a glance, then a section for each claim."""
+    slips = frame["number"].str.startswith("S")
     parts = [
         "# What the paper states, and what the data say",
-        f"Verdicts: {_tally(frame)}. Numbers S1 to S6 are slips of the paper, each taken as the "
-        "claim that what is printed holds.",
+        f"Claims: {_tally(frame[~slips])}. Slips: {_tally(frame[slips])}.",
+        "S1 to S6 are slips of the paper, each taken as the claim that what is printed holds.",
         plain(frame[["number", "claim", "verdict"]]),
     ]
     for row in frame.to_dict("records"):

@@ -223,7 +223,8 @@ def save(figure, path) -> None:
     """
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     with style():
-        figure.draw_without_rendering()
+        if figure.get_layout_engine() is not None:
+            figure.get_layout_engine().execute(figure)
         figure.set_layout_engine("none")
         for kind, metadata in {"pdf": {"CreationDate": None}, "png": {"Software": None}}.items():
             whole = Path(f"{path}.{kind}")

@@ -1,6 +1,6 @@
 """Exact periodic orbits, their branches and bifurcations."""
 
-from impact_damper.variables.variable import STABILITY, Variable
+from impact_damper.variables.variable import OUTCOME, STABILITY, Variable
 
 EVENT = {
     "fold": 1,
@@ -67,6 +67,16 @@ VARIABLES = {
     "orbit_restitution": Variable(
         ("point",), "least ratio of the relative speeds after and before a contact of an orbit"
     ),
+    # design points
+    "design_orbit_status": Variable(
+        (),
+        "whether the quiet orbit was found with heavy damping, and followed from there",
+        flags={"no_start": 0, "found": 1, "not_followed": 2},
+    ),
+    "design_run_outcome": Variable(
+        ("design_start",), "what a random start comes to at the design point", flags=OUTCOME
+    ),
+    "design_run_displacement": Variable(("design_start",), "its largest displacement", "max |Z1|"),
     # branches
     "branch_period": Variable(("branch",), "period in forcing periods of the orbits", "n"),
     "branch_events_lost": Variable(("branch",), "events on a branch that were not located"),
