@@ -38,20 +38,26 @@ def orbits(datasets) -> pd.DataFrame:
                     ),
                     "from W": value.min(),
                     "to W": value.max(),
-                    "stable from W": value[stable].min() if stable.any() else np.nan,
-                    "stable to W": value[stable].max() if stable.any() else np.nan,
+                    "stable W": _ranges(value, stable),
                     "largest max |Z1|": float(part["orbit_displacement"].max()),
                     "one end": ends[0],
                     "other end": ends[1],
                     "events": int((data["event_branch"].values == branch).sum()),
                     "not located": int(data["branch_events_lost"][branch]),
-                    "largest residual": float(part["orbit_residual"].max()),
+                    "largest residual, absolute": float(part["orbit_residual"].max()),
                     "largest error of Liouville's determinant": float(
                         part["liouville_error"].max()
                     ),
                 }
             )
     return pd.DataFrame(rows)
+
+
+def _ranges(value, stable):
+    """Parts of a branch where it is stable, in words, each by its least and greatest value."""
+    edges = np.flatnonzero(np.diff(stable.astype(int), prepend=0, append=0)).reshape(-1, 2)
+    parts = [value[first:last] for first, last in edges]
+    return ", ".join(f"{part.min():.5g} to {part.max():.5g}" for part in parts)
 
 
 def bifurcations(datasets) -> pd.DataFrame:

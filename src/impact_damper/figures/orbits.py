@@ -7,6 +7,7 @@ from impact_damper.figures.style import (
     BLACK,
     BLUE,
     GREEN,
+    GREY,
     ORANGE,
     PURPLE,
     ROLES,
@@ -26,6 +27,15 @@ EVENTS = {
     "grazing": ("grazing: a contact is born", "P", SKY),
     "merging": ("merging of two contacts", "X", SKY),
 }
+OPEN_ENDS = ("too_unstable", "grazing", "lost", "point_limit")
+OPEN = {
+    "label": "not followed further",
+    "marker": "x",
+    "color": GREY,
+    "markersize": 3.4,
+    "linestyle": "none",
+    "zorder": 2.5,
+}
 PERIODS = [
     ("period 1", BLUE, lambda period: period == 1),
     ("period 2", GREEN, lambda period: period == 2),
@@ -36,7 +46,7 @@ PERIODS = [
 
 @style()
 def draw_branches(*, free_branches, branches):
-    """Largest displacement of every orbit against forcing frequency, a panel for each damper.
+    """Largest displacement of the orbits against forcing frequency, a panel for each damper.
 
     Parameters
     ----------
@@ -61,6 +71,7 @@ def draw_branches(*, free_branches, branches):
                 look = {"label": f"damper, {label}"} if stable else {"linestyle": ":"}
                 axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.8, **look)
         mark_events(axes, data)
+        mark_open_ends(axes, data)
         axes.set(
             xlabel="Forcing frequency, $\\Omega$",
             ylabel=axis_label(data["orbit_displacement"]),
@@ -109,8 +120,19 @@ def draw_free_orbits(axes, data):
             axes.plot(value, size, **ROLES[role if stable else unstable])
 
 
+def mark_open_ends(axes, data):
+    """A cross at every end beyond which a branch goes on but was not followed."""
+    chosen = [flag("branch_end", name) for name in OPEN_ENDS]
+    number = data["orbit_branch"].values
+    for branch, ends in enumerate(data["branch_end"].values):
+        at = np.flatnonzero(number == branch)
+        for place, end in zip((at[0], at[-1]), ends, strict=True):
+            if end in chosen:
+                axes.plot(data["followed_value"][place], data["orbit_displacement"][place], **OPEN)
+
+
 def mark_events(axes, data):
-    """A marker at every located event, and at the ends where a contact is about to be born."""
+    """A marker at every located event."""
     for name, (label, marker, color) in EVENTS.items():
         chosen = data["event_kind"].values == flag("event_kind", name)
         if chosen.any():
