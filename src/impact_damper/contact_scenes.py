@@ -148,6 +148,8 @@ def without_pull(oscillator, damper, frequency, motion):
     returned = contact(damper.restitution, 0.0, "no_tension").departure
     goal = replace(damper, restitution=min(returned, 1.0)).dashpot
     p, y = pack(oscillator, damper, frequency), motion["state"].copy()
+    if p[DASHPOT] == goal:
+        return motion["maximum_displacement"], flag("scene_without_pull_status", "found")
     period = int(motion["period"])
     orbits.follow(p, y, period, DASHPOT, goal, RESOLUTION, orbits.POLISH_TOLERANCE)
     if p[DASHPOT] != goal:
