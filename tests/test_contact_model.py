@@ -7,14 +7,16 @@ import pytest
 from conftest import INELASTIC, PAPER, scene_of
 from numpy.testing import assert_allclose
 
+from impact_damper import ensemble
 from impact_damper.contact_law import contact, natural_frequency
 from impact_damper.contact_model import contact_map, contact_model, spread_loads
-from impact_damper.contact_scenes import logged_contacts
+from impact_damper.contact_scenes import extreme_motions, logged_contacts, without_pull
 from impact_damper.contact_tables import contact_model as model_table
 from impact_damper.contact_tables import contact_motions as motion_table
 from impact_damper.datasets import flag
 from impact_damper.figures.contact_model import draw_contact_model
 from impact_damper.motions import simulate
+from impact_damper.variables import VARIABLES
 
 
 def test_verdicts_follow_from_the_restitution():
@@ -76,10 +78,31 @@ def test_dataset(model):
     assert (model.scene_contacts == 6).all()
     assert_allclose(model.scene_restitution_error, 0, atol=1e-3)
     assert model.sizes["contact"] == model.scene_contacts.sum()
+    assert (model.scene_without_pull_status == flag("scene_without_pull_status", "found")).all()
     elastic = model.sel(used=1.0)
     assert_allclose(elastic.scene_without_pull, elastic.scene_displacement)
     stiffer = model.sel(used=0.75)
     assert (stiffer.scene_without_pull < stiffer.scene_displacement).all()
+
+
+def test_why_a_motion_without_pull_is_not_given():
+    """A motion is told that has not settled, or whose contacts are not those of the orbit."""
+    settling = ensemble.Settling()
+    motion, _ = extreme_motions(PAPER, INELASTIC, 2.0, 2, 1995, settling)
+    names = VARIABLES["scene_without_pull_status"].flags
+    changes = {
+        "found": {},
+        "not_settled": {"outcome": flag("outcome", "chaotic")},
+        "other_contacts": {"contacts": motion["contacts"] + 1},
+        "not_followed": {"state": [0, 3.0, 0, 0]},
+    }
+    for name, change in changes.items():
+        changed = motion.copy()
+        for key, value in change.items():
+            changed[key] = value
+        size, status = without_pull(PAPER, INELASTIC, 2.0, changed)
+        assert status == names[name]
+        assert np.isfinite(size) == (name == "found")
 
 
 def test_tables_and_figure(model):

@@ -10,6 +10,9 @@ from scipy.integrate import solve_ivp
 from scipy.stats import binom
 
 from impact_damper import missed_contacts as missed
+from impact_damper.figures.missed_contacts import draw_missed_contacts
+from impact_damper.integrator_tables import grazing
+from impact_damper.missed_contacts import missed_share
 from impact_damper.parameters import pack
 from impact_damper.rivals.passages import draw_passages, free_flight
 from impact_damper.rivals.scipy_methods import derivative, flight_steps
@@ -64,7 +67,7 @@ def test_the_taylor_series_misses_none_and_invents_none(passages):
     p, drawn = passages
     depths = np.geomspace(1e-13, 1e-1, 13)
     touching, spurious, _ = missed._taylor_counts(p, drawn, depths, 1e-14)
-    assert_allclose(touching, np.array([[len(drawn), 0, 0]] * len(depths)))
+    assert_allclose(touching, np.array([[len(drawn), 0, 0, 0]] * len(depths)))
     assert not spurious.any()
 
 
@@ -89,7 +92,7 @@ def test_scipy_events_find_what_the_ends_of_steps_show(method, passages):
             rtol=1e-8,
             atol=1e-8,
         )
-        _, states, _ = flight_steps(method, free, passage.state, 0.0, PERIOD, 1e-8)
+        states, _, _ = flight_steps(method, free, passage.state, 0.0, PERIOD, 1e-8)
         seen = np.abs(states[:, 2]).max() > levels
         assert_allclose([len(times) > 0 for times in run.t_events], seen)
 
@@ -125,6 +128,37 @@ def test_every_passage_is_counted_once(counted):
     total = counted.passage_count.sum("contact_outcome")
     assert (total == counted.passages).all()
     assert (counted.passage_count >= 0).all()
+    assert (counted.passage_count.sel(contact_outcome="failed") == 0).all()
+
+
+@pytest.mark.parametrize("method", ["merson", "RK45", "DOP853"])
+def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
+    """A rate that is nowhere finite."""
+    p, drawn = passages
+    p = free_flight(p)
+    p[2] = -np.inf
+    touching, spurious, error, steps = missed._rival_counts(method, p, drawn[:2], DEPTHS, 1e-8)
+    assert_allclose(touching, [[0, 0, 0, 2]] * len(DEPTHS))
+    assert not spurious.any() and np.isnan([error, steps]).all()
+
+
+def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
+    p, drawn = passages
+    monkeypatch.setattr(missed, "MOST_ENDS", 10)
+    assert missed._ends("merson", free_flight(p), drawn[0].state, PERIOD, 1e-8) is None
+
+
+def test_failed_runs_are_neither_found_nor_missed(counted):
+    """In table and figure alike: the share missed is that of the runs that came to their end."""
+    data = counted.copy(deep=True)
+    given = data.passage_count.sel(integrator="merson")
+    given[0] = 0
+    given.loc[{"contact_outcome": "failed"}][0] = data.passages.sel(integrator="merson")
+    assert missed_share(data).sel(integrator="merson")[0].isnull().all()
+    row = grazing({"missed_contacts": {"one": data}}).set_index("method").loc["merson"].iloc[0]
+    assert row["failed"] == row["contacts"] and np.isnan(row["half missed to depth"])
+    drawn = draw_missed_contacts(missed_contacts=[data])
+    assert any("failed" in text.get_text() for text in drawn.legends[0].get_texts())
 
 
 def test_wrong_arguments_are_told():

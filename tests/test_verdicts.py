@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 
 from impact_damper import verdicts as judged
 from impact_damper.datasets import flag
+from impact_damper.integrator_tables import verdicts as verdict_table
 from impact_damper.parameters import Damper
 
 QUIET = dict(
@@ -41,10 +42,10 @@ def test_settled_period_of_made_up_states():
     assert judged.settled_period(states) == 0
 
 
-def test_first_wrong():
-    assert judged.first_wrong(np.array([True, True])) == 0
-    assert judged.first_wrong(np.array([False, True, False, True])) == 3
-    assert judged.first_wrong(np.array([True, False])) == 2
+def test_where_right_begins():
+    assert judged.right_from(np.array([True, True])) == 0
+    assert judged.right_from(np.array([False, True, False, True])) == 3
+    assert judged.right_from(np.array([True, False])) == 2
 
 
 @pytest.mark.parametrize(
@@ -82,6 +83,11 @@ def test_verdicts_of_the_taylor_series_and_of_coarse_steps():
     assert failed.all()
     not_run = data.verdict.sel(verdict_method="LSODA") == flag("verdict", "not_run")
     assert not_run.all()
+    row = verdict_table({"verdicts": {"one": data}}).iloc[0]
+    assert (row["taylor"], row["heun"], row["LSODA"]) == (1e-6, "never right", "not run")
+    data.verdict.loc["quiet", "heun", 1e-6] = flag("verdict", "right")
+    row = verdict_table({"verdicts": {"one": data}}).iloc[0]
+    assert row["heun"] == "not at the strictest"
 
 
 def test_an_orbit_that_is_not_there_is_told():

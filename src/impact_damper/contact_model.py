@@ -31,7 +31,7 @@ SEEN = {
     "duration": "contact_time",
 }
 
-COUNTED = ("scene_outcome", "scene_contacts", "scene_unreleased")
+COUNTED = ("scene_outcome", "scene_without_pull_status", "scene_contacts", "scene_unreleased")
 
 
 def contact_model(

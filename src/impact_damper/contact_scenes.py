@@ -93,17 +93,22 @@ def scene(oscillator, damper, frequency, motion, periods):
         `logged_contacts`, None without a motion.
     """
     if motion is None:
-        return {"scene_outcome": flag("outcome", "absent")}, None
+        return {
+            "scene_outcome": flag("outcome", "absent"),
+            "scene_without_pull_status": flag("scene_without_pull_status", "absent"),
+        }, None
     seen = logged_contacts(oscillator, damper, frequency, motion["state"], periods)
     ends = [contact(damper.restitution, load, "zero_penetration") for load in seen["load"]]
     released = np.array([end.outcome == "released" for end in ends])
     restitution = np.array([end.departure for end in ends])
     duration = np.array([end.duration for end in ends]) / np.pi
     error = np.abs(seen["restitution"] / damper.restitution - 1)
+    displacement, status = without_pull(oscillator, damper, frequency, motion)
     table = {
         "scene_outcome": motion["outcome"],
         "scene_displacement": motion["maximum_displacement"],
-        "scene_without_pull": without_pull(oscillator, damper, frequency, motion),
+        "scene_without_pull": displacement,
+        "scene_without_pull_status": status,
         "scene_contacts": len(error),
         "scene_unreleased": np.sum(~released),
     }
@@ -128,18 +133,28 @@ def without_pull(oscillator, damper, frequency, motion):
     """max |Z1| of a settled motion for the restitution that walls without pull would return.
 
     The rule `no_tension` is mapped to the restitution it returns without load: the time in
-    contact stays that of the rule `zero_penetration`. NaN if the motion has not settled or
-    cannot be followed there.
+    contact stays that of the rule `zero_penetration`.
+
+    Returns
+    -------
+    displacement : float
+        NaN unless found.
+    status : int
+        Flag of `scene_without_pull_status`: whether the motion has settled, its orbit can be
+        followed there, and has as many contacts there.
     """
+    if not is_settled(motion):
+        return np.nan, flag("scene_without_pull_status", "not_settled")
     returned = contact(damper.restitution, 0.0, "no_tension").departure
     goal = replace(damper, restitution=min(returned, 1.0)).dashpot
     p, y = pack(oscillator, damper, frequency), motion["state"].copy()
-    if not is_settled(motion):
-        return np.nan
     if p[DASHPOT] == goal:
-        return motion["maximum_displacement"]
+        return motion["maximum_displacement"], flag("scene_without_pull_status", "found")
     period = int(motion["period"])
     orbits.follow(p, y, period, DASHPOT, goal, RESOLUTION, orbits.POLISH_TOLERANCE)
     if p[DASHPOT] != goal:
-        return np.nan
-    return recording.measured(p, y, period, orbits.POLISH_TOLERANCE)["maximum_displacement"]
+        return np.nan, flag("scene_without_pull_status", "not_followed")
+    record = recording.measured(p, y, period, orbits.POLISH_TOLERANCE)
+    if record["contacts"] != motion["contacts"]:
+        return np.nan, flag("scene_without_pull_status", "other_contacts")
+    return record["maximum_displacement"], flag("scene_without_pull_status", "found")

@@ -65,6 +65,9 @@ def contact_motions(datasets) -> pd.DataFrame:
                     "outcome": extract.meaning("scene_outcome", int(motion.scene_outcome)),
                     "max |Z1|": size,
                     "change without pull": float(motion.scene_without_pull) / size - 1,
+                    "without pull": extract.meaning(
+                        "scene_without_pull_status", int(motion.scene_without_pull_status)
+                    ),
                     "contacts": int(motion.scene_contacts),
                     "99 % of |load| below": float(motion.scene_load),
                     "within 1 % of e": float(motion.scene_close),

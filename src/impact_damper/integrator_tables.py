@@ -4,6 +4,8 @@ import numpy as np
 import pandas as pd
 
 from impact_damper.claims import extract
+from impact_damper.datasets import flag
+from impact_damper.missed_contacts import missed_share
 
 
 def grazing(datasets) -> pd.DataFrame:
@@ -15,7 +17,7 @@ def grazing(datasets) -> pd.DataFrame:
             for i, tolerance in enumerate(data.method_tolerance.values):
                 of = data.sel(integrator=method).isel(method_tolerance=i)
                 counts = of.passage_count.sum("depth")
-                missed = 1 - of.passage_count.sel(contact_outcome="found") / of.passages
+                missed = missed_share(of)
                 deep = data.depth.values[missed.values >= 0.5]
                 fixed = method == "runge_kutta_4"
                 rows.append(
@@ -30,6 +32,7 @@ def grazing(datasets) -> pd.DataFrame:
                         "found": int(counts.sel(contact_outcome="found")),
                         "unseen": int(counts.sel(contact_outcome="unseen")),
                         "not reached": int(counts.sel(contact_outcome="not_reached")),
+                        "failed": int(counts.sel(contact_outcome="failed")),
                         "spurious": int(of.spurious_count.sum()),
                         "half missed to depth": deep.max() if len(deep) else np.nan,
                     }
@@ -71,7 +74,11 @@ def steps(datasets) -> pd.DataFrame:
 
 
 def verdicts(datasets) -> pd.DataFrame:
-    """The loosest tolerance, or fewest steps, from which on each method's verdict is right."""
+    """The loosest tolerance, or fewest steps, from which on each method's verdict is right.
+
+    In words where there is none: the method was not run on the scene, was never right, or was
+    right somewhere but not at the strictest tolerance.
+    """
     rows = []
     for data in datasets.get("verdicts", {}).values():
         for scene in data.scene.values:
@@ -87,8 +94,18 @@ def verdicts(datasets) -> pd.DataFrame:
                     "periods run": int(of.scene_periods),
                 }
                 | {
-                    str(method): float(of.right_from.sel(verdict_method=method))
+                    str(method): _right_from(of.sel(verdict_method=method))
                     for method in data.verdict_method.values
                 }
             )
     return pd.DataFrame(rows)
+
+
+def _right_from(data):
+    """Where a method's verdicts on a scene begin to be right, or why there is no such place."""
+    if np.isfinite(data.right_from):
+        return float(data.right_from)
+    if (data.verdict == flag("verdict", "not_run")).all():
+        return "not run"
+    right = (data.verdict == flag("verdict", "right")).any()
+    return "not at the strictest" if right else "never right"

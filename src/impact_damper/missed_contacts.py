@@ -18,33 +18,42 @@ from impact_damper.rivals import fixed_step, merson, scipy_methods
 from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
 
 METHODS = ("taylor", "runge_kutta_4", "merson", *scipy_methods.METHODS)
-OUTCOMES = ("found", "unseen", "not_reached")
+OUTCOMES = ("found", "unseen", "not_reached", "failed")
 MOST_ENDS = 10**5
 
 
 def _ends(method, p, state, end, resolution):
-    """Times and states at the ends of a method's steps in flight over [0, end], the start first."""
+    """Times and states at the ends of a method's steps in flight over [0, end], the start first.
+
+    None if the run fails, or takes more than `MOST_ENDS` steps.
+    """
     first = np.array([[0.0, *state]])
     if method == "runge_kutta_4":
         rows = np.empty((resolution, 5))
         fixed_step.fixed_ends(fixed_step.RUNGE_KUTTA_4, p, state, 0.0, end / resolution, rows)
+        if not np.abs(rows[:, 1:]).max() < fixed_step.BEYOND:
+            return None
         return np.concatenate([first, rows])
     rows = np.empty((MOST_ENDS, 5))
     start = 1e-3 * end
     _, _, steps, _, _ = merson.advance_merson(
         p, state.copy(), 0, 0.0, end, start, resolution, False, rows
     )
+    if not 0 <= steps <= MOST_ENDS:
+        return None
     return np.concatenate([first, rows[:steps]])
 
 
 def _own_largest(method, p, passage, end, resolution):
-    """A method's |Z2| at the ends of its steps, and at the time of the true extremum."""
+    """A method's |Z2| at the ends of its steps, and at the time of the true extremum, or None."""
     if method in scipy_methods.METHODS:
-        _, states, interpolant = scipy_methods.flight_steps(
+        states, interpolant, success = scipy_methods.flight_steps(
             method, p, passage.state, 0.0, end, resolution
         )
-        return np.abs(states[:, 2]), abs(interpolant(passage.time)[2])
+        return (np.abs(states[:, 2]), abs(interpolant(passage.time)[2])) if success else None
     rows = _ends(method, p, passage.state, end, resolution)
+    if rows is None:
+        return None
     last = rows[rows[:, 0] <= passage.time][-1]
     part = np.empty((1, 5))
     number = fixed_step.RUNGE_KUTTA_4 if method == "runge_kutta_4" else fixed_step.MERSON
@@ -59,7 +68,11 @@ def _rival_counts(method, p, passages, depths, resolution):
     spurious = np.zeros(len(depths), int)
     steps, errors = 0, []
     for passage in passages:
-        ends, own = _own_largest(method, p, passage, end, resolution)
+        run = _own_largest(method, p, passage, end, resolution)
+        if run is None:
+            touching[:, 3] += 1
+            continue
+        ends, own = run
         steps += len(ends) - 1
         errors.append(abs(own - passage.extremum))
         seen = ends.max() > passage.extremum - depths
@@ -68,7 +81,9 @@ def _rival_counts(method, p, passages, depths, resolution):
         touching[:, 1] += ~seen & reached
         touching[:, 2] += ~seen & ~reached
         spurious += ends.max() > passage.extremum + depths
-    return touching, spurious, np.median(errors), steps / len(passages)
+    if not errors:
+        return touching, spurious, np.nan, np.nan
+    return touching, spurious, np.median(errors), steps / len(errors)
 
 
 def _taylor_counts(p, passages, depths, tolerance):
@@ -76,14 +91,16 @@ def _taylor_counts(p, passages, depths, tolerance):
     states = np.array([passage.state for passage in passages])
     extrema = np.array([passage.extremum for passage in passages])
     own = np.array([_taylor_largest(p, passage, tolerance) for passage in passages])
+    failed = ~np.isfinite(own)
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
     for i, depth in enumerate(depths):
         seen = _taylor_seen(p, states, extrema - depth, tolerance)
         reached = own > extrema - depth
-        touching[i] = seen.sum(), (~seen & reached).sum(), (~seen & ~reached).sum()
-        spurious[i] = _taylor_seen(p, states, extrema + depth, tolerance).sum()
-    return touching, spurious, np.median(np.abs(own - extrema))
+        outcomes = seen, ~seen & reached, ~seen & ~reached
+        touching[i] = *(np.sum(each & ~failed) for each in outcomes), failed.sum()
+        spurious[i] = np.sum(_taylor_seen(p, states, extrema + depth, tolerance) & ~failed)
+    return touching, spurious, np.nanmedian(np.abs(own - extrema))
 
 
 def _taylor_seen(p, states, clearances, tolerance):
@@ -101,6 +118,14 @@ def _taylor_largest(p, passage, tolerance):
     states = np.empty((2, 4))
     trace(free_flight(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
     return abs(states[0, 2])
+
+
+def missed_share(data):
+    """Share of the runs that came to their end which miss the contact, NaN where none did."""
+    failed = data["passage_count"].sel(contact_outcome="failed")
+    found = data["passage_count"].sel(contact_outcome="found")
+    ended = data["passages"] - failed
+    return 1 - found / ended.where(ended > 0)
 
 
 def missed_contacts(
@@ -142,10 +167,12 @@ def missed_contacts(
     xarray.Dataset
         `passage_count` over (integrator, method_tolerance, depth, contact_outcome): contacts found;
         unseen, where the method's own motion passes the wall between two steps; and not reached,
-        where the error of its motion exceeds the depth. `spurious_count`: contacts reported
-        where there is none. `motion_error`: the median over passages of the error of the largest
-        |Z2|. `expected_unseen`, for fixed steps, of steps h that fall at random on
-        a time beyond the wall of 2 sqrt(2 depth/|Z2''|): the mean of max(0, 1 - that time/h).
+        where the error of its motion exceeds the depth; and failed, where the run did not come to
+        its end. `spurious_count`: contacts reported where there is none. `motion_error`: the
+        median of the error of the largest |Z2|; this and `mean_steps` are over the passages that
+        did not fail, NaN if all did. `expected_unseen`, for fixed steps, of steps h that
+        fall at random on a time beyond the wall of 2 sqrt(2 depth/|Z2''|): the mean of
+        max(0, 1 - that time/h).
 
     Raises
     ------

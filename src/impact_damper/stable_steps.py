@@ -80,7 +80,7 @@ def quiet_orbits(oscillator, damper, frequency, stiffnesses) -> list:
     """The quiet orbit at each stiffness r1, followed from that of the damper, or None."""
     start = quiet_state(pack(oscillator, damper, frequency))
     if start is None:
-        raise ValueError(
+        raise ArithmeticError(
             f"damper = {damper!r}: has no quiet motion at frequency = {frequency:g}, from which "
             "the stiffness is varied"
         )
@@ -168,8 +168,10 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
 
     Raises
     ------
+    ArithmeticError
+        If there is no quiet motion.
     TypeError, ValueError
-        If an argument is not of its kind or out of range, or there is no quiet motion.
+        If an argument is not of its kind or out of range.
     """
     check_damper(damper)
     check_count("periods", periods, most=10**6)

@@ -188,7 +188,7 @@ def judge(states, scene):
     return "wrong_branch" if found == landed else "wrong_period"
 
 
-def first_wrong(right):
+def right_from(right):
     """Index from which on a row of verdicts is right to its end, its length if it ends wrong."""
     wrong = np.flatnonzero(~right)
     return wrong[-1] + 1 if len(wrong) else 0
@@ -229,7 +229,7 @@ def verdicts(scenes, tolerances, steps):
     steps = np.array(steps[::-1])
     shape = (len(scenes), len(METHODS), len(tolerances))
     found = np.full(shape, flag("verdict", "not_run"))
-    right_from = np.full(shape[:2], np.nan)
+    resolution = np.full(shape[:2], np.nan)
     for i, scene in enumerate(scenes.values()):
         for m, method in enumerate(METHODS):
             resolutions = [int(n) for n in steps] if method in FIXED else tolerances
@@ -241,12 +241,12 @@ def verdicts(scenes, tolerances, steps):
                 name = judge(_strobes(method, scene, resolutions[j]), scene)
                 found[i, m, j] = flag("verdict", name)
             loosest_first = run[::-1]
-            k = first_wrong(found[i, m, loosest_first] == flag("verdict", "right"))
+            k = right_from(found[i, m, loosest_first] == flag("verdict", "right"))
             if k < len(run):
-                right_from[i, m] = resolutions[loosest_first[k]]
+                resolution[i, m] = resolutions[loosest_first[k]]
     data = {
         "verdict": found,
-        "right_from": right_from,
+        "right_from": resolution,
         "verdict_steps": steps,
         "scene_multiplier": np.array([scene.multiplier for scene in scenes.values()]),
         "scene_period": np.array([scene.period for scene in scenes.values()]),

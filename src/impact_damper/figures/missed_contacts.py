@@ -14,6 +14,7 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
+from impact_damper.missed_contacts import missed_share
 
 NAMES = {
     "taylor": "Taylor series, events",
@@ -45,12 +46,16 @@ def draw_missed_contacts(*, missed_contacts):
     depths = data["depth"].values
     for axes, name in zip(panels, data["integrator"].values, strict=False):
         of = data.sel(integrator=name)
-        counts = of["passage_count"] / of["passages"]
-        missed = 1 - counts.sel(contact_outcome="found").values
         fixed = name == "runge_kutta_4"
         y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
         image = axes.pcolormesh(
-            edges(depths), edges(y), missed, cmap="cividis_r", vmin=0, vmax=1, rasterized=True
+            edges(depths),
+            edges(y),
+            missed_share(of),
+            cmap="cividis_r",
+            vmin=0,
+            vmax=1,
+            rasterized=True,
         )
         axes.plot(of["motion_error"], y, color=VERMILION, label="median error of the motion")
         if fixed:
@@ -58,6 +63,10 @@ def draw_missed_contacts(*, missed_contacts):
             axes.contour(depths, y, expected, [0.5], colors=BLACK, linestyles="--", linewidths=1.1)
         i, j = np.nonzero(of["spurious_count"].values)
         axes.plot(depths[j], y[i], ".", color=SKY, markersize=2.2, markeredgewidth=0)
+        failed = of["passage_count"].sel(contact_outcome="failed").values
+        i, j = np.nonzero(failed)
+        if len(i) > 0:
+            axes.plot(depths[j], y[i], "x", color=VERMILION, markersize=3, label="some runs failed")
         axes.set(xscale="log", yscale="log", xlim=edges(depths)[[0, -1]], ylim=edges(y)[[0, -1]])
         axes.set_title(NAMES[name], loc="right", fontsize=8)
         axes.xaxis.set_major_locator(LogLocator(numticks=5))

@@ -22,7 +22,7 @@ def derivative(t, y, p, side):
 
 
 def flight_steps(method, p, y, t, end, tolerance):
-    """Times and states (n, 4) at the ends of the steps in flight, and SciPy's interpolant."""
+    """States (n, 4) at the ends of the steps in flight, SciPy's interpolant, and its success."""
     with np.errstate(all="ignore"):
         run = solve_ivp(
             derivative,
@@ -34,7 +34,7 @@ def flight_steps(method, p, y, t, end, tolerance):
             atol=tolerance,
             dense_output=True,
         )
-    return run.t, run.y.T, run.sol
+    return run.y.T, run.sol, run.success
 
 
 class _TooManyEvaluations(Exception):

@@ -40,6 +40,17 @@ VARIABLES = {
     "scene_without_pull": Variable(
         SCENE, "the same with the restitution that walls without pull return", "max |Z1|"
     ),
+    "scene_without_pull_status": Variable(
+        SCENE,
+        "whether that motion was found",
+        flags={
+            "absent": -1,
+            "found": 0,
+            "not_settled": 1,
+            "not_followed": 2,
+            "other_contacts": 3,
+        },
+    ),
     "scene_contacts": Variable(SCENE, "contacts logged"),
     "scene_load": Variable(SCENE, "|load| that 99 % of the contacts do not exceed"),
     "scene_close": Variable(SCENE, "share of contacts with a restitution within 1 % of e"),

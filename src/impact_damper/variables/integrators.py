@@ -1,4 +1,4 @@
-"""Where integrators fail: contacts missed near grazing, stable steps, first wrong verdicts."""
+"""Where integrators fail: contacts missed near grazing, stable steps, verdicts."""
 
 from impact_damper.variables.variable import Variable
 
@@ -29,16 +29,19 @@ VARIABLES = {
     "contact_outcome": Variable(("contact_outcome",), "what a method makes of a contact"),
     "passage_count": Variable(
         ("integrator", "method_tolerance", "depth", "contact_outcome"),
-        "contacts found, passed unseen between steps, and not reached by the method's own motion",
+        "contacts found, passed unseen between steps, not reached by the method's own motion, and "
+        "runs that failed",
     ),
     "spurious_count": Variable(
         ("integrator", "method_tolerance", "depth"), "contacts reported where there is none"
     ),
     "mean_steps": Variable(
-        ("integrator", "method_tolerance"), "mean steps a forcing period in flight"
+        ("integrator", "method_tolerance"),
+        "mean steps a forcing period in flight, without runs that failed",
     ),
     "motion_error": Variable(
-        ("integrator", "method_tolerance"), "median error of the largest |Z2| of a passage"
+        ("integrator", "method_tolerance"),
+        "median error of the largest |Z2| of a passage, without runs that failed",
     ),
     "passages": Variable(("integrator",), "passages run for each tolerance"),
     "passages_drawn": Variable((), "random flights drawn to find the passages"),
