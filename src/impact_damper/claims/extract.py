@@ -126,6 +126,9 @@ def largest_multiplier(orbit):
 
 
 def stable_from(orbit):
-    """Damping above which the quiet orbit of a `design_orbit` is stable."""
-    value = orbit.followed_value.values
-    return float(np.max(value[largest_multiplier(orbit) >= 1], initial=value.min()))
+    """Damping above which the quiet orbit of a `design_orbit` is stable: the event there."""
+    value, events = orbit.followed_value.values, orbit.event_value.values
+    last = np.max(value[largest_multiplier(orbit) >= 1], initial=value.min())
+    return float(
+        np.min(events[events >= last], initial=value.max()) if last > value.min() else last
+    )
