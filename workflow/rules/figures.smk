@@ -1,7 +1,6 @@
-# Kinds of figures: the category of each in the report. A kind has a script, a caption, and
-# a place in SECTIONS of `contradictions.py`.
+# Kinds of figures of data: the category of each in the report. A kind has a module, a caption,
+# and a place in SECTIONS of `contradictions.py`.
 KINDS = {
-    "schematic": "Models and schemes",
     "free": "Free oscillator",
     "design": "Harmonic balance",
     "motion": "Frequency responses",
@@ -51,6 +50,34 @@ rule caption:
         "../scripts/caption.py"
 
 
+rule draw_schematic:
+    input:
+        code=code("draw_schematic.py"),
+    output:
+        pdf="<results>/figures/{figure}.pdf",
+        png=report(
+            "<results>/figures/{figure}.png",
+            caption="../report/schematic.rst",
+            category="Models and schemes",
+            labels={"figure": "{figure}"},
+        ),
+    log:
+        "<logs>/figures/{figure}.log",
+    benchmark:
+        "<benchmarks>/figures/{figure}.tsv"
+    wildcard_constraints:
+        figure=one_of(figures("schematic")),
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    params:
+        job=figure_job,
+    message:
+        "Drawing {wildcards.figure}"
+    script:
+        "../scripts/draw_schematic.py"
+
+
 for kind, category in KINDS.items():
 
     rule:
@@ -58,7 +85,7 @@ for kind, category in KINDS.items():
             f"draw_{kind}"
         input:
             unpack(figure_data),
-            code=code(f"draw_{kind}.py"),
+            code=figure_code,
         output:
             pdf="<results>/figures/{figure}.pdf",
             png=report(
@@ -78,8 +105,8 @@ for kind, category in KINDS.items():
         threads: 1
         params:
             job=figure_job,
+            module=figure_module,
         message:
             "Drawing {wildcards.figure}"
-        # Read when the job runs, where the loop's own variable would be the last kind.
         script:
-            "../scripts/draw_{params.job[kind]}.py"
+            "../scripts/draw.py"

@@ -239,12 +239,22 @@ def drawn(kind, name):
     return {key: entry[key] for key in keys} | parts
 
 
+def figure_module(wildcards):
+    """Full name of the module that draws a figure; it is called as the kind, but for two."""
+    kind = config["figures"][wildcards.figure]["kind"]
+    others = {"release": "migration", "branches": "orbits"}
+    return f"impact_damper.figures.{others.get(kind, kind)}"
+
+
+def figure_code(wildcards):
+    """Sources of the drawing script and of the module that draws a figure."""
+    return code("draw.py", module_file(figure_module(wildcards)))
+
+
 def figure_data(wildcards):
     """Files that a figure draws, by stage."""
     figure = config["figures"][wildcards.figure]
     kind, chosen = figure["kind"], figure["data"]
-    if kind == "schematic":
-        return {}
     if kind == "free":
         return {"free_branches": data("free_branches", chosen)}
     if kind in ("response", "branches"):

@@ -1,0 +1,19 @@
+"""Every figure of data: the function `draw_<kind>`, in the module that draws the kind."""
+
+import sys
+from importlib import import_module
+from pathlib import Path
+
+from impact_damper.datasets import load
+from impact_damper.figures.style import save
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+draw = getattr(import_module(snakemake.params.module), f"draw_{snakemake.params.job['kind']}")
+drawing = draw(
+    **{
+        stage: [load(path) for path in paths]
+        for stage, paths in snakemake.input.items()
+        if stage != "code"
+    }
+)
+save(drawing, Path(snakemake.output.pdf).with_suffix(""))
