@@ -59,15 +59,7 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
     ArithmeticError
         If Newton's method does not converge.
     """
-    check_count("period", period, most=1000)
-    check_number("phase", phase)
-    p = pack(oscillator, damper, frequency)
-    orbit = find_orbit(p, check_state(state, damper), period, phase)
-    if not orbit.converged:
-        raise ArithmeticError(
-            f"no orbit of period {period} found: Newton's method left a residual of "
-            f"{orbit.residual:.2g}; a state closer to it, or another period, is needed"
-        )
+    orbit = _found(oscillator, damper, frequency, state, period, phase)
     log = orbit.contacts
     data = _orbits([(frequency, orbit)]) | {
         "orbit_branch": np.zeros(1, int),
@@ -111,8 +103,7 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
         If Newton's method finds no orbit near the state.
     """
     family, value, span = family_of(oscillator, damper, frequency, parameter, span)
-    periodic_orbit(oscillator, damper, frequency, state, period=period)
-    orbit = find_orbit(family(value), check_state(state, damper), period)
+    orbit = _found(oscillator, damper, frequency, state, period, STROBE)
     branch = follow_branch(family, orbit, value, span)
     made = describe(oscillator, damper) | {
         "frequency": float(frequency),
@@ -158,6 +149,20 @@ def complete_branches(oscillator, damper, frequencies, motions):
     data = branches_dataset(branches, float, made, "Branches of periodic orbits")
     counts = dataset({"seeds": seeds, "seeds_lost": lost}, {}, made, data.attrs["title"])
     return data.assign(counts.variables)
+
+
+def _found(oscillator, damper, frequency, state, period, phase):
+    """The orbit near a state, or an error that says what is wrong or that there is none."""
+    check_count("period", period, most=1000)
+    check_number("phase", phase)
+    p = pack(oscillator, damper, frequency)
+    orbit = find_orbit(p, check_state(state, damper), period, phase)
+    if not orbit.converged:
+        raise ArithmeticError(
+            f"no orbit of period {period} found: Newton's method left a residual of "
+            f"{orbit.residual:.2g}; a state closer to it, or another period, is needed"
+        )
+    return orbit
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
