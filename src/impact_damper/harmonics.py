@@ -171,7 +171,7 @@ def hill_table(solutions, exact):
         if solution.status == "converged":
             found = hill.exponents(solution)
             status[k] = flag("hill_status", found.status)
-            multipliers[k] = np.exp(found.values * period)
+            multipliers[k] = found.multipliers(period)
             traces[k] = np.sum(found.values.real)
     return {
         "hill_status": status,
