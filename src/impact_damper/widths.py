@@ -1,0 +1,49 @@
+"""The step compiled for a number of lanes and the orders of its series."""
+
+import importlib.util
+import os
+import sys
+from functools import cache
+from pathlib import Path
+
+from impact_damper.accelerate import CACHE_DIRECTORY
+from impact_damper.series import SERIES, SINGLE, Writer
+
+FLIGHT_ORDER = 20
+CONTACT_ORDER = 25
+
+
+@cache
+def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
+    """The functions of `step`, compiled for a number of lanes and the orders of the series.
+
+    Their source is written to a module beside the compiled kernels, whose directory is named
+    by the digest of all sources.
+    """
+    name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
+    path = CACHE_DIRECTORY / f"{name}.py"
+    if not path.exists():
+        part = path.with_name(f"{path.name}.part-{os.getpid()}")
+        part.write_text(_source(Writer(lanes, flight_order, contact_order)))
+        os.replace(part, path)
+    specification = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[name] = module
+    specification.loader.exec_module(module)
+    return module
+
+
+def _source(writer):
+    """Constants, the series, and the step."""
+    constants = {
+        "LANES": writer.lanes,
+        "TANGENTS": writer.tangents,
+        "FLIGHT_ORDER": writer.orders["flight"],
+        "CONTACT_ORDER": writer.orders["contact"],
+        "SIZE": writer.rows["ROWS"] * writer.lanes,
+        "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
+    }
+    constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
+    lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
+    step = Path(__file__).with_name("step.py").read_text()
+    return lines + "\n" + writer.source() + "\n\n" + step
