@@ -41,6 +41,7 @@ WITH_OSCILLATOR = (
     "missed_contacts",
     "stable_steps",
     "verdicts",
+    "scenes",
 )
 
 # Ranges of the entries of a section, that ascend.
