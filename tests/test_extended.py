@@ -1,11 +1,13 @@
 """The 80-bit reference against another method, heyoka.py in the same digits, laws and itself."""
 
+import json
 import math
 
 import extended
 import numpy as np
 import pytest
 from conftest import DESIGN, INELASTIC, PAPER, STARTS
+from extended import scenes
 
 from impact_damper.parameters import Damper, Oscillator, pack
 
@@ -182,3 +184,21 @@ def test_heyoka_in_the_same_digits(case):
     run = extended.run(alone, state, start, times)
     motion.propagate_until(Real(times[-1]))
     assert np.max(np.abs(motion.state - run.states[-1, :2])) < 10 * DIGITS * run.growth
+
+
+@pytest.mark.parametrize(
+    "name, p, state, periods", scenes.scenes(), ids=lambda part: str(part)[:20]
+)
+def test_stored_references_are_what_the_program_gives(name, p, state, periods):
+    """To the last digits but two, in which C libraries may differ."""
+    stored = json.loads(scenes.FILE.read_text(), parse_float=Real)[name]
+    made = scenes.reference(p, state, periods)
+    text = json.loads(scenes.as_text({name: made}), parse_float=Real)[name]
+    assert list(stored) == list(text)
+    assert stored["parameters"] == text["parameters"]
+    allowed = 10 * DIGITS * made["growth"]
+    assert made["error"] < allowed
+    for key in ("start", "end", "first", "state", "amplitude", "last_amplitude", "contacts"):
+        ours, theirs = (np.array(part[key], Real) for part in (stored, text))
+        assert ours.shape == theirs.shape
+        assert np.max(np.abs(ours - theirs), initial=0) < allowed
