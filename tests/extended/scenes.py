@@ -21,7 +21,8 @@ contacts
     Rows of wall, beginning, end, Z2' at both; null where a contact has not ended.
 error, contact_error
     Largest difference of state and extremes, and of the contacts, from a run with another
-    tolerance and shorter steps. A grazing contact's time is known as well as the gap over the speed.
+    tolerance and shorter steps. The time of a grazing contact is known as well as the gap is, over
+    the speed.
 growth
     Largest norm of the flow's derivative from an instant of the run to its end (see `Run`).
 margin
