@@ -21,6 +21,7 @@ SECTIONS = {
     "stable_steps": "stable_steps",
     "verdicts": "verdicts",
     "balance_map": "balance_map",
+    "accuracy": "scenes",
 }
 
 # What a figure of the kind `schematic` may name instead.

@@ -20,6 +20,7 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from impact_damper.kernel import side_of, step, workspace
 from impact_damper.recording import measured, trace
+from impact_damper.rigid import MOST_IMPACTS, rebound, rigid_map
 from impact_damper.rivals import scipy_methods
 from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
@@ -114,6 +115,35 @@ def step_work(side, tangents=0):
     """Operations of one step of the Taylor series with so many tangents."""
     rounds = CONTACT_ROUNDS if side != 0 else FLIGHT_ROUNDS
     return operations(step, rounds, side=side, tangents=np.empty((tangents, 4)))
+
+
+def rigid(p, restitution, start, t, periods, tolerance):
+    """By the rigid-impact model, in the steps of the Taylor series in flight, from the strobe on.
+
+    A peak is the largest |Z1| of a period, its time the middle of it.
+    """
+    p = p.copy()
+    p[6] = 0.0
+    y, none, work = start.copy(), np.empty((0, 4)), workspace()
+    period, steps = 2 * math.pi / p[0], 0
+    began, peaks = [], []
+    for k in range(periods):
+        _, _, impacts, _, _, largest = rigid_map(p, restitution, y, tolerance)
+        peaks.append(largest)
+        if impacts == MOST_IMPACTS:
+            return stopped("failed", steps * step_work(0))
+        now, end = t, t + period
+        while now < end:
+            length, side = step(p, y, none, 0, now, end - now, tolerance, work)
+            now = end if length >= end - now else now + length
+            steps += 1
+            if side != 0:
+                began.append(now + k * period)
+                rebound(p, restitution, y, none, now)
+    middles = t + period * (np.arange(periods) + 0.5)
+    peaks = np.array(peaks)
+    done = steps * step_work(0), y, np.array(began), middles, peaks, float(np.max(peaks))
+    return Run("ended", *done)
 
 
 def runge_kutta_merson(p, start, t, periods, tolerance, locate):

@@ -17,6 +17,7 @@ KINDS = {
     "stable_steps": "Where methods fail",
     "verdicts": "Where methods fail",
     "balance_map": "Where methods fail",
+    "accuracy": "Speed against accuracy",
 }
 
 

@@ -137,3 +137,13 @@ def verdicts_job(wildcards):
         "oscillator": oscillator_of(given["oscillator"]),
         "contact_stiffness": config["contact_stiffness"],
     }
+
+
+def accuracy_job(wildcards):
+    scene = config["scenes"][wildcards.scene]
+    return {
+        "oscillator": oscillator_of(scene["oscillator"]),
+        "damper": damper_of(scene) if "mass_ratio" in scene else None,
+        **{key: scene[key] for key in ("frequency", "state", "periods", "motion", "accuracy")},
+        "settings": config["comparison"],
+    }

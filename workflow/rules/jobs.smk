@@ -23,6 +23,7 @@ STAGES = {
     "stable_steps": "stable_steps",
     "verdicts": "verdicts",
     "balance_map": "balance_map",
+    "accuracy": "scenes",
 }
 
 # Stages whose data a table holds.
@@ -44,6 +45,7 @@ TABLES = {
     "steps": ["stable_steps"],
     "verdicts": ["verdicts"],
     "balance_map": ["balance_map"],
+    "models": ["accuracy"],
     "claims": [
         "design",
         "design_orbit",
@@ -72,6 +74,7 @@ TABLE_MODULES = {
     "steps": "integrator_tables",
     "verdicts": "integrator_tables",
     "balance_map": "balance_map_table",
+    "models": "accuracy_tables",
 }
 
 
