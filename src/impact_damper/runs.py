@@ -181,7 +181,7 @@ def scipy_run(method, p, start, t, periods, tolerance, locate, most_evaluations)
     except scipy_methods.TooManyEvaluations:
         status = "capped"
     each = operations(rate) + COMBINING[method]
-    work = counted.evaluations * each + counted.factorisations * FACTORISING[method]
+    work = float(counted.evaluations * each + counted.factorisations * FACTORISING[method])
     if status != "ended":
         return stopped(status, work)
     return read_off(p, work, np.concatenate(times), np.concatenate(ends))

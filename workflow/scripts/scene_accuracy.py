@@ -11,11 +11,12 @@ from impact_damper.parameters import Damper, Oscillator
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
 job = dict(snakemake.params.job)
 settings, damper = job.pop("settings"), job.pop("damper")
+name = snakemake.wildcards.scene
 scene = Scene(
-    Oscillator(**job.pop("oscillator")), None if damper is None else Damper(**damper), **job
+    name, Oscillator(**job.pop("oscillator")), None if damper is None else Damper(**damper), **job
 )
 references = json.loads(Path(snakemake.input.references).read_text())
 save(
-    error_against_work(scene, settings, references.get(snakemake.wildcards.scene)),
+    error_against_work(scene, settings, references.get(name)),
     snakemake.output[0],
 )
