@@ -53,6 +53,8 @@ class Scene(NamedTuple):
         well; "transient"; or "chaotic".
     accuracy : dict
         The error that can be borne, by quantity of `ERRORS` or, chaotic, of `AVERAGES`.
+    tolerance : float or None
+        That of the Taylor series with which stages run motions like it, if any do.
     """
 
     name: str
@@ -63,6 +65,7 @@ class Scene(NamedTuple):
     periods: int
     motion: str
     accuracy: dict
+    tolerance: object = None
 
     @property
     def p(self):
@@ -147,6 +150,7 @@ def error_against_work(scene, settings, stored=None):
         "periods": scene.periods,
         "motion": scene.motion,
         "accuracy": scene.accuracy,
+        "tolerance": scene.tolerance,
     }
     coordinates = {"component": list(COMPONENTS), "statistic": list(statistics.STATISTICS)}
     return dataset(data, coordinates, made, "Error of methods against counted work")
@@ -316,3 +320,25 @@ def _averages(scene, settings):
         "reference_average": truth,
         "reference_average_error": truth_error,
     }
+
+
+def choice(data, methods=METHODS):
+    """Number of the run with the least work that meets the accuracy; None if none does."""
+    meets = (data["meets_accuracy"].values == flag("meets_accuracy", "yes")) & np.isin(
+        data["method"].values, methods
+    )
+    work = np.where(meets, data["operations"].values, np.inf)
+    return int(np.argmin(work)) if meets.any() else None
+
+
+def loosest_tolerance(data):
+    """The tolerance of the Taylor series from which on all tighter ones meet the accuracy, or None.
+
+    It is the one with the least work of those.
+    """
+    of = data["method"].values == "taylor"
+    tolerances = data["setting"].values[of]
+    meets = data["meets_accuracy"].values[of] == flag("meets_accuracy", "yes")
+    order = np.argsort(tolerances)
+    held = np.cumprod(meets[order]).astype(bool)
+    return float(tolerances[order][held].max()) if held.any() else None

@@ -76,6 +76,10 @@ def contradictions(config):
     if settling["limit"] < settling["patience"]:
         reason = f"must be at least settling.patience = {settling['patience']} (it comes later)"
         yield problem(["settling", "limit"], settling["limit"], reason)
+    served = [name for name, scene in config["scenes"].items() if "tolerance" in scene]
+    yield from _unknown(["settling", "scene"], settling["scene"], served)
+    for name, scene in config["scenes"].items():
+        yield from _wrong_scene(["scenes", name], scene)
     for name, model in config["contact_model"].items():
         if model["smallest_restitution"] == 1:
             reason = "must be less than 1 (where the map ends)"
@@ -148,6 +152,19 @@ def _part_of_damper(path, scene):
         for key in sorted(set(keys) - set(given)):
             words = f"needed with {', '.join(given)} (a damper is whole or absent)"
             yield f"{dotted([*path, key])}: missing; {words}"
+
+
+def _wrong_scene(path, scene):
+    if "mass_ratio" not in scene and scene["motion"] == "chaotic":
+        yield problem([*path, "motion"], "chaotic", "must have a damper (a free one is not)")
+    given = {key for key in ("mass_ratio", "clearance", "restitution") if key in scene}
+    for key in sorted({"mass_ratio", "clearance", "restitution"} - given) if given else ():
+        yield f"{dotted([*path, key])}: missing; needed with {', '.join(sorted(given))}"
+    averages = {"contact_rate", "displacement", "exponent"}
+    for key in scene["accuracy"]:
+        if (key in averages) != (scene["motion"] == "chaotic"):
+            reason = f"must be of another quantity (a {scene['motion']} motion is asked)"
+            yield problem([*path, "accuracy", key], scene["accuracy"][key], reason)
 
 
 def _wrong_map(path, entry):

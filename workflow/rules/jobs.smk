@@ -114,6 +114,12 @@ def search(starts):
     return {"starts": given[starts], "radius": given["radius"], "seed": config["seed"]}
 
 
+def settling():
+    """How motions are run, at the tolerance of the scene that is named."""
+    given = {key: value for key, value in config["settling"].items() if key != "scene"}
+    return given | {"tolerance": config["scenes"][config["settling"]["scene"]]["tolerance"]}
+
+
 def free_design_job(wildcards):
     return {
         "oscillator": oscillator_of(wildcards.oscillator),
@@ -135,7 +141,7 @@ def free_job(wildcards):
         "oscillator": oscillator_of(wildcards.oscillator),
         "frequencies": frequencies_of(wildcards.oscillator, "free"),
         "search": search("starts"),
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -146,7 +152,7 @@ def response_job(wildcards):
         "damper": damper_of(curve),
         "frequencies": frequencies_of(curve["oscillator"], "simulated"),
         "search": search("starts"),
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -156,7 +162,7 @@ def motion_job(wildcards):
         "oscillator": oscillator_of(motion["oscillator"]),
         "damper": damper_of(motion),
         "frequency": motion["frequency"],
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -179,7 +185,7 @@ def optimum_job(wildcards):
         "frequency": optimum["frequency"],
         "clearances": grid(optimum["clearances"], "clearances"),
         "search": search("sweep_starts"),
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -191,7 +197,7 @@ def migration_job(wildcards):
         "frequency": run["frequency"],
         "controller": config["controller"] | {"longest_hold": run["longest_hold"]},
         "seed": config["seed"],
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -204,7 +210,7 @@ def release_scan_job(wildcards):
         "search": search("scan_starts"),
         "releases": config["controller"]["releases"],
         "lifetime": scan["lifetime"],
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
