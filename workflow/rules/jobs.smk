@@ -225,8 +225,12 @@ def one_of(choices):
 
 
 def figure_job(wildcards):
+    return figure_entry(wildcards.figure)
+
+
+def figure_entry(name):
     """A figure's entry, with the parameters of what it draws in place of the names alone."""
-    figure = config["figures"][wildcards.figure]
+    figure = config["figures"][name]
     return figure | {"data": {name: drawn(figure["kind"], name) for name in figure["data"]}}
 
 
@@ -277,9 +281,9 @@ def figure_data(wildcards):
     return {stage: data(stage, chosen)}
 
 
-def caption(wildcards):
+def caption_template(name):
     """Template of a figure's caption."""
-    kind = config["figures"][wildcards.figure]["kind"]
+    kind = config["figures"][name]["kind"]
     return local(ROOT / "workflow/report" / f"{kind}.rst")
 
 

@@ -11,6 +11,8 @@ rule kernels:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    # Most jobs wait for it, so it goes first.
+    priority: 1
     message:
         "Compiling the kernels, once for all jobs"
     script:
