@@ -10,6 +10,7 @@ import yaml
 
 from impact_damper import accuracy, orbit_models, recording, runs, statistics
 from impact_damper.accuracy_tables import models
+from impact_damper.choice import METHODS, choice, loosest_tolerance
 from impact_damper.datasets import flag
 from impact_damper.orbits import strobe_time
 from impact_damper.parameters import Damper, Oscillator
@@ -168,8 +169,8 @@ def test_averages_agree_between_methods_and_have_errors_that_fall():
 def test_stages_use_the_cheapest_tolerance_that_meets_what_a_scene_asks(name):
     settings = CONFIG["comparison"] | {"merson": [], "scipy": []}
     data = accuracy.error_against_work(scene(name), settings, REFERENCES[name])
-    assert accuracy.loosest_tolerance(data) == CONFIG["scenes"][name]["tolerance"]
-    chosen = data.isel(run=accuracy.choice(data, ("taylor",)))
+    assert loosest_tolerance(data) == CONFIG["scenes"][name]["tolerance"]
+    chosen = data.isel(run=choice(data, ("taylor",)))
     assert float(chosen["setting"]) == CONFIG["scenes"][name]["tolerance"]
     assert {key for key, each in CONFIG["scenes"].items() if "tolerance" in each} == {name}
     assert CONFIG["settling"]["scene"] == name
@@ -193,4 +194,4 @@ def test_the_table_marks_the_cheapest(inelastic):
     meets = table[table["meets it"] == "yes"]
     assert len(chosen) == 1
     assert chosen.operations.iloc[0] == meets.operations.min()
-    assert set(table.method) <= set(accuracy.METHODS)
+    assert set(table.method) <= set(METHODS)

@@ -12,24 +12,12 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper import orbit_models, runs, statistics
+from impact_damper.choice import SCIPY
 from impact_damper.datasets import dataset, flag
 from impact_damper.motions import COMPONENTS, check_state
 from impact_damper.orbits import strobe_time
 from impact_damper.parameters import check_count, describe, pack
 
-SCIPY = ("DOP853", "LSODA", "Radau")
-METHODS = (
-    "taylor",
-    "merson_kink",
-    "merson_located",
-    *(f"{name}_{mode}" for name in SCIPY for mode in ("kink", "located")),
-    "rigid",
-    "rigid_mended",
-    "rigid_balance",
-    "full_balance",
-    "many_harmonics",
-    "shooting",
-)
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 AVERAGES = statistics.STATISTICS
 LONGER, SHORT, SURE = 4, 1, 2
@@ -320,25 +308,3 @@ def _averages(scene, settings):
         "reference_average": truth,
         "reference_average_error": truth_error,
     }
-
-
-def choice(data, methods=METHODS):
-    """Number of the run with the least work that meets the accuracy; None if none does."""
-    meets = (data["meets_accuracy"].values == flag("meets_accuracy", "yes")) & np.isin(
-        data["method"].values, methods
-    )
-    work = np.where(meets, data["operations"].values, np.inf)
-    return int(np.argmin(work)) if meets.any() else None
-
-
-def loosest_tolerance(data):
-    """The tolerance of the Taylor series from which on all tighter ones meet the accuracy, or None.
-
-    It is the one with the least work of those.
-    """
-    of = data["method"].values == "taylor"
-    tolerances = data["setting"].values[of]
-    meets = data["meets_accuracy"].values[of] == flag("meets_accuracy", "yes")
-    order = np.argsort(tolerances)
-    held = np.cumprod(meets[order]).astype(bool)
-    return float(tolerances[order][held].max()) if held.any() else None

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from impact_damper.accuracy import METHODS, choice
+from impact_damper.choice import METHODS, choice
 from impact_damper.claims import extract
 from impact_damper.datasets import parameters_of
 

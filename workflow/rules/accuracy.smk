@@ -7,7 +7,7 @@ rule scene_accuracy:
     input:
         references=local(ROOT / "workflow/resources/references.json"),
         code=code("scene_accuracy.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        kernels=ancient("<results>/rival_kernels.compiled"),
     output:
         "<results>/accuracy/{scene}.nc",
     log:
