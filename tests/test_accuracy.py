@@ -185,7 +185,9 @@ def test_a_reference_of_another_scene_is_refused():
 
 def test_an_accuracy_that_a_motion_does_not_have_is_refused():
     with pytest.raises(ValueError, match="for a chaotic motion"):
-        accuracy.error_against_work(scene("chaos", accuracy={"state": 0.1}), FEW)
+        accuracy.error_against_work(
+            scene("chaos", accuracy={"quantity": "state", "within": 0.1}), FEW
+        )
 
 
 def test_the_table_marks_the_cheapest(inelastic):

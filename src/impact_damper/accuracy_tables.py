@@ -1,8 +1,9 @@
-"""Table of scenes and models: error, work, and the cheapest model that is good enough."""
+"""Scenes by model: error, work and the cheapest that is good enough; and what a user reads off."""
 
 import numpy as np
 import pandas as pd
 
+from impact_damper import tables
 from impact_damper.choice import METHODS, choice
 from impact_damper.claims import extract
 from impact_damper.datasets import parameters_of
@@ -29,7 +30,7 @@ def models(datasets) -> pd.DataFrame:
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         made = parameters_of(data)
-        asked = [WORDS[key].format(value) for key, value in made["accuracy"].items()]
+        asked = WORDS[made["accuracy"]["quantity"]].format(made["accuracy"]["within"])
         best, integrator = choice(data), choice(data, INTEGRATORS)
         for method in METHODS:
             k = choice(data, (method,))
@@ -44,7 +45,7 @@ def models(datasets) -> pd.DataFrame:
             used = made["tolerance"] if method == "taylor" else None
             row = {
                 "scene": name,
-                "asks": ", ".join(asked),
+                "asks": asked,
                 "method": method,
                 "setting": float(of.setting),
                 "status": extract.meaning("run_status", of.run_status),
@@ -63,7 +64,7 @@ def _most_accurate(data, method):
     if not len(runs):
         return None
     if "average" in data:
-        away = data["average"].values[runs, 1] / data["reference_average"].values[1] - 1
+        away = data["average"].values[runs, 0] / data["reference_average"].values[0] - 1
     else:
         away = data["amplitude_error"].values[runs]
     return runs[np.argmin(np.where(np.isnan(away), np.inf, np.abs(away)))]
@@ -86,3 +87,45 @@ def _averages(data, of):
         row[f"{words}, standard error"] = float(of.average_error.sel(statistic=key))
         row[f"{words}, reference"] = float(data.reference_average.sel(statistic=key))
     return row
+
+
+def readings(datasets) -> pd.DataFrame:
+    """Optimum clearances and edges of suppression bands by models, against the motions that exist.
+
+    An edge by simulation lies between two frequencies; no error is given within them.
+    """
+    rows = []
+    for sweep in tables.optima(datasets).to_dict("records"):
+        true = sweep["optimum d0"]
+        found = {
+            "rule (18)": sweep["d0 of (18) at W"],
+            "full balance (7)": sweep["optimum d0 of (7)"],
+            "straight flight": sweep["rm W^2 d0 of straight flight"] / sweep["rm W^2 d0"] * true,
+        }
+        rows += [
+            _reading(sweep["sweep"], "optimum d0", model, value, true, true)
+            for model, value in found.items()
+        ]
+    for band in tables.bands(datasets).to_dict("records"):
+        if not {"lower, balance", "lower, motions"} <= band.keys():
+            continue
+        for edge in ("lower", "upper"):
+            least = band[f"{edge}, motions"]
+            most = band["or up to"] if edge == "lower" else least
+            value = band[f"{edge}, balance"]
+            words = f"{edge} edge of the band"
+            rows.append(_reading(band["curve"], words, "full balance (7)", value, least, most))
+    return pd.DataFrame(rows).dropna(subset=["by the model", "by the motions"])
+
+
+def _reading(name, quantity, model, value, least, most):
+    nearest = np.clip(value, least, most)
+    return {
+        "data": name,
+        "quantity": quantity,
+        "model": model,
+        "by the model": value,
+        "by the motions": least,
+        "or up to": most if most != least else np.nan,
+        "relative error": value / nearest - 1,
+    }

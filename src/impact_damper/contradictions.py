@@ -76,8 +76,11 @@ def contradictions(config):
     if settling["limit"] < settling["patience"]:
         reason = f"must be at least settling.patience = {settling['patience']} (it comes later)"
         yield problem(["settling", "limit"], settling["limit"], reason)
-    served = [name for name, scene in config["scenes"].items() if "tolerance" in scene]
-    yield from _unknown(["settling", "scene"], settling["scene"], served)
+    served = settling["scene"]
+    yield from _unknown(["settling", "scene"], served, config["scenes"])
+    if "tolerance" not in config["scenes"].get(served, {"tolerance": None}):
+        path = ["scenes", served, "tolerance"]
+        yield f"{dotted(path)}: missing; needed since settling.scene names it"
     for name, scene in config["scenes"].items():
         yield from _wrong_scene(["scenes", name], scene)
     for name, model in config["contact_model"].items():
@@ -102,7 +105,8 @@ def contradictions(config):
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, scene in config["harmonics"].items():
-        yield from _part_of_damper(["harmonics", name], scene)
+        keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+        yield from _part_of_damper(["harmonics", name], scene, keys)
     for name, figure in config["figures"].items():
         yield from _wrong_data(["figures", name, "data"], figure, config)
 
@@ -145,8 +149,7 @@ def _wrong_stages(path, curve):
         yield problem([*path, "clearance"], curve["clearance"], reason)
 
 
-def _part_of_damper(path, scene):
-    keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+def _part_of_damper(path, scene, keys):
     given = [key for key in keys if key in scene]
     if given:
         for key in sorted(set(keys) - set(given)):
@@ -155,16 +158,13 @@ def _part_of_damper(path, scene):
 
 
 def _wrong_scene(path, scene):
-    if "mass_ratio" not in scene and scene["motion"] == "chaotic":
+    yield from _part_of_damper(path, scene, ("mass_ratio", "clearance", "restitution"))
+    chaotic, quantity = scene["motion"] == "chaotic", scene["accuracy"]["quantity"]
+    if chaotic and not {"mass_ratio", "clearance", "restitution"} & scene.keys():
         yield problem([*path, "motion"], "chaotic", "must have a damper (a free one is not)")
-    given = {key for key in ("mass_ratio", "clearance", "restitution") if key in scene}
-    for key in sorted({"mass_ratio", "clearance", "restitution"} - given) if given else ():
-        yield f"{dotted([*path, key])}: missing; needed with {', '.join(sorted(given))}"
-    averages = {"contact_rate", "displacement", "exponent"}
-    for key in scene["accuracy"]:
-        if (key in averages) != (scene["motion"] == "chaotic"):
-            reason = f"must be of another quantity (a {scene['motion']} motion is asked)"
-            yield problem([*path, "accuracy", key], scene["accuracy"][key], reason)
+    if chaotic != (quantity in ("contact_rate", "displacement", "exponent")):
+        reason = f"must be another one (a {scene['motion']} motion is asked)"
+        yield problem([*path, "accuracy", "quantity"], quantity, reason)
 
 
 def _wrong_map(path, entry):

@@ -46,6 +46,7 @@ TABLES = {
     "verdicts": ["verdicts"],
     "balance_map": ["balance_map"],
     "models": ["accuracy"],
+    "readings": ["design", "free_branches", "branches", "response", "optimum"],
     "claims": [
         "design",
         "design_orbit",
@@ -75,6 +76,7 @@ TABLE_MODULES = {
     "verdicts": "integrator_tables",
     "balance_map": "balance_map_table",
     "models": "accuracy_tables",
+    "readings": "accuracy_tables",
 }
 
 

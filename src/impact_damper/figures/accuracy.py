@@ -47,6 +47,7 @@ QUANTITIES = {
     "contacts": ("state_error", "Error of the state at the end"),
     "contact_rate": ("contact_rate", "Relative error of contacts a period"),
     "displacement": ("displacement", r"Relative error of mean max $|Z_1|$"),
+    "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
 FINEST = 1e-16
 
@@ -80,12 +81,10 @@ def draw_accuracy(*, accuracy):
 
 def _panel(axes, data):
     made = parameters_of(data)
-    quantity, borne = next(iter(made["accuracy"].items()))
+    quantity, borne = made["accuracy"]["quantity"], made["accuracy"]["within"]
     name, words = QUANTITIES[quantity]
     chaotic = made["motion"] == "chaotic"
     if chaotic:
-        quantity, borne = "displacement", made["accuracy"].get("displacement", borne)
-        words = QUANTITIES[quantity][1]
         truth = float(data["reference_average"].sel(statistic=quantity))
         average = data["average"].sel(statistic=quantity).values
         bars = data["average_error"].sel(statistic=quantity).values / truth
@@ -100,7 +99,7 @@ def _panel(axes, data):
     error = np.maximum(error, FINEST)
     ended = np.isin(status, [meanings[each] for each in ENDED])
     right = status == meanings["ok"]
-    low, high = (1e-5, 0.1) if chaotic else (10 ** np.floor(np.log10(np.min(error[ended]))), 30)
+    low, high = (1e-4, 1.0) if chaotic else (10 ** np.floor(np.log10(np.min(error[ended]))), 30)
     run = np.log10(work[work > 0])
     least, most = np.min(run), np.max(run)
     for method, (label, color, marker, line) in ROLES.items():
