@@ -81,9 +81,9 @@ def draw(kind, count, seed):
     """Starts of one kind, elastic and inelastic by turns.
 
     Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), Z2 over the gap; the start time is
-    uniform over the forcing period. "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or beyond
-    a wall; "in contact": beyond a wall by what stops a speed of up to 5; "on a wall": at rest
-    relative to it to the last bit, or at a speed of 1e-12 to 4, outward or inward.
+    uniform over the forcing period. "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or
+    beyond a wall; "in contact": beyond a wall by what stops a speed of up to 5; "on a wall": to
+    the last bit, at rest relative to it or at a speed of 1e-8 to 4, outward or inward.
     """
     random = np.random.default_rng([seed, list(KINDS).index(kind)])
     parameters, states = np.empty((count, 7)), np.empty((count, 4))
@@ -102,6 +102,6 @@ def draw(kind, count, seed):
             speed = random.uniform(0, 5)
             states[i, 2] = wall * (p[3] + speed / math.sqrt(p[4] * (1 + p[5])))
         elif kind == "on a wall":
-            speed = random.choice((0.0, 1.0), p=(0.1, 0.9)) * 10 ** random.uniform(-12, 0.6)
+            speed = random.choice((0.0, 1.0), p=(0.1, 0.9)) * 10 ** random.uniform(-8, 0.6)
             states[i, 2:] = wall * p[3], random.choice((-1, 1)) * speed
     return Starts(parameters, states, starts, times)
