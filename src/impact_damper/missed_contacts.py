@@ -36,7 +36,7 @@ def _ends(method, p, state, end, resolution):
         return np.concatenate([first, rows])
     rows = np.empty((MOST_ENDS, 5))
     start = 1e-3 * end
-    _, _, steps, _, _ = merson.advance_merson(
+    _, _, steps, _, _, _ = merson.advance_merson(
         p, state.copy(), 0, 0.0, end, start, resolution, False, rows
     )
     if not 0 <= steps <= MOST_ENDS:
