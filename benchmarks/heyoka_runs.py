@@ -16,6 +16,9 @@ import numpy as np
 FASTEST = {"fast_math": True, "force_avx512": True}
 # Trajectories of a batch.
 BATCH = 4 * heyoka.recommended_simd_size()
+# Time after an event in which it is not looked for again. The one that heyoka works out hides the
+# end of a contact next to grazing, at tolerances down to 1e-10; with none an event repeats itself.
+COOLDOWN = 1e-9
 # What is changed from the fastest settings, one at a time.
 SETTINGS = {
     "fast_math off": {"fast_math": False},
@@ -73,7 +76,8 @@ class Motions:
             force = heyoka.par[0] * (depth + number(p[6] / p[4]) * w if p[6] > 0 else depth)
             system = [(x, v), (v, free - force), (z, w), (w, free - number(1 + p[5]) * force)]
             event = heyoka.t_event if batch == 1 else heyoka.t_event_batch
-            events = [event(z * z - number(p[3] ** 2), callback=self._callback(p[3], p[4]))]
+            gap, callback = z * z - number(p[3] ** 2), self._callback(p[3], p[4])
+            events = [event(gap, callback=callback, cooldown=COOLDOWN)]
         if linear_forcing:
             system += [(c, -frequency * s), (s, frequency * c)]
         self.begin = [math.cos(0.5 * math.pi), 1.0] if linear_forcing else []

@@ -134,6 +134,4 @@ def starts_of(scene, name):
 
 def applying(scene):
     """Names of the methods that a scene tells apart."""
-    return [
-        name for name in METHODS if scene.components == 4 or name not in NEEDS_CONTACTS
-    ]
+    return [name for name in METHODS if scene.components == 4 or name not in NEEDS_CONTACTS]

@@ -6,6 +6,7 @@ from benchmarks.accuracy import LIMIT, loosest
 from benchmarks.heyoka_runs import BATCH, SETTINGS
 from benchmarks.methods import METHODS, heyoka, starts_of
 from benchmarks.timing import interleaved, spread
+from impact_damper import table_files
 
 # Against whom each way of using the kernel is set.
 RIVALS = {
@@ -13,17 +14,62 @@ RIVALS = {
     "kernel_ensemble": ("heyoka", "heyoka_batch", "dop853_events"),
 }
 TIMED = ("kernel", "kernel_ensemble", "heyoka", "heyoka_batch", "dop853_events")
-MICRO = 1e6
 
 
-def runs_of(scene, found):
-    """Calls to be timed, and by what their seconds are divided: forcing periods."""
-    calls, periods = {}, {}
-    for name, each in found.items():
-        starts = starts_of(scene, name)
-        calls[name] = lambda run=each.run, starts=starts: run(starts)
-        periods[name] = len(starts) * scene.periods
-    return calls, periods
+def tolerances(scene, timed, limit):
+    """The loosest tolerance within the limit of each method."""
+    found = {}
+    for name in timed:
+        each = found[name] = loosest(scene, name, limit)
+        missed = "" if each.met else ", limit not met"
+        print(
+            f"  {scene.name}, {METHODS[name].title}: tolerance {each.tolerance:.1e}, "
+            f"error {each.error:.1e}{missed}",
+            flush=True,
+        )
+    return found
+
+
+def microseconds(scene, found, rounds):
+    """Microseconds a forcing period and trajectory of each method in each round."""
+    starts = {name: starts_of(scene, name) for name in found}
+    calls = {
+        name: lambda run=each.run, starts=starts[name]: run(starts) for name, each in found.items()
+    }
+    seconds = interleaved(calls, rounds)
+    return {name: 1e6 * seconds[name] / (len(starts[name]) * scene.periods) for name in found}
+
+
+def time_row(scene, name, found, measured):
+    """A row of the table of times."""
+    median, lower, upper = spread(measured)
+    return {
+        "scene": scene.name,
+        "method": METHODS[name].title,
+        "tolerance": found.tolerance,
+        "error": found.error,
+        "within_limit": "yes" if found.met else "no",
+        "median_us": median,
+        "lower_quartile_us": lower,
+        "upper_quartile_us": upper,
+        "least_us": measured.min(),
+    }
+
+
+def ratio_row(scene, name, rival, found, measured):
+    """A row of the table of ratios."""
+    median, lower, upper = spread(measured[rival] / measured[name])
+    ours, other = METHODS[name].title, METHODS[rival].title
+    print(f"  {scene.name}, {ours}: {median:.4g} times faster than {other}", flush=True)
+    return {
+        "scene": scene.name,
+        "ours": ours,
+        "rival": other,
+        "times_faster": median,
+        "lower_quartile": lower,
+        "upper_quartile": upper,
+        "equal_error": "yes" if found[name].met and found[rival].met else "no",
+    }
 
 
 def compared(scenes, rounds, limit=LIMIT, timed=TIMED):
@@ -45,42 +91,37 @@ def compared(scenes, rounds, limit=LIMIT, timed=TIMED):
         microseconds a forcing period and trajectory: median, quartiles and least.
     ratios : pandas.DataFrame
         For each use of the kernel and each rival, median and quartiles over rounds of the ratio of
-        their times in that round.
+        their times in that round; whether both are within the limit.
     """
     times, ratios = [], []
     for scene in scenes:
-        found = {}
-        for name in timed:
-            found[name] = loosest(scene, name, limit)
-            each = found[name]
-            print(f"  {scene.name}, {METHODS[name].title}: tolerance {each.tolerance:.1e}, "
-                  f"error {each.error:.1e}{'' if each.met else ', limit not met'}", flush=True)  # fmt: skip
-        calls, periods = runs_of(scene, found)
-        seconds = interleaved(calls, rounds)
-        per_period = {name: seconds[name] / periods[name] * MICRO for name in timed}
-        for name in timed:
-            median, lower, upper = spread(per_period[name])
-            times.append({
-                "scene": scene.name, "method": METHODS[name].title,
-                "tolerance": found[name].tolerance, "error": found[name].error,
-                "within_limit": "yes" if found[name].met else "no",
-                "median_us": median, "lower_quartile_us": lower, "upper_quartile_us": upper,
-                "least_us": per_period[name].min(),
-            })  # fmt: skip
-        for name, rivals in RIVALS.items():
-            for rival in rivals:
-                if name not in found or rival not in found:
-                    continue
-                median, lower, upper = spread(per_period[rival] / per_period[name])
-                ratios.append({
-                    "scene": scene.name, "ours": METHODS[name].title,
-                    "rival": METHODS[rival].title, "times_faster": median,
-                    "lower_quartile": lower, "upper_quartile": upper,
-                    "equal_error": "yes" if found[name].met and found[rival].met else "no",
-                })  # fmt: skip
-                print(f"  {scene.name}: {median:.4g} times faster ({lower:.4g} to {upper:.4g}), "
-                      f"{METHODS[name].title} than {METHODS[rival].title}", flush=True)  # fmt: skip
+        found = tolerances(scene, timed, limit)
+        measured = microseconds(scene, found, rounds)
+        times += [time_row(scene, name, found[name], measured[name]) for name in timed]
+        ratios += [
+            ratio_row(scene, name, rival, found, measured)
+            for name, rivals in RIVALS.items()
+            for rival in rivals
+            if name in timed and rival in timed
+        ]
     return pd.DataFrame(times), pd.DataFrame(ratios)
+
+
+def document(machine):
+    """What makes the Markdown of the table of ratios: how it was measured, and on what."""
+
+    def made(ratios):
+        described = ", ".join(f"{row.item} {row.value}" for row in machine.itertuples())
+        how = (
+            "Each method at the loosest tolerance that keeps the error of the state at the end "
+            f"below {LIMIT:g} (`times.md`), against 80-bit arithmetic. Methods take turns on one "
+            "core; medians and quartiles over rounds of the ratio of times a trajectory. heyoka.py "
+            "at its fastest settings (`heyoka_settings.md`), SciPy with a compiled right-hand side."
+        )
+        table = table_files.plain(ratios)
+        return "\n\n".join([f"Made by `make benchmark` on: {described}.", how, table])
+
+    return made
 
 
 def heyoka_settings(scenes, times, rounds):
@@ -90,7 +131,9 @@ def heyoka_settings(scenes, times, rounds):
     """
     rows = []
     for scene in scenes:
-        chosen = times[(times["scene"] == scene.name) & (times["method"] == METHODS["heyoka"].title)]
+        chosen = times[
+            (times["scene"] == scene.name) & (times["method"] == METHODS["heyoka"].title)
+        ]
         tolerance = float(chosen["tolerance"].iloc[0])
         changes = {"fastest": {}} | SETTINGS
         changes |= {f"batch of {n}": {"batch": n} for n in (4, 8, 16) if n <= BATCH}
@@ -102,8 +145,7 @@ def heyoka_settings(scenes, times, rounds):
         seconds = interleaved(calls, rounds)
         for name in changes:
             median, lower, upper = spread(seconds[name] / seconds["fastest"])
-            rows.append({
-                "scene": scene.name, "changed": name, "time_ratio": median,
-                "lower_quartile": lower, "upper_quartile": upper, "error": errors[name],
-            })  # fmt: skip
+            row = {"scene": scene.name, "changed": name, "time_ratio": median}
+            row |= {"lower_quartile": lower, "upper_quartile": upper, "error": errors[name]}
+            rows.append(row)
     return pd.DataFrame(rows)
