@@ -120,14 +120,6 @@ def _taylor_largest(p, passage, tolerance):
     return abs(states[0, 2])
 
 
-def missed_share(data):
-    """Share of the runs that came to their end which miss the contact, NaN where none did."""
-    failed = data["passage_count"].sel(contact_outcome="failed")
-    found = data["passage_count"].sel(contact_outcome="found")
-    ended = data["passages"] - failed
-    return 1 - found / ended.where(ended > 0)
-
-
 def missed_contacts(
     oscillator,
     frequency,

@@ -20,13 +20,15 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from impact_damper.kernel import side_of, step, workspace
 from impact_damper.recording import measured, trace
+from impact_damper.rigid import MOST_IMPACTS, rebound, rigid_map
 from impact_damper.rivals import scipy_methods
 from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
 from impact_damper.work import operations
 
 FLIGHT_ROUNDS, CONTACT_ROUNDS = 2, 5
-MOST_CONTACTS = 10_000
+MOST_CONTACTS = 100_000
+SAMPLES = 64
 MOST_ENDS = 400_000
 HALVINGS = 54
 SIZE = 4
@@ -50,46 +52,49 @@ class Run(NamedTuple):
     ----------
     status : str
         "ended", "failed" or "capped".
-    operations : int
+    operations : float
         Counted work.
     state : numpy.ndarray, shape (4,)
         At the end.
     contact_times : numpy.ndarray
         When contacts begin.
+    peak_times, peaks : numpy.ndarray
+        When |Z1| is largest, and the values there; those at the ends of the run count.
     displacement : float
         Largest |Z1|.
-    times, ends : numpy.ndarray, shapes (n,) and (n, 4)
-        Where steps end, or samples; the start first.
     """
 
     status: str
-    operations: int
+    operations: float
     state: np.ndarray
     contact_times: np.ndarray
+    peak_times: np.ndarray
+    peaks: np.ndarray
     displacement: float
-    times: np.ndarray
-    ends: np.ndarray
 
 
 def stopped(status, work):
     """A run that did not come to its end."""
-    nothing = np.full(4, np.nan), np.empty(0), np.nan, np.empty(0), np.empty((0, 4))
-    return Run(status, work, *nothing)
+    none = np.empty(0)
+    return Run(status, work, np.full(4, np.nan), none, none, none, np.nan)
 
 
-def taylor(p, start, t, periods, tolerance, samples=64):
-    """By the event-driven Taylor series; `times` are samples, so many a period."""
-    period = 2 * math.pi / p[0]
-    times = t + period / samples * np.arange(periods * samples + 1)
-    times[-1] = t + periods * period
+def taylor(p, start, t, periods, tolerance):
+    """By the event-driven Taylor series, from the strobe on.
+
+    Peaks are read off SAMPLES states a period, the largest |Z1| from the series itself.
+    """
+    times = t + 2 * math.pi / p[0] * np.arange(periods * SAMPLES + 1) / SAMPLES
     states, log = np.empty((len(times), 4)), np.empty((MOST_CONTACTS, 5))
     y = start.copy()
     count = trace(p, y, t, times, tolerance, states, log)
-    largest = measured(p, start, periods, tolerance)["maximum_displacement"]
     flights, contacts = taylor_steps(p, start, t, periods, tolerance)
     work = flights * step_work(0) + contacts * step_work(1)
-    status = "ended" if np.isfinite(states).all() else "failed"
-    return Run(status, work, y, log[:count, 1].copy(), float(largest), times, states)
+    largest = float(measured(p, start, periods, tolerance)["maximum_displacement"])
+    if count > len(log) or not np.isfinite(states).all():
+        return stopped("failed", work)
+    at, peaks = turning_points(p, times, states)
+    return Run("ended", work, y, log[:count, 1].copy(), at, peaks, largest)
 
 
 def taylor_steps(p, start, t, periods, tolerance):
@@ -110,6 +115,35 @@ def step_work(side, tangents=0):
     """Operations of one step of the Taylor series with so many tangents."""
     rounds = CONTACT_ROUNDS if side != 0 else FLIGHT_ROUNDS
     return operations(step, rounds, side=side, tangents=np.empty((tangents, 4)))
+
+
+def rigid(p, restitution, start, t, periods, tolerance):
+    """By the rigid-impact model, in the steps of the Taylor series in flight, from the strobe on.
+
+    A peak is the largest |Z1| of a period, its time the middle of it.
+    """
+    p = p.copy()
+    p[6] = 0.0
+    y, none, work = start.copy(), np.empty((0, 4)), workspace()
+    period, steps = 2 * math.pi / p[0], 0
+    began, peaks = [], []
+    for k in range(periods):
+        _, _, impacts, _, _, largest = rigid_map(p, restitution, y, tolerance)
+        peaks.append(largest)
+        if impacts == MOST_IMPACTS:
+            return stopped("failed", steps * step_work(0))
+        now, end = t, t + period
+        while now < end:
+            length, side = step(p, y, none, 0, now, end - now, tolerance, work)
+            now = end if length >= end - now else now + length
+            steps += 1
+            if side != 0:
+                began.append(now + k * period)
+                rebound(p, restitution, y, none, now)
+    middles = t + period * (np.arange(periods) + 0.5)
+    peaks = np.array(peaks)
+    done = steps * step_work(0), y, np.array(began), middles, peaks, float(np.max(peaks))
+    return Run("ended", *done)
 
 
 def runge_kutta_merson(p, start, t, periods, tolerance, locate):
@@ -147,53 +181,62 @@ def scipy_run(method, p, start, t, periods, tolerance, locate, most_evaluations)
     except scipy_methods.TooManyEvaluations:
         status = "capped"
     each = operations(rate) + COMBINING[method]
-    work = counted.evaluations * each + counted.factorisations * FACTORISING[method]
+    work = float(counted.evaluations * each + counted.factorisations * FACTORISING[method])
     if status != "ended":
         return stopped(status, work)
     return read_off(p, work, np.concatenate(times), np.concatenate(ends))
 
 
 def read_off(p, work, times, ends):
-    """A run by what its step ends show: contacts begun, and the largest |Z1| between them.
+    """A run by what its step ends show: contacts begun, and peaks of |Z1|.
 
-    A contact begins between a state within the walls and one at or beyond a wall. In between, a
-    polynomial of degree 5 is laid through the states and their rates at both ends.
+    Between the ends of a step a polynomial of degree 5 is laid through the states and rates there.
     """
     if not np.isfinite(ends).all():
         return stopped("failed", work)
-    x, z = quintics(p, times, ends, 0), quintics(p, times, ends, 2)
-    place, w = ends[:, 2], ends[:, 3]
-    gap = p[3] - np.abs(place)
-    inside = (gap > 0) | ((gap == 0) & (place * w < 0))
-    enters = np.flatnonzero(inside[:-1] & ~inside[1:])
-    z = z[:, enters] * np.sign(place[enters + 1])
-    z[0] -= p[3]
-    lengths = np.diff(times)
-    began = times[enters] + lengths[enters] * root(z)
-    began = np.where(gap[enters + 1] == 0, times[enters + 1], began)
-    turning = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
-    top = polyval(root(polyder(x[:, turning])), x[:, turning], tensor=False)
-    largest = max(np.max(np.abs(ends[:, 0])), np.max(np.abs(top), initial=0.0))
-    return Run("ended", work, ends[-1], began, float(largest), times, ends)
+    at, peaks = turning_points(p, times, ends)
+    began = beginnings(p, times, ends)
+    return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
 
 
-def quintics(p, times, ends, index):
-    """Coefficients (6, n - 1) of a component of the state over each step, from 0 to 1 in it."""
-    rates = np.array(
-        [rate(p, wall_at(p, y[2]), t, tuple(y)) for t, y in zip(times, ends, strict=True)]
+def beginnings(p, times, ends):
+    """When contacts begin: between a state within the walls and one at or beyond a wall."""
+    place, gap = ends[:, 2], p[3] - np.abs(ends[:, 2])
+    inside = (gap > 0) | ((gap == 0) & (place * ends[:, 3] < 0))
+    steps = np.flatnonzero(inside[:-1] & ~inside[1:])
+    penetration = quintics(p, times, ends, 2, steps) * np.sign(place[steps + 1])
+    penetration[0] -= p[3]
+    began = times[steps] + np.diff(times)[steps] * root(penetration)
+    return np.where(gap[steps + 1] == 0, times[steps + 1], began)
+
+
+def turning_points(p, times, ends):
+    """When Z1' vanishes, and |Z1| there; the first and the last state are added."""
+    steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
+    course = quintics(p, times, ends, 0, steps)
+    share = root(polyder(course))
+    at = times[steps] + np.diff(times)[steps] * share
+    peaks = np.abs(polyval(share, course, tensor=False))
+    return (
+        np.concatenate([times[:1], at, times[-1:]]),
+        np.concatenate([np.abs(ends[:1, 0]), peaks, np.abs(ends[-1:, 0])]),
     )
-    h = np.diff(times)
-    value, slope, bend = ends[:, index], rates[:, index], rates[:, index + 1]
-    first = [value[:-1], h * slope[:-1], 0.5 * h**2 * bend[:-1]]
-    left = value[1:] - sum(first)
-    speed = h * slope[1:] - first[1] - 2 * first[2]
-    change = h**2 * bend[1:] - 2 * first[2]
-    rest = [
-        10 * left - 4 * speed + change / 2,
-        -15 * left + 7 * speed - change,
-        6 * left - 3 * speed + change / 2,
+
+
+def quintics(p, times, ends, index, steps):
+    """Coefficients (6, m) of a component of the state over some steps, from 0 to 1 in each."""
+    rates = [
+        np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
+        for at in (steps, steps + 1)
     ]
-    return np.array([*first, *rest])
+    left, right = (each.reshape(-1, SIZE) for each in rates)
+    h = np.diff(times)[steps]
+    first = [ends[steps, index], h * left[:, index], h**2 / 2 * left[:, index + 1]]
+    rest = ends[steps + 1, index] - sum(first)
+    speed = h * right[:, index] - first[1] - 2 * first[2]
+    bend = h**2 / 2 * right[:, index + 1] - first[2]
+    last = [10 * rest - 4 * speed + bend, -15 * rest + 7 * speed - 2 * bend]
+    return np.array([*first, *last, 6 * rest - 3 * speed + bend])
 
 
 def root(coefficients):

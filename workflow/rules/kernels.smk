@@ -11,7 +11,28 @@ rule kernels:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    # Most jobs wait for it, so it goes first.
+    priority: 1
     message:
         "Compiling the kernels, once for all jobs"
     script:
         "../scripts/kernels.py"
+
+
+rule rival_kernels:
+    input:
+        kernels=ancient("<results>/kernels.compiled"),
+    output:
+        touch("<results>/rival_kernels.compiled"),
+    log:
+        "<logs>/rival_kernels.log",
+    benchmark:
+        "<benchmarks>/rival_kernels.tsv"
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    priority: 1
+    message:
+        "Compiling the methods to compare with, once for all jobs"
+    script:
+        "../scripts/rival_kernels.py"

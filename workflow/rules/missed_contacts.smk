@@ -6,7 +6,7 @@ rule missed_contacts:
 rule grazing_passages:
     input:
         code=code("grazing_passages.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        kernels=ancient("<results>/rival_kernels.compiled"),
     output:
         "<results>/missed_contacts/{passage}.nc",
     log:

@@ -6,7 +6,7 @@ rule verdicts:
 rule method_verdicts:
     input:
         code=code("method_verdicts.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        kernels=ancient("<results>/rival_kernels.compiled"),
     output:
         "<results>/verdicts/{judged}.nc",
     log:
