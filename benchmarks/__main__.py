@@ -10,8 +10,8 @@ from impact_damper import table_files
 from impact_damper.figures.style import save
 
 # How much of everything: in full, and to see that all of it runs.
-FULL = {"starts": 16, "rounds": 15, "few": 3, "exponents": range(3, 14), "motions": 24,
-        "sizes": (1, 16, 64, 256, 1024, 4096), "shared": 4096}  # fmt: skip
+FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
+        "sizes": (1, 16, 64, 256, 1024), "shared": 2048}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
          "sizes": (1, 16), "shared": 256}  # fmt: skip
 RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
@@ -31,7 +31,7 @@ def draw_chart(write, amount):
     """Error against time."""
     found = scenes.from_configuration(amount["starts"])
     with one_core():
-        table = chart.points(found, amount["exponents"], amount["few"])
+        table = chart.points(found, amount["exponents"], 1)
     write("error_against_time", table, chart.draw(table))
 
 
@@ -49,7 +49,7 @@ def scale(write, amount):
     chosen = [scene for scene in found if scene.name in ("design", "resonance")]
     with one_core():
         write("ensemble_sizes", scaling.sizes(chosen, amount["sizes"], amount["few"]))
-    write("ensemble_cores", scaling.cores(chosen, amount["shared"], amount["rounds"]))
+    write("ensemble_cores", scaling.cores(chosen, amount["shared"], amount["few"]))
 
 
 def start(write, amount):

@@ -103,19 +103,22 @@ def fitted(table):
 
 @style()
 def draw(table):
-    """Cost over the largest |Z1| without contacts, and over contacts a period."""
+    """Cost over the largest |Z1| times the period without contacts, and over contacts a period."""
+    table = table.assign(turns=2 * math.pi / table["frequency"] * table["displacement"])
     drawn = figure("double", 3.2)
     left, right = drawn.subplots(1, 2, sharey=True)
     free = table[table["contacts"] == 0]
     damped = table[table["contacts"] > 0]
     for i, tolerance in enumerate(sorted(set(table["tolerance"]), reverse=True)):
         label = f"tolerance $10^{{{round(math.log10(tolerance))}}}$"
-        for axes, of, across in ((left, free, "displacement"), (right, damped, "contacts")):
+        for axes, of, across in ((left, free, "turns"), (right, damped, "contacts")):
             of = of[of["tolerance"] == tolerance]
             axes.plot(of[across], of["median_us"], label=label, **points(i) | {"markersize": 3})
             trend = np.polynomial.Polynomial.fit(of[across], of["median_us"], 1)
             axes.plot(*trend.linspace(2), **curve(i))
-    left.set(xlabel=r"Largest displacement, $\max\,|Z_1|$, no contacts", ylim=(0, None))
+    left.set(
+        xlabel=r"Largest displacement times period, $2\pi\,\max\,|Z_1|/\Omega$", ylim=(0, None)
+    )
     left.set_ylabel("Time a forcing period (µs)")
     right.set_xlabel("Contacts a period")
     letter_panels([left, right])
