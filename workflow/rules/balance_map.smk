@@ -16,6 +16,7 @@ rule harmonic_balance_map:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    priority: 1
     params:
         job=balance_map_job,
     message:

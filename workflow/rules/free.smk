@@ -16,6 +16,7 @@ rule free_response:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    priority: 1
     params:
         job=free_job,
     message:

@@ -11,8 +11,9 @@ rule kernels:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    # Most jobs wait for it, so it goes first.
-    priority: 1
+    # Most jobs wait for it, so it goes first. Next (1) are the longest jobs and those that branches
+    # wait for, so that no long job is left for the end, when a core would idle beside it.
+    priority: 2
     message:
         "Compiling the kernels, once for all jobs"
     script:

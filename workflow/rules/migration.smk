@@ -16,6 +16,7 @@ rule migration_trials:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    priority: 1
     params:
         job=migration_job,
     message:

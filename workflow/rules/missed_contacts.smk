@@ -16,6 +16,7 @@ rule grazing_passages:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    priority: 1
     params:
         job=missed_contacts_job,
     message:

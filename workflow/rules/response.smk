@@ -18,6 +18,7 @@ rule frequency_response:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    priority: 1
     params:
         job=response_job,
     message:

@@ -16,6 +16,7 @@ rule subharmonic_suppression:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    priority: 1
     params:
         job=response_job,
     message:

@@ -16,6 +16,7 @@ rule method_verdicts:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    priority: 1
     params:
         job=verdicts_job,
     message:
