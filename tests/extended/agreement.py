@@ -2,8 +2,8 @@
 
     PYTHONPATH=src:tests python -m extended.agreement
 
-prints a table: starts, those counted apart, those among them whose count differs, and
-median, 99 % and largest error, divided by growth and tolerance.
+prints a table: starts, those counted apart, those among them whose count differs, and of the
+others median, 99 % and largest error, divided by growth and tolerance.
 """
 
 import functools
@@ -50,7 +50,9 @@ class Agreement(NamedTuple):
         Whether the number of contacts differs.
     apart : array of bool
         Whether an extremum of Z2, touching or not, or the last Z2 lies closer to a wall than the
-        tolerance times the growth of an error until there: its number is no fault of the kernel.
+        tolerance times the growth of an error until there. Whether it touches is then not for
+        the kernel to tell; and as a stiff wall turns the mass back or does not, the flow's
+        derivative on one side says nothing of the other.
     """
 
     error: np.ndarray
@@ -90,6 +92,6 @@ if __name__ == "__main__":
             for tolerance in TOLERANCES:
                 error, differs, apart = agreement(kernel, kind, tolerance)
                 counts = f"{len(error):6d} {np.sum(apart):6d} {np.sum(apart & differs):6d}"
-                median, most, all_ = np.percentile(error, [50, 99, 100])
+                median, most, all_ = np.percentile(error[~apart], [50, 99, 100])
                 print(f"{kernel:7s} {kind:17s} {tolerance:8.0e}  {counts}", end="  ")
                 print(f"{median:.1e}  {most:.1e}  {all_:.1e}")

@@ -106,7 +106,8 @@ static real refine(const real *c, real left, real right, int rising)
 }
 
 /* Roots inside (left, right) in increasing order, at most `most`; b holds the Bernstein
-   coefficients there. Roots closer to each other than rounding are no crossing. */
+   coefficients there. Roots closer to each other than rounding are passed over; if they leave
+   the sign changed, `roots` reports it at the beginning of the next step. */
 static int isolate(const real *c, const real *b, real left, real right, real *found, int most)
 {
     int changes = sign_changes(b);
@@ -131,12 +132,12 @@ static int isolate(const real *c, const real *b, real left, real right, real *fo
     return count + isolate(c, far, middle, right, found + count, most - count);
 }
 
-/* Whether a polynomial certainly stays away from zero by more than `distance`. */
-static int far_from_zero(const real *c, real length, real distance)
+/* Whether the first coefficient outweighs all others, so that there is certainly no root. */
+static int far_from_zero(const real *c, real length)
 {
     real rest = 0;
     for (int k = ORDER; k > 0; k--) rest = (rest + fabsl(c[k])) * length;
-    return fabsl(c[0]) > rest + distance;
+    return fabsl(c[0]) > rest;
 }
 
 /* Roots in (0, length), without those at zero, which are divided out. If the first sign after
@@ -152,7 +153,7 @@ static int roots(const real *series, real length, int sign, real *found, int mos
         found[0] = 0;
         return 1;
     }
-    if (far_from_zero(c, length, 0)) return 0;
+    if (far_from_zero(c, length)) return 0;
     bernstein(c, length, b);
     return isolate(c, b, 0, length, found, most);
 }

@@ -82,8 +82,8 @@ def draw(kind, count, seed):
 
     Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), Z2 over the gap; the start time is
     uniform over the forcing period. "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or
-    beyond a wall; "in contact": beyond a wall by what stops a speed of up to 5; "on a wall": to
-    the last bit, at rest relative to it or at a speed of 1e-8 to 4, outward or inward.
+    beyond a wall; "in contact": beyond a wall by what stops a speed of 0.01 to 30; "on a wall":
+    to the last bit, at rest relative to it or at a speed of 1e-8 to 4, outward or inward.
     """
     random = np.random.default_rng([seed, list(KINDS).index(kind)])
     parameters, states = np.empty((count, 7)), np.empty((count, 4))
@@ -99,7 +99,7 @@ def draw(kind, count, seed):
             _graze(random, p, y, starts[i], times[i, -1])
             states[i] = y
         elif kind == "in contact":
-            speed = random.uniform(0, 5)
+            speed = 10 ** random.uniform(-2, 1.5)
             states[i, 2] = wall * (p[3] + speed / math.sqrt(p[4] * (1 + p[5])))
         elif kind == "on a wall":
             speed = random.choice((0.0, 1.0), p=(0.1, 0.9)) * 10 ** random.uniform(-8, 0.6)
