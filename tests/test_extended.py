@@ -14,7 +14,7 @@ from impact_damper.parameters import Damper, Oscillator, pack
 pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
 
 Real = np.longdouble
-DIGITS = 1e-17  # what the reference is good for, beside the growth of errors
+DIGITS = 2e-17  # what the reference is good for, beside the growth of errors
 
 MOTIONS = {
     **{name: (pack(PAPER, damper, w), state, 3) for name, (damper, w, state) in STARTS.items()},
@@ -59,7 +59,7 @@ def test_replay_by_extrapolation(case):
     """Between the events logged another method is on the wall at each, and on its side between."""
     p, state, start, times = case
     run = extended.run(p, state, start, times)
-    allowed = 10 * DIGITS * run.growth * run.scale
+    allowed = 10 * DIGITS * run.growth
     stops = [(Real(t), 0) for t in times]
     for wall, begin, end, *_ in run.contacts:
         stops += [(begin, int(wall)), (end, int(wall))]
@@ -94,7 +94,7 @@ def test_tolerance_and_step_do_not_matter(case):
     p, state, start, times = case
     first = extended.run(p, state, start, times)
     second = extended.run(p, state, start, times, tolerance=1e-22, longest=0.02)
-    allowed = DIGITS * first.growth * first.scale
+    allowed = DIGITS * first.growth
     assert second.steps > 2 * first.steps
     assert first.begun == second.begun and len(first.turnings) == len(second.turnings)
     for name in ("states", "contacts", "extremes"):
@@ -108,7 +108,7 @@ def test_many_are_as_one(case):
     many = extended.run_many([p, p], [state, state], [start, start], [times, times])
     assert np.array_equal(many.states, [one.states[-1]] * 2)
     assert many.begun.tolist() == [one.begun] * 2
-    for name in ("growth", "scale", "margin"):
+    for name in ("growth", "margin"):
         assert getattr(many, name).tolist() == [getattr(one, name)] * 2
 
 
@@ -138,7 +138,7 @@ def test_grazing_to_the_last_digit(damper, exponent):
     p = pack(PAPER, damper, 2.0)
     state, unbounded = np.array([0.3, 0.5, 0.0, 0.9], Real), p.copy()
     unbounded[3] = 16.0
-    turnings = extended.run(unbounded, state, 0.0, [3.0], near=20).turnings
+    turnings = extended.run(unbounded, state, 0.0, [3.0]).turnings
     instant, _, height, _ = turnings[turnings[:, 1] == 1][0]
     for sign in (1, -1):
         depth = sign * Real(10) ** -exponent

@@ -18,7 +18,6 @@ from typing import NamedTuple
 import numpy as np
 
 TOLERANCE = 1e-20
-NEAR = 0.1
 PROGRAM = Path(__file__).with_name("motion.c")
 STATUS = {1: "the log of contacts is full", 2: "no memory", 3: "too many steps"}
 Real = np.longdouble
@@ -73,19 +72,17 @@ class Run(NamedTuple):
     begun : int
         Contacts begun; a contact of the start is not among them.
     turnings : array, shape (m, 4)
-        Extrema of Z2 near a wall, touching or not, and Z2 at the end if near one: time, wall,
-        height beyond the wall (negative inside), growth of an error of Z2 until there.
+        Extrema of Z2, touching or not, and Z2 at the end: time, nearest wall, height beyond it
+        (negative inside), largest growth of an error to one of Z2 there. None without walls.
     flow : array, shape (4, 4)
         Derivative of the last state by the first.
     growth : long double
         Largest norm of the flow's derivative from an instant of the run to its end, at least 1;
         instants are the start, the times and the events (after their jump). The norm belongs to
         the largest component: the largest sum of moduli in a row.
-    scale : long double
-        Largest of |Z1|, |Z1'|, |Z2'| at ends of steps, at least 1.
     margin : long double
-        Least |height| of the turnings over their growth and the scale until there: an error of
-        this size, relative to the scale, could change the number of contacts.
+        Least |height| of the turnings over the growth until there: an error of this size could
+        change the number of contacts.
     steps : int
     """
 
@@ -96,7 +93,6 @@ class Run(NamedTuple):
     turnings: np.ndarray
     flow: np.ndarray
     growth: Real
-    scale: Real
     margin: Real
     steps: int
 
@@ -107,12 +103,7 @@ class Runs(NamedTuple):
     states: np.ndarray
     begun: np.ndarray
     growth: np.ndarray
-    scale: np.ndarray
     margin: np.ndarray
-
-
-def _settings(tolerance, longest, near):
-    return np.array([tolerance, longest, near], Real)
 
 
 def _fail(status, what):
@@ -120,7 +111,7 @@ def _fail(status, what):
         raise RuntimeError(f"{what}: {STATUS[status]}")
 
 
-def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, near=NEAR, room=100_000):
+def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=100_000):
     """One motion from `start` through increasing `times`.
 
     Parameters
@@ -133,8 +124,6 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, near=N
     times : array, shape (n,)
     tolerance, longest : float
         Local error of a step, relative to the state where that is above 1, and longest step.
-    near : float
-        Extrema of Z2 closer to a wall are among the turnings.
     room : int
         Most contacts and most turnings logged.
 
@@ -150,10 +139,10 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, near=N
     times = np.atleast_1d(np.asarray(times, Real))
     states, extremes = np.empty((len(times), 4), Real), np.empty((len(times), 2), Real)
     contacts, turnings = np.empty((room, 5), Real), np.empty((room, 4), Real)
-    flow, summary, counts = np.empty((4, 4), Real), np.empty(3, Real), np.empty(4, np.int64)
+    flow, summary, counts = np.empty((4, 4), Real), np.empty(2, Real), np.empty(4, np.int64)
     status = _library().motion(
         np.array(p, float), np.array(state, Real), start, times, len(times),
-        _settings(tolerance, longest, near), states, extremes, contacts, room, turnings, room,
+        np.array([tolerance, longest], Real), states, extremes, contacts, room, turnings, room,
         flow, summary, counts,
     )  # fmt: skip
     logged, begun, turned, steps = counts
@@ -174,11 +163,11 @@ def run_many(parameters, states, starts, times, *, tolerance=TOLERANCE, longest=
     """
     times = np.ascontiguousarray(times, Real)
     m, n = times.shape
-    last, summaries = np.empty((m, 4), Real), np.empty((m, 3), Real)
+    last, summaries = np.empty((m, 4), Real), np.empty((m, 2), Real)
     begun, status = np.empty(m, np.int64), np.empty(m, np.int32)
     _library().motions(
         m, np.array(parameters, float).reshape(m, 7), np.array(states, Real).reshape(m, 4),
-        np.array(starts, Real).reshape(m), times, n, _settings(tolerance, longest, NEAR),
+        np.array(starts, Real).reshape(m), times, n, np.array([tolerance, longest], Real),
         last, summaries, begun, status,
     )  # fmt: skip
     for index in np.flatnonzero(status):

@@ -41,7 +41,7 @@ typedef struct {
     int side;
     Matrix since, *flows;
     long instants, room;
-    real scale, margin;
+    real margin;
     real *turnings;
     long turning_count, turning_room;
 } Run;
@@ -106,7 +106,8 @@ static real refine(const real *c, real left, real right, int rising)
 }
 
 /* Roots inside (left, right) in increasing order, at most `most`; b holds the Bernstein
-   coefficients there. Roots closer to each other than rounding are no crossing. */
+   coefficients there. Roots closer to each other than rounding are passed over; if they leave
+   the sign changed, `roots` reports it at the beginning of the next step. */
 static int isolate(const real *c, const real *b, real left, real right, real *found, int most)
 {
     int changes = sign_changes(b);
@@ -131,6 +132,14 @@ static int isolate(const real *c, const real *b, real left, real right, real *fo
     return count + isolate(c, far, middle, right, found + count, most - count);
 }
 
+/* Whether the first coefficient outweighs all others, so that there is certainly no root. */
+static int far_from_zero(const real *c, real length)
+{
+    real rest = 0;
+    for (int k = ORDER; k > 0; k--) rest = (rest + fabsl(c[k])) * length;
+    return fabsl(c[0]) > rest;
+}
+
 /* Roots in (0, length), without those at zero, which are divided out. If the first sign after
    zero is against `sign` (when it is not 0), zero itself is the first root. */
 static int roots(const real *series, real length, int sign, real *found, int most)
@@ -144,16 +153,9 @@ static int roots(const real *series, real length, int sign, real *found, int mos
         found[0] = 0;
         return 1;
     }
+    if (far_from_zero(c, length)) return 0;
     bernstein(c, length, b);
     return isolate(c, b, 0, length, found, most);
-}
-
-/* Whether a polynomial certainly stays away from zero by more than `distance`. */
-static int far_from_zero(const real *c, real length, real distance)
-{
-    real rest = 0;
-    for (int k = ORDER; k > 0; k--) rest = (rest + fabsl(c[k])) * length;
-    return fabsl(c[0]) > rest + distance;
 }
 
 /* ---- the step ---- */
@@ -193,10 +195,9 @@ static void expand(const Run *run, Series *s)
 /* Longest step for which the last four terms of the slope are at most `allowed`. */
 static real reach(const real *c, real allowed)
 {
-    real shortest = INFINITY;
+    double shortest = INFINITY;
     for (int k = ORDER - 3; k <= ORDER; k++)
-        if (c[k] != 0)
-            shortest = fminl(shortest, powl(allowed / (k * fabsl(c[k])), 1 / (real)(k - 1)));
+        if (c[k] != 0) shortest = fmin(shortest, pow(allowed / (k * fabsl(c[k])), 1.0 / (k - 1)));
     return shortest;
 }
 
@@ -222,7 +223,7 @@ static real first_event(const Run *run, const Series *s, real length, int *wall)
     }
     for (int side = -1; side <= 1 && isfinite(run->p->clearance); side += 2) {
         height(run, s, side, c);
-        if (!far_from_zero(c, length, 0) && roots(c, length, -1, &found, 1)) {
+        if (roots(c, length, -1, &found, 1)) {
             *wall = side;
             length = found;
         }
@@ -302,35 +303,30 @@ static real growth_of_gap(const Run *run, const real *row)
     return growth;
 }
 
-/* An extremum of Z2, or its end, at `height` beyond a wall: where errors decide on a contact. */
-static void note_turning(Run *run, real t, int side, real height, const real *row)
+/* An extremum of Z2 = origin + z, or its end, and how high beyond the wall on its side it lies:
+   where this is small, errors decide on a contact. */
+static void note_turning(Run *run, real t, real z, const real *row)
 {
+    int side = run->origin + z < 0 ? -1 : 1;
+    real height = side * z + (side * run->origin - run->p->clearance);
     real growth = growth_of_gap(run, row);
-    run->margin = fminl(run->margin, fabsl(height) / (growth * run->scale));
+    run->margin = fminl(run->margin, fabsl(height) / growth);
     if (run->turning_count < run->turning_room) {
-        real *entry = run->turnings + 4 * run->turning_count;
-        entry[0] = t, entry[1] = side, entry[2] = height, entry[3] = growth;
+        real entry[4] = {t, side, height, growth};
+        memcpy(run->turnings + 4 * run->turning_count, entry, sizeof entry);
     }
     run->turning_count++;
 }
 
-static void look_for_turnings(Run *run, const Series *s, real length, real near)
+static void look_for_turnings(Run *run, const Series *s, real length)
 {
-    real c[TERMS], slope[TERMS], found[MOST_ROOTS];
-    int count = -1;
-    for (int side = -1; side <= 1 && isfinite(run->p->clearance); side += 2) {
-        height(run, s, side, c);
-        if (far_from_zero(c, length, near)) continue;
-        differentiate(s->z, slope);
-        if (count < 0) count = roots(slope, length, 0, found, MOST_ROOTS);
-        for (int i = 0; i < count; i++) {
-            real row[4], depth = value(c, found[i]);
-            if (fabsl(depth) > near) continue;
-            Matrix a = step_derivative(s, found[i]);
-            a = product(&a, &run->since);
-            memcpy(row, a.m[2], sizeof row);
-            note_turning(run, run->t + found[i], side, depth, row);
-        }
+    real slope[TERMS], found[MOST_ROOTS];
+    differentiate(s->z, slope);
+    int count = roots(slope, length, 0, found, MOST_ROOTS);
+    for (int i = 0; i < count; i++) {
+        Matrix a = step_derivative(s, found[i]);
+        a = product(&a, &run->since);
+        note_turning(run, run->t + found[i], value(s->z, found[i]), a.m[2]);
     }
 }
 
@@ -338,7 +334,7 @@ static void look_for_extremes(const Series *s, real length, real *extremes)
 {
     real slope[TERMS], found[MOST_ROOTS + 2];
     differentiate(s->x, slope);
-    int count = far_from_zero(slope, length, 0) ? 0 : roots(slope, length, 0, found, MOST_ROOTS);
+    int count = roots(slope, length, 0, found, MOST_ROOTS);
     found[count++] = 0;
     found[count++] = length;
     for (int i = 0; i < count; i++) {
@@ -346,12 +342,6 @@ static void look_for_extremes(const Series *s, real length, real *extremes)
         extremes[0] = fminl(extremes[0], x);
         extremes[1] = fmaxl(extremes[1], x);
     }
-}
-
-static void note_scale(Run *run)
-{
-    for (int i = 0; i < 4; i++)
-        if (i != 2) run->scale = fmaxl(run->scale, fabsl(run->y[i]));
 }
 
 /* ---- runs ---- */
@@ -366,20 +356,19 @@ static int start_side(const Run *run, const real *y)
 
 /* One run from `start` through the increasing `times`.
 
-   settings: local error allowed (relative to the state where that is above 1), longest step,
-   distance from a wall below which extrema of Z2 are noted.
+   settings: local error allowed (relative to the state where that is above 1), longest step.
    contacts: rows of wall, beginning, end, Z2' at both (NaN while it lasts); the first row is
    the contact of the start, if there is one. turnings: rows of time, wall, height beyond it,
    growth of Z2 until there. states, extremes: for each time, Z1 Z1' Z2 Z2', and the least and
    largest Z1 since the time before. flow: derivative of the last state by the first.
-   summary: growth, scale, margin. counts: contacts in the log, contacts begun, turnings, steps. */
+   summary: growth, margin. counts: contacts in the log, contacts begun, turnings, steps. */
 int motion(const double *packed, const real *first, real start, const real *times, long n,
            const real *settings, real *states, real *extremes, real *contacts,
            long contact_room, real *turnings, long turning_room, real *flow, real *summary,
            long *counts)
 {
     Parameters p = {packed[0], packed[1], packed[2], packed[3], packed[4], packed[5], packed[6]};
-    Run run = {.p = &p, .t = start, .since = IDENTITY, .scale = 1, .margin = INFINITY,
+    Run run = {.p = &p, .t = start, .since = IDENTITY, .margin = INFINITY,
                .turnings = turnings, .turning_room = turning_room};
     Series s;
     long logged = 0, begun = 0, steps = 0;
@@ -395,19 +384,19 @@ int motion(const double *packed, const real *first, real start, const real *time
         memcpy(contacts, row, sizeof row);
         logged = 1;
     }
-    note_scale(&run);
     for (long i = 0; i < n && status == DONE; i++) {
-        extremes[2 * i] = INFINITY, extremes[2 * i + 1] = -INFINITY;
+        if (extremes) extremes[2 * i] = INFINITY, extremes[2 * i + 1] = -INFINITY;
         while (run.t < times[i] && status == DONE) {
             int wall;
             expand(&run, &s);
             real now = fmaxl(fmaxl(1, fabsl(run.y[0])), fmaxl(fabsl(run.y[1]), fabsl(run.y[3])));
             real allowed = settings[0] * now, left = times[i] - run.t;
-            real longest = fminl(settings[1], fminl(reach(s.x, allowed), reach(s.z, allowed)));
+            real longest = fminl(settings[1], reach(s.x, allowed));
+            if (run.side) longest = fminl(longest, reach(s.z, allowed));
             real length = first_event(&run, &s, fminl(longest, left), &wall);
             int event = wall != run.side;
-            look_for_turnings(&run, &s, length, settings[2]);
-            look_for_extremes(&s, length, extremes + 2 * i);
+            if (isfinite(p.clearance)) look_for_turnings(&run, &s, length);
+            if (extremes) look_for_extremes(&s, length, extremes + 2 * i);
             Matrix step = step_derivative(&s, length);
             run.since = product(&step, &run.since);
             real slope[TERMS];
@@ -415,7 +404,6 @@ int motion(const double *packed, const real *first, real start, const real *time
             differentiate(s.x, slope), run.y[1] = value(slope, length);
             differentiate(s.z, slope), run.y[3] = value(slope, length);
             run.t = length == left ? times[i] : run.t + length;
-            note_scale(&run);
             if (++steps > 10000000) status = TOO_MANY_STEPS;
             if (!event) continue;
             saltation(&run, wall ? -1 : 1);
@@ -439,19 +427,14 @@ int motion(const double *packed, const real *first, real start, const real *time
         y[2] += run.origin;
         if (i + 1 < n && status == DONE) status = new_instant(&run);
     }
-    for (int side = -1; side <= 1 && isfinite(p.clearance); side += 2) {
-        real beyond = side * run.y[2] + (side * run.origin - p.clearance);
-        if (fabsl(beyond) <= settings[2])
-            note_turning(&run, run.t, side, beyond, run.since.m[2]);
-    }
+    if (isfinite(p.clearance)) note_turning(&run, run.t, run.y[2], run.since.m[2]);
     summary[0] = 1;
     for (long i = 0; i < run.instants; i++) {
         Matrix whole = product(&run.since, &run.flows[i]);
         if (i == 0) memcpy(flow, whole.m, sizeof whole.m);
         for (int k = 0; k < 4; k++) summary[0] = fmaxl(summary[0], row_sum(whole.m[k]));
     }
-    summary[1] = run.scale;
-    summary[2] = run.margin;
+    summary[1] = run.margin;
     counts[0] = logged, counts[1] = begun, counts[2] = run.turning_count, counts[3] = steps;
     free(run.flows);
     return status;
@@ -462,17 +445,16 @@ void motions(long m, const double *packed, const real *first, const real *starts
              const real *times, long n, const real *settings, real *last, real *summaries,
              long *contacts, int *status)
 {
-    real *states = malloc(4 * n * sizeof(real)), *extremes = malloc(2 * n * sizeof(real));
+    real *states = malloc(4 * n * sizeof(real));
     for (long i = 0; i < m; i++) {
         real flow[16];
         long counts[4] = {0};
-        status[i] = states && extremes
+        status[i] = states
             ? motion(packed + 7 * i, first + 4 * i, starts[i], times + n * i, n, settings,
-                     states, extremes, NULL, 0, NULL, 0, flow, summaries + 3 * i, counts)
+                     states, NULL, NULL, 0, NULL, 0, flow, summaries + 2 * i, counts)
             : NO_MEMORY;
         contacts[i] = counts[1];
         if (status[i] != NO_MEMORY) memcpy(last + 4 * i, states + 4 * (n - 1), 4 * sizeof(real));
     }
     free(states);
-    free(extremes);
 }
