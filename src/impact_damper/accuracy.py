@@ -41,7 +41,7 @@ class Scene(NamedTuple):
         "steady", an orbit as long as the forcing's period, which models of orbits are asked for as
         well; "transient"; or "chaotic".
     accuracy : dict
-        `quantity`, of `ERRORS` or, chaotic, of `AVERAGES`, and the error that it may have, `within`.
+        `quantity`, of `ERRORS` or, chaotic, of `AVERAGES`, and `within` what error it is wanted.
     tolerance : float or None
         That of the Taylor series with which stages run motions like it, if any do.
     """
