@@ -13,10 +13,10 @@ rule harmonic_balance_map:
         "<logs>/balance_map/{balance_map}.log",
     benchmark:
         "<benchmarks>/balance_map/{balance_map}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     params:
         job=balance_map_job,
     message:

@@ -13,10 +13,10 @@ rule free_response:
         "<logs>/free/{oscillator}.log",
     benchmark:
         "<benchmarks>/free/{oscillator}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     params:
         job=free_job,
     message:

@@ -8,12 +8,12 @@ rule kernels:
         "<logs>/kernels.log",
     benchmark:
         "<benchmarks>/kernels.tsv"
-    conda:
-        "../envs/impact-damper.yaml"
-    threads: 1
     # Most jobs wait for it, so it goes first. Next (1) are the longest jobs and those that branches
     # wait for, so that no long job is left for the end, when a core would idle beside it.
     priority: 2
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
     message:
         "Compiling the kernels, once for all jobs"
     script:
@@ -29,10 +29,10 @@ rule rival_kernels:
         "<logs>/rival_kernels.log",
     benchmark:
         "<benchmarks>/rival_kernels.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     message:
         "Compiling the methods to compare with, once for all jobs"
     script:

@@ -13,10 +13,10 @@ rule migration_trials:
         "<logs>/migration/{run}.log",
     benchmark:
         "<benchmarks>/migration/{run}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     params:
         job=migration_job,
     message:

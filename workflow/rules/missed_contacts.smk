@@ -13,10 +13,10 @@ rule grazing_passages:
         "<logs>/missed_contacts/{passage}.log",
     benchmark:
         "<benchmarks>/missed_contacts/{passage}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     params:
         job=missed_contacts_job,
     message:

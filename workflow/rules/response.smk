@@ -15,10 +15,10 @@ rule frequency_response:
         "<logs>/response/{curve}.log",
     benchmark:
         "<benchmarks>/response/{curve}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     params:
         job=response_job,
     message:

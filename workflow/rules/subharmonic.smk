@@ -13,10 +13,10 @@ rule subharmonic_suppression:
         "<logs>/subharmonic/{curve}.log",
     benchmark:
         "<benchmarks>/subharmonic/{curve}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     params:
         job=response_job,
     message:

@@ -13,10 +13,10 @@ rule method_verdicts:
         "<logs>/verdicts/{judged}.log",
     benchmark:
         "<benchmarks>/verdicts/{judged}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
-    priority: 1
     params:
         job=verdicts_job,
     message:
