@@ -1,4 +1,4 @@
-# The paper, end to end: `make reproduce`. The tests: `make test`.
+# The paper, end to end: `make reproduce`. The tests: `make test`. Times: `make benchmark`.
 # Needs Python 3.11 or newer, make and a C compiler; everything else goes to .venv.
 
 PYTHON ?= python3
@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: reproduce smoke test lint format lock clean
+.PHONY: reproduce smoke test benchmark lint format lock clean
 
 reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
@@ -18,15 +18,19 @@ smoke: $(READY)
 test: $(READY)
 	$(BIN)/python -m pytest
 
+# Into results/benchmarks/; the tests hold the reference.
+benchmark: $(READY)
+	PYTHONPATH=tests $(BIN)/python -m benchmarks
+
 lint: $(READY)
-	$(BIN)/ruff format --check src tests workflow
-	$(BIN)/ruff check src tests workflow
+	$(BIN)/ruff format --check benchmarks src tests workflow
+	$(BIN)/ruff check benchmarks src tests workflow
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/snakemake --lint
 
 format: $(READY)
-	$(BIN)/ruff check --fix src tests workflow
-	$(BIN)/ruff format src tests workflow
+	$(BIN)/ruff check --fix benchmarks src tests workflow
+	$(BIN)/ruff format benchmarks src tests workflow
 	$(BIN)/snakefmt Snakefile workflow
 
 # Made anew when the lock or the package's metadata change, and not otherwise.

@@ -39,6 +39,7 @@ include: "workflow/rules/missed_contacts.smk"
 include: "workflow/rules/stable_steps.smk"
 include: "workflow/rules/verdicts.smk"
 include: "workflow/rules/balance_map.smk"
+include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -62,5 +63,6 @@ rule all:
         rules.stable_steps.input,
         rules.verdicts.input,
         rules.balance_map.input,
+        rules.accuracy.input,
         rules.figures.input,
         rules.tables.input,

@@ -101,13 +101,15 @@ def test_unknown_keys_are_rejected(section):
 @pytest.mark.parametrize(
     ("path", "value", "allowed"),
     [
-        ("tolerance", 1.0e-9, "unknown key; known: balance_map, collisions, contact_model"),
+        ("tolerance", 1.0e-9, "unknown key; known: balance_map, collisions, comparison"),
         ("seed", 0.5, "a whole number, at least 0"),
         ("contact_stiffness", 0, "greater than 0"),
         ("contact_stiffness", "2000", "a finite number"),
         ("points/simulated", 10**9, "at most 100000"),
         ("points/simulated", 45.0, "a whole number"),
-        ("settling/tolerance", "1e-9", "a finite number"),
+        ("scenes/many_contacts/tolerance", "1e-9", "a finite number"),
+        ("settling/scene", "quiet", "must be one of design"),
+        ("scenes/chaos/accuracy/quantity", "state", "a chaotic motion is asked"),
         ("settling/limit", 200, "at least settling.patience = 300"),
         ("oscillators/h215/damping", -0.1, "greater than 0"),
         ("oscillators/h215/frequencies/first", 3, "less than last = 2.6"),

@@ -12,7 +12,7 @@ from scipy.stats import binom
 from impact_damper import missed_contacts as missed
 from impact_damper.figures.missed_contacts import draw_missed_contacts
 from impact_damper.integrator_tables import grazing
-from impact_damper.missed_contacts import missed_share
+from impact_damper.missed_share import missed_share
 from impact_damper.parameters import pack
 from impact_damper.rivals.passages import draw_passages, free_flight
 from impact_damper.rivals.scipy_methods import derivative, flight_steps

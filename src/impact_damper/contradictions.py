@@ -21,6 +21,7 @@ SECTIONS = {
     "stable_steps": "stable_steps",
     "verdicts": "verdicts",
     "balance_map": "balance_map",
+    "accuracy": "scenes",
 }
 
 # What a figure of the kind `schematic` may name instead.
@@ -41,6 +42,7 @@ WITH_OSCILLATOR = (
     "missed_contacts",
     "stable_steps",
     "verdicts",
+    "scenes",
 )
 
 # Ranges of the entries of a section, that ascend.
@@ -74,6 +76,13 @@ def contradictions(config):
     if settling["limit"] < settling["patience"]:
         reason = f"must be at least settling.patience = {settling['patience']} (it comes later)"
         yield problem(["settling", "limit"], settling["limit"], reason)
+    served = settling["scene"]
+    yield from _unknown(["settling", "scene"], served, config["scenes"])
+    if "tolerance" not in config["scenes"].get(served, {"tolerance": None}):
+        path = ["scenes", served, "tolerance"]
+        yield f"{dotted(path)}: missing; needed since settling.scene names it"
+    for name, scene in config["scenes"].items():
+        yield from _wrong_scene(["scenes", name], scene)
     for name, model in config["contact_model"].items():
         if model["smallest_restitution"] == 1:
             reason = "must be less than 1 (where the map ends)"
@@ -96,7 +105,8 @@ def contradictions(config):
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve)
     for name, scene in config["harmonics"].items():
-        yield from _part_of_damper(["harmonics", name], scene)
+        keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+        yield from _part_of_damper(["harmonics", name], scene, keys)
     for name, figure in config["figures"].items():
         yield from _wrong_data(["figures", name, "data"], figure, config)
 
@@ -139,13 +149,22 @@ def _wrong_stages(path, curve):
         yield problem([*path, "clearance"], curve["clearance"], reason)
 
 
-def _part_of_damper(path, scene):
-    keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+def _part_of_damper(path, scene, keys):
     given = [key for key in keys if key in scene]
     if given:
         for key in sorted(set(keys) - set(given)):
             words = f"needed with {', '.join(given)} (a damper is whole or absent)"
             yield f"{dotted([*path, key])}: missing; {words}"
+
+
+def _wrong_scene(path, scene):
+    yield from _part_of_damper(path, scene, ("mass_ratio", "clearance", "restitution"))
+    chaotic, quantity = scene["motion"] == "chaotic", scene["accuracy"]["quantity"]
+    if chaotic and not {"mass_ratio", "clearance", "restitution"} & scene.keys():
+        yield problem([*path, "motion"], "chaotic", "must have a damper (a free one is not)")
+    if chaotic != (quantity in ("contact_rate", "displacement", "exponent")):
+        reason = f"must be another one (a {scene['motion']} motion is asked)"
+        yield problem([*path, "accuracy", "quantity"], quantity, reason)
 
 
 def _wrong_map(path, entry):

@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 
 from impact_damper.datasets import flag, parameters_of
-from impact_damper.harmonics_theory import MEASURES
 
 PARAMETERS = {
     "damping": "h",
@@ -15,7 +14,12 @@ PARAMETERS = {
     "contact_stiffness": "r1",
 }
 SHARES = {0.01: "N for 1 %", 1e-3: "N for 1e-3", 1e-6: "N for 1e-6"}
-NAMES = dict(zip(MEASURES, ("max |Z1|", "up to N", "beyond N", "multipliers"), strict=True))
+NAMES = {
+    "maximum": "max |Z1|",
+    "retained": "up to N",
+    "omitted": "beyond N",
+    "multiplier": "multipliers",
+}
 COLD = {
     "same_motion": "same motion",
     "another_motion": "another motion",

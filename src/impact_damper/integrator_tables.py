@@ -5,7 +5,7 @@ import pandas as pd
 
 from impact_damper.claims import extract
 from impact_damper.datasets import flag
-from impact_damper.missed_contacts import missed_share
+from impact_damper.missed_share import missed_share
 
 
 def grazing(datasets) -> pd.DataFrame:

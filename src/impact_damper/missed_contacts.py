@@ -36,7 +36,7 @@ def _ends(method, p, state, end, resolution):
         return np.concatenate([first, rows])
     rows = np.empty((MOST_ENDS, 5))
     start = 1e-3 * end
-    _, _, steps, _, _ = merson.advance_merson(
+    _, _, steps, _, _, _ = merson.advance_merson(
         p, state.copy(), 0, 0.0, end, start, resolution, False, rows
     )
     if not 0 <= steps <= MOST_ENDS:
@@ -118,14 +118,6 @@ def _taylor_largest(p, passage, tolerance):
     states = np.empty((2, 4))
     trace(free_flight(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
     return abs(states[0, 2])
-
-
-def missed_share(data):
-    """Share of the runs that came to their end which miss the contact, NaN where none did."""
-    failed = data["passage_count"].sel(contact_outcome="failed")
-    found = data["passage_count"].sel(contact_outcome="found")
-    ended = data["passages"] - failed
-    return 1 - found / ended.where(ended > 0)
 
 
 def missed_contacts(

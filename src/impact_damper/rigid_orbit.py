@@ -37,6 +37,8 @@ class RigidOrbit(NamedTuple):
         Approach speed |Z2'| of the impacts.
     acceleration : float
         Of Z1 towards the wall before an impact.
+    maps : int
+        Maps over a forcing period that Newton's method took.
     """
 
     state: np.ndarray
@@ -44,6 +46,7 @@ class RigidOrbit(NamedTuple):
     displacement: float
     speed: float
     acceleration: float
+    maps: int
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
@@ -73,7 +76,7 @@ def _solve(p, restitution, guess, reach):
     p = p.copy()
     p[6] = 0.0
     y = np.array(guess, float)
-    for _ in range(ITERATIONS):
+    for k in range(ITERATIONS):
         state, matrix, impacts, slowest, first, largest = rigid_map(
             p, restitution, y, POLISH_TOLERANCE
         )
@@ -88,7 +91,7 @@ def _solve(p, restitution, guess, reach):
             values = np.linalg.eigvals(matrix)
             largest_value = values[np.argmax(np.abs(values))]
             dominant = complex(largest_value.real, abs(largest_value.imag))
-            return RigidOrbit(y, dominant, largest, *first), flag("rigid_status", "found")
+            return RigidOrbit(y, dominant, largest, *first, k + 1), flag("rigid_status", "found")
         y = y + change
         if not np.max(np.abs(y - guess)) < reach:
             break

@@ -6,7 +6,7 @@ map is that of the variational equations, saltation at the dashpot included.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -51,6 +51,8 @@ class Orbit:
     converged : bool
         Whether the residual is at most 1e-12 times the state's size; if not, the orbit is only
         where Newton's method gave up.
+    maps : int
+        Maps over its period that Newton's method took to it.
     """
 
     p: np.ndarray
@@ -62,6 +64,7 @@ class Orbit:
     residual: float
     touching: float
     converged: bool
+    maps: int = 1
 
     @property
     def active(self):
@@ -251,12 +254,14 @@ def find_orbit(p, state, periods=1, phase=STROBE):
     if not orbit.residual < NEAR or orbit.quiet_phase() == orbit.phase:
         return orbit
     phase = orbit.quiet_phase()
-    return _newton(p, orbit.at(phase), periods, phase % TURN)
+    moved = _newton(p, orbit.at(phase), periods, phase % TURN)
+    return replace(moved, maps=orbit.maps + moved.maps)
 
 
 def _newton(p, state, periods, phase):
     best, end = shoot(p, state, periods, phase)
     orbit = best
+    maps = 1
     for _ in range(ITERATIONS):
         n = orbit.active
         matrix = np.eye(n) - orbit.monodromy[:n, :n]
@@ -271,8 +276,9 @@ def _newton(p, state, periods, phase):
         if n == 2:
             moved[2:] += change
         orbit, end = shoot(p, moved, periods, phase)
+        maps += 1
         if best.converged and orbit.residual >= best.residual:
             break
         if orbit.residual < best.residual or not best.converged:
             best = orbit
-    return best
+    return replace(best, maps=maps)

@@ -93,20 +93,22 @@ def _follow(here, there, index, settling, links, ends):
     """Follow every motion of one catalogue to the next value, noting links and ends."""
     for i, record in enumerate(list(here.records)):
         p, y = here.p.copy(), record["state"].copy()
+        # As every other caller gives it: kernels are compiled anew for an integer of two bytes.
+        period = int(record["period"])
         multiplier = complex(np.nan)
         if is_settled(record):
             multiplier = orbits.follow(
-                p, y, record["period"], index, there.p[index], RESOLUTION, orbits.POLISH_TOLERANCE
+                p, y, period, index, there.p[index], RESOLUTION, orbits.POLISH_TOLERANCE
             )
         arrived = p[index] == there.p[index]
         beyond = ensemble.settle(there.p[None], y[None], settling, from_strobe=True)[0]
         j = there.add(beyond, "followed")
         if not is_settled(record):
             continue
-        if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
+        if arrived and is_settled(beyond) and beyond["period"] == period:
             links.append((here.numbers[i], there.numbers[j]))
             continue
-        last = recording.measured(p, y, record["period"], settling.tolerance)
+        last = recording.measured(p, y, period, settling.tolerance)
         ends.append(
             {
                 "end_value": p[index],

@@ -1,10 +1,16 @@
 """Compile every kernel that the package calls, on problems of no size, and cache it."""
 
+import numpy as np
+
+from impact_damper import runs
 from impact_damper.ensemble import Settling
 from impact_damper.migration import trials
 from impact_damper.motions import simulate
-from impact_damper.parameters import Damper, Oscillator
+from impact_damper.orbits import strobe_time
+from impact_damper.parameters import Damper, Oscillator, pack
 from impact_damper.response import collisions, frequency_response
+from impact_damper.rivals import fixed_step, merson
+from impact_damper.rivals.passages import draw_passages
 
 
 def warm_up() -> None:
@@ -17,3 +23,23 @@ def warm_up() -> None:
     frequency_response(oscillator, damper, [1.95, 1.96], starts=1, settling=settling)
     collisions(oscillator, damper, 1.95, starts=1, periods=1)
     trials(oscillator, damper, 1.95, trials=1, releases=1, lifetime=100, longest_hold=5)
+
+
+def warm_up_rivals() -> None:
+    """The same for the methods that the package is compared with.
+
+    Code that is loaded from the cache can differ in the last digit from code that was compiled in
+    the same process, which shows where a method goes through a jump: all jobs are to load it.
+    """
+    p = pack(Oscillator(damping=0.215), Damper(0.25, 1.0, 0.75), 2.0)
+    start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
+    runs.taylor(p, start, begin, 1, 1e-3)
+    runs.rigid(p, 0.75, start, begin, 1, 1e-3)
+    for locate in (False, True):
+        runs.runge_kutta_merson(p, start, begin, 1, 1e-3, locate)
+        runs.scipy_run("DOP853", p, start, begin, 1, 1e-3, locate, 1000)
+    strobes, largest = np.empty((1, 4)), np.empty(1)
+    merson.run_merson(p, start, begin, 1e-3, False, strobes, largest)
+    fixed_step.run_fixed(fixed_step.HEUN, p, start, begin, 100, strobes, largest)
+    fixed_step.fixed_ends(fixed_step.HEUN, p, start, begin, 0.01, np.empty((1, 5)))
+    draw_passages(p, 1, 2.0, 0.1, 1995)

@@ -13,6 +13,7 @@ rule harmonic_balance_map:
         "<logs>/balance_map/{balance_map}.log",
     benchmark:
         "<benchmarks>/balance_map/{balance_map}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1

@@ -37,6 +37,7 @@ wildcard_constraints:
     contact="[A-Za-z0-9_]+",
     limit="[A-Za-z0-9_]+",
     balance_map="[A-Za-z0-9_]+",
+    scene="[A-Za-z0-9_]+",
     table="[a-z_]+",
 
 

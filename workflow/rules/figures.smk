@@ -17,6 +17,7 @@ KINDS = {
     "stable_steps": "Where methods fail",
     "verdicts": "Where methods fail",
     "balance_map": "Where methods fail",
+    "accuracy": "Speed against accuracy",
 }
 
 
@@ -29,25 +30,26 @@ rule figures:
         ),
 
 
-rule caption:
+# One job for all of them: to start a job for each would cost more than what it does.
+rule captions:
     input:
-        template=caption,
-        code=code("caption.py"),
+        templates=[caption_template(name) for name in config["figures"]],
+        code=code("captions.py"),
     output:
-        "<results>/figures/{figure}.rst",
+        expand("<results>/figures/{figure}.rst", figure=config["figures"]),
     log:
-        "<logs>/captions/{figure}.log",
+        "<logs>/captions.log",
     benchmark:
-        "<benchmarks>/captions/{figure}.tsv"
+        "<benchmarks>/captions.tsv"
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=figure_job,
+        jobs=[figure_entry(name) for name in config["figures"]],
     message:
-        "Caption of {wildcards.figure}"
+        "Captions of the figures"
     script:
-        "../scripts/caption.py"
+        "../scripts/captions.py"
 
 
 rule draw_schematic:

@@ -13,6 +13,7 @@ rule free_response:
         "<logs>/free/{oscillator}.log",
     benchmark:
         "<benchmarks>/free/{oscillator}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1

@@ -7,7 +7,7 @@ def design_orbit_job(wildcards):
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
         "search": search("sweep_starts"),
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -76,7 +76,7 @@ def balance_map_job(wildcards):
         "values": grid(entry["values"], "map_values"),
         "frequency_ratios": grid(entry["frequency_ratios"], "map_frequencies"),
         "fixed": fixed,
-        "settling": config["settling"] | {"tolerance": entry["tolerance"]},
+        "settling": settling(),
     }
 
 
@@ -94,7 +94,7 @@ def contact_model_job(wildcards):
             "restitutions": [model["smallest_restitution"], 1, model["cells"]["restitutions"]],
             "loads": [model["largest_load"], model["cells"]["loads"]],
         },
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -110,7 +110,7 @@ def rigid_limit_job(wildcards):
         "stiffnesses": [*ends, limit["cells"]["stiffnesses"]],
         "starts": config["search"]["scan_starts"],
         "seed": config["seed"],
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -136,4 +136,15 @@ def verdicts_job(wildcards):
     return given | {
         "oscillator": oscillator_of(given["oscillator"]),
         "contact_stiffness": config["contact_stiffness"],
+    }
+
+
+def accuracy_job(wildcards):
+    scene = config["scenes"][wildcards.scene]
+    return {
+        "oscillator": oscillator_of(scene["oscillator"]),
+        "damper": damper_of(scene) if "mass_ratio" in scene else None,
+        **{key: scene[key] for key in ("frequency", "state", "periods", "motion", "accuracy")},
+        "tolerance": scene.get("tolerance"),
+        "settings": config["comparison"],
     }

@@ -23,6 +23,7 @@ STAGES = {
     "stable_steps": "stable_steps",
     "verdicts": "verdicts",
     "balance_map": "balance_map",
+    "accuracy": "scenes",
 }
 
 # Stages whose data a table holds.
@@ -44,6 +45,8 @@ TABLES = {
     "steps": ["stable_steps"],
     "verdicts": ["verdicts"],
     "balance_map": ["balance_map"],
+    "models": ["accuracy"],
+    "readings": ["design", "free_branches", "branches", "response", "optimum"],
     "claims": [
         "design",
         "design_orbit",
@@ -72,6 +75,8 @@ TABLE_MODULES = {
     "steps": "integrator_tables",
     "verdicts": "integrator_tables",
     "balance_map": "balance_map_table",
+    "models": "accuracy_tables",
+    "readings": "accuracy_tables",
 }
 
 
@@ -111,6 +116,12 @@ def search(starts):
     return {"starts": given[starts], "radius": given["radius"], "seed": config["seed"]}
 
 
+def settling():
+    """How motions are run, at the tolerance of the scene that is named."""
+    given = {key: value for key, value in config["settling"].items() if key != "scene"}
+    return given | {"tolerance": config["scenes"][config["settling"]["scene"]]["tolerance"]}
+
+
 def free_design_job(wildcards):
     return {
         "oscillator": oscillator_of(wildcards.oscillator),
@@ -132,7 +143,7 @@ def free_job(wildcards):
         "oscillator": oscillator_of(wildcards.oscillator),
         "frequencies": frequencies_of(wildcards.oscillator, "free"),
         "search": search("starts"),
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -143,7 +154,7 @@ def response_job(wildcards):
         "damper": damper_of(curve),
         "frequencies": frequencies_of(curve["oscillator"], "simulated"),
         "search": search("starts"),
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -153,7 +164,7 @@ def motion_job(wildcards):
         "oscillator": oscillator_of(motion["oscillator"]),
         "damper": damper_of(motion),
         "frequency": motion["frequency"],
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -176,7 +187,7 @@ def optimum_job(wildcards):
         "frequency": optimum["frequency"],
         "clearances": grid(optimum["clearances"], "clearances"),
         "search": search("sweep_starts"),
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -188,7 +199,7 @@ def migration_job(wildcards):
         "frequency": run["frequency"],
         "controller": config["controller"] | {"longest_hold": run["longest_hold"]},
         "seed": config["seed"],
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -201,7 +212,7 @@ def release_scan_job(wildcards):
         "search": search("scan_starts"),
         "releases": config["controller"]["releases"],
         "lifetime": scan["lifetime"],
-        "settling": config["settling"],
+        "settling": settling(),
     }
 
 
@@ -216,8 +227,12 @@ def one_of(choices):
 
 
 def figure_job(wildcards):
+    return figure_entry(wildcards.figure)
+
+
+def figure_entry(name):
     """A figure's entry, with the parameters of what it draws in place of the names alone."""
-    figure = config["figures"][wildcards.figure]
+    figure = config["figures"][name]
     return figure | {"data": {name: drawn(figure["kind"], name) for name in figure["data"]}}
 
 
@@ -268,9 +283,9 @@ def figure_data(wildcards):
     return {stage: data(stage, chosen)}
 
 
-def caption(wildcards):
+def caption_template(name):
     """Template of a figure's caption."""
-    kind = config["figures"][wildcards.figure]["kind"]
+    kind = config["figures"][name]["kind"]
     return local(ROOT / "workflow/report" / f"{kind}.rst")
 
 

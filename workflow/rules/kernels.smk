@@ -8,6 +8,9 @@ rule kernels:
         "<logs>/kernels.log",
     benchmark:
         "<benchmarks>/kernels.tsv"
+    # Most jobs wait for it, so it goes first. Next (1) are the longest jobs and those that branches
+    # wait for, so that no long job is left for the end, when a core would idle beside it.
+    priority: 2
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
@@ -15,3 +18,22 @@ rule kernels:
         "Compiling the kernels, once for all jobs"
     script:
         "../scripts/kernels.py"
+
+
+rule rival_kernels:
+    input:
+        kernels=ancient("<results>/kernels.compiled"),
+    output:
+        touch("<results>/rival_kernels.compiled"),
+    log:
+        "<logs>/rival_kernels.log",
+    benchmark:
+        "<benchmarks>/rival_kernels.tsv"
+    priority: 1
+    conda:
+        "../envs/impact-damper.yaml"
+    threads: 1
+    message:
+        "Compiling the methods to compare with, once for all jobs"
+    script:
+        "../scripts/rival_kernels.py"

@@ -13,6 +13,7 @@ rule migration_trials:
         "<logs>/migration/{run}.log",
     benchmark:
         "<benchmarks>/migration/{run}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1

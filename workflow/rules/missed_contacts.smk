@@ -6,13 +6,14 @@ rule missed_contacts:
 rule grazing_passages:
     input:
         code=code("grazing_passages.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        kernels=ancient("<results>/rival_kernels.compiled"),
     output:
         "<results>/missed_contacts/{passage}.nc",
     log:
         "<logs>/missed_contacts/{passage}.log",
     benchmark:
         "<benchmarks>/missed_contacts/{passage}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1

@@ -15,6 +15,7 @@ rule frequency_response:
         "<logs>/response/{curve}.log",
     benchmark:
         "<benchmarks>/response/{curve}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1

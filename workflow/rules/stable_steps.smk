@@ -6,7 +6,7 @@ rule stable_steps:
 rule fixed_step_runs:
     input:
         code=code("fixed_step_runs.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        kernels=ancient("<results>/rival_kernels.compiled"),
     output:
         "<results>/stable_steps/{stepping}.nc",
     log:

@@ -13,6 +13,7 @@ rule subharmonic_suppression:
         "<logs>/subharmonic/{curve}.log",
     benchmark:
         "<benchmarks>/subharmonic/{curve}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1

@@ -6,13 +6,14 @@ rule verdicts:
 rule method_verdicts:
     input:
         code=code("method_verdicts.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        kernels=ancient("<results>/rival_kernels.compiled"),
     output:
         "<results>/verdicts/{judged}.nc",
     log:
         "<logs>/verdicts/{judged}.log",
     benchmark:
         "<benchmarks>/verdicts/{judged}.tsv"
+    priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1

@@ -14,7 +14,7 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.missed_contacts import missed_share
+from impact_damper.missed_share import missed_share
 
 NAMES = {
     "taylor": "Taylor series, events",

@@ -219,13 +219,14 @@ def save(figure, path) -> None:
     """Write `path`.pdf and `path`.png, whole or not at all, the same bytes at every run.
 
     The layout is settled first and then kept, so that both files and any later
-    ones show the same picture.
+    ones show the same picture. With the engine taken off, and not replaced by "none",
+    matplotlib does not draw all of it once more before it writes a file.
     """
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     with style():
         if figure.get_layout_engine() is not None:
             figure.get_layout_engine().execute(figure)
-        figure.set_layout_engine("none")
+        figure.set_layout_engine(None)
         for kind, metadata in {"pdf": {"CreationDate": None}, "png": {"Software": None}}.items():
             whole = Path(f"{path}.{kind}")
             part = Path(f"{whole}.part-{os.getpid()}")

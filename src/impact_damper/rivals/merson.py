@@ -53,24 +53,28 @@ def ahead(p, side, y):
 def located(p, side, t, h, y, tolerance):
     """Length within a step, at whose end the event is passed, at which it happens, and the state.
 
-    Halves towards the beginning until the event lies ahead, then regula falsi (Illinois).
+    Halves towards the beginning until the event lies ahead, then regula falsi (Illinois). Returns
+    the number of steps tried as well.
     """
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state)
     state, _ = estimated_step(p, side, False, t, low, y, tolerance)
     before = ahead(p, side, state)
+    tries = 2
     while before <= 0.0 and low > SHORTEST:
         high, beyond = low, before
         low *= 0.5
         state, _ = estimated_step(p, side, False, t, low, y, tolerance)
         before = ahead(p, side, state)
+        tries += 1
     length = low
     for _ in range(60):
         if before <= 0.0 or high - low <= 1e-15 * (1.0 + t):
             break
         length = (low * beyond - high * before) / (beyond - before)
         state, _ = estimated_step(p, side, False, t, length, y, tolerance)
+        tries += 1
         now = ahead(p, side, state)
         if abs(now) <= 1e-15 * p[3]:
             break
@@ -80,7 +84,7 @@ def located(p, side, t, h, y, tolerance):
         else:
             high, beyond = length, now
             before *= 0.5
-    return length, state
+    return length, state, tries
 
 
 @kernel
@@ -102,25 +106,28 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
 
     Returns
     -------
-    side, h, steps, contacts, largest
+    side, h, steps, contacts, largest, tries
         `contacts` begun as seen at the ends of steps; the largest |Z1|; `steps` is -1 where the
-        tolerance could not be met in `MOST_STEPS` steps or the state left `BEYOND`.
+        tolerance could not be met in `MOST_STEPS` steps or the state left `BEYOND`; `tries` are
+        all steps computed, of five evaluations each.
     """
     state = (y[0], y[1], y[2], y[3])
-    steps, contacts, largest = 0, 0, 0.0
+    steps, contacts, largest, tries = 0, 0, 0.0, 0
     while t < end:
         length = min(h, end - t)
         after, share = estimated_step(p, side, not locate, t, length, state, tolerance)
+        tries += 1
         factor = 0.9 * (share + 1e-10) ** -0.2
         if not share <= 1.0:
             h = length * max(factor, 0.1) if share < math.inf else 0.1 * length
             if h < SHORTEST:
-                return side, h, -1, contacts, math.nan
+                return side, h, -1, contacts, math.nan, tries
             continue
         # a step cut short at the end says little about the next one
         h = max(h, length * min(factor, 5.0)) if length < h else length * min(factor, 5.0)
         if locate and ahead(p, side, after) < 0.0:
-            length, after = located(p, side, t, length, state, tolerance)
+            length, after, repeated = located(p, side, t, length, state, tolerance)
+            tries += repeated
             on_wall = p[3] if after[2] > 0.0 else -p[3]
             after = (after[0], after[1], on_wall, after[3])
             if side == 0:
@@ -138,9 +145,9 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
             ends[steps, 1], ends[steps, 2], ends[steps, 3], ends[steps, 4] = state
         steps += 1
         if steps > MOST_STEPS or not abs(state[0]) + abs(state[1]) + abs(state[3]) < BEYOND:
-            return side, h, -1, contacts, math.nan
+            return side, h, -1, contacts, math.nan, tries
     y[0], y[1], y[2], y[3] = state
-    return side, h, steps, contacts, largest
+    return side, h, steps, contacts, largest, tries
 
 
 @kernel
@@ -157,7 +164,7 @@ def run_merson(p, start, t, tolerance, locate, strobes, largest):
     largest[:] = np.nan
     for k in range(len(strobes)):
         # every period begins at the same time, where rounding of the phase stays small
-        side, h, steps, _, most = advance_merson(
+        side, h, steps, _, most, _ = advance_merson(
             p, y, side, t, t + period, h, tolerance, locate, none
         )
         if steps < 0:

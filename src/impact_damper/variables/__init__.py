@@ -4,6 +4,7 @@ A module holds the variables of one subject; a name stands in one of them only.
 """
 
 from impact_damper.variables import (
+    accuracy,
     balance_map,
     contact,
     design_rules,
@@ -28,6 +29,7 @@ MODULES = (
     contact,
     integrators,
     balance_map,
+    accuracy,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

@@ -1,0 +1,1 @@
+"""Speed against accuracy on the machine at hand: `make benchmark`, into results/benchmarks/."""

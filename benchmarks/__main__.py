@@ -1,0 +1,93 @@
+"""All benchmarks, one after the other, into a folder; `--quick` is a trial of the scripts."""
+
+import argparse
+import time
+from pathlib import Path
+
+from benchmarks import chart, costs, machine, ratios, scaling, scenes, stages, startup
+from benchmarks.timing import one_core
+from impact_damper import table_files
+from impact_damper.figures.style import save
+
+# How much of everything: in full, and to see that all of it runs.
+FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
+        "sizes": (1, 16, 64, 256, 1024), "shared": 2048}  # fmt: skip
+QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
+         "sizes": (1, 16), "shared": 256}  # fmt: skip
+RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
+
+
+def compare(write, amount):
+    """Kernel against rivals, on all scenes."""
+    found = scenes.from_configuration(amount["starts"])
+    with one_core():
+        times, made = ratios.compared(found, amount["rounds"])
+        write("times", times)
+        write("ratios", made, document=ratios.document(machine.table()))
+        write("heyoka_settings", ratios.heyoka_settings(found, times, amount["rounds"]))
+
+
+def draw_chart(write, amount):
+    """Error against time."""
+    found = scenes.from_configuration(amount["starts"])
+    with one_core():
+        table = chart.points(found, amount["exponents"], 1)
+    write("error_against_time", table, chart.draw(table))
+
+
+def cost(write, amount):
+    """Cost of a period."""
+    with one_core():
+        table = costs.per_period(costs.motions(amount["motions"]), amount["few"])
+    write("period_cost", table, costs.draw(table))
+    write("period_cost_fit", costs.fitted(table))
+
+
+def scale(write, amount):
+    """Ensembles over size and cores."""
+    found = scenes.from_configuration(amount["starts"])
+    chosen = [scene for scene in found if scene.name in ("design", "resonance")]
+    with one_core():
+        write("ensemble_sizes", scaling.sizes(chosen, amount["sizes"], amount["few"]))
+    write("ensemble_cores", scaling.cores(chosen, amount["shared"], amount["few"]))
+
+
+def start(write, amount):
+    """Start-up and compile times."""
+    write("start_up", startup.table(amount["few"], compiling=amount is FULL))
+
+
+PARTS = {"ratios": compare, "chart": draw_chart, "costs": cost, "scaling": scale, "start_up": start}
+
+
+def main():
+    reader = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    reader.add_argument("parts", nargs="*", help=f"of {', '.join(PARTS)} and stages; all if none")
+    reader.add_argument("--quick", action="store_true", help="little of everything")
+    reader.add_argument("--results", type=Path, default=Path("results"), help="folder of results")
+    given = reader.parse_args()
+    parts = given.parts or [*PARTS, "stages"]
+    if unknown := set(parts) - {*PARTS, "stages"}:
+        reader.error(f"unknown: {', '.join(sorted(unknown))}")
+    into = given.results / "benchmarks"
+
+    def write(name, table, drawing=None, document=None):
+        table_files.save(table, into / f"{name}.csv", into / f"{name}.md", document)
+        if drawing is not None:
+            save(drawing, into / name)
+
+    begin = time.perf_counter()
+    for name in parts:
+        print(f"{name} (after {time.perf_counter() - begin:.0f} s)", flush=True)
+        if name != "stages":
+            PARTS[name](write, QUICK if given.quick else FULL)
+            continue
+        timings = given.results / "timings"
+        table = stages.table(timings)
+        if table.empty:
+            print(f"  {RUN_FIRST.format(timings)}", flush=True)
+        write("stages", table)
+    print(f"{into} made in {time.perf_counter() - begin:.0f} s")
+
+
+main()

@@ -1,0 +1,133 @@
+"""Error against time: every method over its tolerances, on every scene."""
+
+import math
+import time
+
+import numpy as np
+import pandas as pd
+
+from benchmarks.accuracy import measured
+from benchmarks.methods import METHODS, applying, starts_of
+from benchmarks.timing import interleaved
+from impact_damper.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+# No tighter tolerance is tried after a run that took so long, in seconds.
+LONG = 0.5
+# Whoever is further from the exact state has lost the motion.
+LOST = 0.1
+LOOK = {
+    "kernel": (BLUE, "-", "o"),
+    "kernel_ensemble": (SKY, "-", "s"),
+    "heyoka": (VERMILION, "-", "^"),
+    "heyoka_batch": (ORANGE, "-", "v"),
+    "merson_located": (GREEN, "-", "D"),
+    "merson": (GREEN, ":", "D"),
+    "dop853_events": (BLACK, "-", "P"),
+    "dop853": (BLACK, ":", "P"),
+    "lsoda_events": (PURPLE, "-", "<"),
+    "lsoda": (PURPLE, ":", "<"),
+    "radau_events": (GREY, "-", ">"),
+    "radau": (GREY, ":", ">"),
+}
+
+
+def points_of(scene, name, exponents, rounds):
+    """Rows of the table of `points` for one method: tolerances 10^-exponent, while not LONG."""
+    rows = []
+    starts = starts_of(scene, name)
+    for exponent in exponents:
+        begin = time.perf_counter()
+        run, error = measured(scene, name, 10.0**-exponent)
+        seconds = time.perf_counter() - begin
+        if not METHODS[name].slow:
+            seconds = np.median(interleaved({"": lambda run=run: run(starts)}, rounds)[""])
+        status = "found" if error <= LOST else "lost" if math.isfinite(error) else "given_up"
+        rows.append({
+            "scene": scene.name, "method": name, "tolerance": 10.0**-exponent,
+            "error": error if math.isfinite(error) else math.nan, "status": status,
+            "microseconds": 1e6 * seconds / (len(starts) * scene.periods),
+        })  # fmt: skip
+        if seconds > LONG:
+            break
+    return rows
+
+
+def points(scenes, exponents, rounds, names=tuple(METHODS)):
+    """Error of the state and microseconds a forcing period, for each scene, method, tolerance.
+
+    The time is the median of `rounds`, that of the one run where a method is slow. `status` is
+    found, lost (the state is off by more than LOST) or given_up (the run did not end).
+    """
+    rows = []
+    for scene in scenes:
+        for name in [each for each in applying(scene) if each in names]:
+            coarse = exponents[::2] if METHODS[name].slow else exponents
+            rows += points_of(scene, name, coarse, rounds)
+        print(f"  {scene.name}: error against time of {len(applying(scene))} methods", flush=True)
+    return pd.DataFrame(rows)
+
+
+@style()
+def draw(table):
+    """A panel for each scene, from the table of `points`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    names = list(dict.fromkeys(table["scene"]))
+    columns = 2
+    rows = math.ceil(len(names) / columns)
+    drawn = figure("double", 1.6 + 2.5 * rows)
+    panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    for axes, scene in zip(panels, names, strict=False):
+        here = table[table["scene"] == scene]
+        for name, (color, line, marker) in LOOK.items():
+            of = here[here["method"] == name]
+            found, lost = of[of["status"] == "found"], of[of["status"] != "found"]
+            axes.plot(
+                found["microseconds"],
+                found["error"],
+                color=color,
+                linestyle=line,
+                marker=marker,
+                markersize=3.2,
+                markerfacecolor=color if line == "-" else "white",
+                label=METHODS[name].title,
+            )
+            axes.plot(
+                lost["microseconds"],
+                np.full(len(lost), 1.0),
+                color=color,
+                linestyle="none",
+                marker="x",
+            )
+        axes.plot([], [], color=BLACK, linestyle="none", marker="x", label="failed")
+        axes.axhline(LOST, color=GREY, linewidth=0.6)
+        axes.set(xscale="log", yscale="log", ylim=(1e-14, 3.0))
+        axes.text(
+            0.98, 0.02, scene.replace("_", " "), transform=axes.transAxes, ha="right", va="bottom"
+        )
+    for axes in panels[len(names) :]:
+        axes.set_visible(False)
+    for axes in panels[::columns]:
+        axes.set_ylabel("Error of the state at the end")
+    for axes in panels[max(0, len(names) - columns) : len(names)]:
+        axes.set_xlabel("Time a forcing period and trajectory (µs)")
+        axes.tick_params(labelbottom=True)
+    letter_panels(panels[: len(names)])
+    legend(drawn, 3)
+    return drawn

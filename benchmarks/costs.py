@@ -1,0 +1,126 @@
+"""What a forcing period costs the kernel, over amplitude, contacts and tolerance."""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from benchmarks.methods import METHODS
+from benchmarks.scenes import Scene
+from benchmarks.timing import interleaved
+from impact_damper.figures.style import curve, figure, legend, letter_panels, points, style
+from impact_damper.kernel import advance, side_of, workspace
+from impact_damper.motions import random_states
+from impact_damper.parameters import Damper, Oscillator, pack
+from impact_damper.recording import measured
+
+OSCILLATOR = Oscillator(0.215)
+DAMPER = Damper(0.12, 2.0)
+TOLERANCES = (1e-6, 1e-9, 1e-12)
+PERIODS = 20
+TRANSIENT = 30
+RADIUS = 2.0
+
+
+def motion(damper, frequency, start):
+    """A scene of a motion after its transient, with contacts a period and largest |Z1|.
+
+    No exact state goes with it.
+    """
+    p = pack(OSCILLATOR, damper, frequency)
+    period = 2 * math.pi / frequency
+    begin, y = 0.5 * math.pi / frequency, np.array(start)
+    none, work = np.empty((0, 4)), workspace()
+    advance(p, y, none, side_of(p, y), begin, begin + TRANSIENT * period, 1e-9, work)
+    end, last = begin + PERIODS * period, y.copy()
+    _, contacts, _ = advance(p, last, none, side_of(p, last), begin, end, 1e-9, work)
+    size = float(measured(p, y.copy(), PERIODS, 1e-9)["maximum_displacement"])
+    return Scene("motion", p, begin, end, PERIODS, y[None], last[None]), contacts / PERIODS, size
+
+
+def motions(count, seed=1995):
+    """Motions with and without the damper, at frequencies and from starts drawn evenly."""
+    random = np.random.default_rng(seed)
+    found = []
+    for damper in (None, DAMPER):
+        frequencies = random.uniform(0.8, 2.4, count)
+        for i, frequency in enumerate(frequencies):
+            start = random_states(1, RADIUS, damper or DAMPER, seed + i)[0]
+            if damper is None:
+                # on the resonance branch where there is one
+                start[:2] = 1.4 * frequency * np.array([0.9, -0.5])
+            found.append(motion(damper, frequency, start))
+    return found
+
+
+def per_period(found, rounds, tolerances=TOLERANCES):
+    """Microseconds a forcing period of single motions.
+
+    Parameters
+    ----------
+    found : list
+        Of `motions`.
+    rounds : int
+    tolerances : sequence of float
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each motion and tolerance.
+    """
+    rows = []
+    for scene, contacts, size in found:
+        runs = {each: METHODS["kernel"].prepare(scene, each) for each in tolerances}
+        calls = {
+            each: lambda run=run, starts=scene.starts: run(starts) for each, run in runs.items()
+        }
+        for tolerance, seconds in interleaved(calls, rounds).items():
+            rows.append({
+                "frequency": scene.parameters[0], "contacts": contacts, "displacement": size,
+                "tolerance": tolerance, "median_us": 1e6 * np.median(seconds) / PERIODS,
+            })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def fitted(table):
+    """Least squares of time = a + b contacts + c (2 pi/W) max |Z1|, in microseconds a period.
+
+    Flight steps are as short as the series' radius of convergence, which is as the largest |Z1|
+    is large, so the last term counts them.
+    """
+    rows = []
+    for tolerance, of in table.groupby("tolerance", sort=False):
+        turns = 2 * math.pi / of["frequency"] * of["displacement"]
+        columns = np.stack([np.ones(len(of)), of["contacts"], turns], axis=1)
+        found, *_ = np.linalg.lstsq(columns, of["median_us"], rcond=None)
+        rest = of["median_us"] - columns @ found
+        rows.append({
+            "tolerance": tolerance, "constant_us": found[0], "contact_us": found[1],
+            "displacement_us": found[2], "rms_of_rest_us": math.sqrt(np.mean(rest**2)),
+        })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+@style()
+def draw(table):
+    """Cost over the largest |Z1| times the period without contacts, and over contacts a period."""
+    table = table.assign(turns=2 * math.pi / table["frequency"] * table["displacement"])
+    drawn = figure("double", 3.2)
+    left, right = drawn.subplots(1, 2, sharey=True)
+    free = table[table["contacts"] == 0]
+    damped = table[table["contacts"] > 0]
+    for i, tolerance in enumerate(sorted(set(table["tolerance"]), reverse=True)):
+        label = f"tolerance $10^{{{round(math.log10(tolerance))}}}$"
+        for axes, of, across in ((left, free, "turns"), (right, damped, "contacts")):
+            of = of[of["tolerance"] == tolerance]
+            axes.plot(of[across], of["median_us"], label=label, **points(i) | {"markersize": 3})
+            trend = np.polynomial.Polynomial.fit(of[across], of["median_us"], 1)
+            axes.plot(*trend.linspace(2), **curve(i))
+    left.set(
+        xlabel=r"Largest displacement times period, $2\pi\,\max\,|Z_1|/\Omega$", ylim=(0, None)
+    )
+    left.set_ylabel("Time a forcing period (µs)")
+    right.set_xlabel("Contacts a period")
+    letter_panels([left, right])
+    legend(drawn, 3)
+    return drawn

@@ -1,0 +1,145 @@
+"""Motions by heyoka.py with terminal events and Python callbacks, at its fastest settings.
+
+One integrator serves flight and contact. Its one event is Z2^2 = d0^2; the callback switches two
+parameters, the stiffness that acts and the wall, and lets the integration go on. It reaches
+parameters and state through views made once, since making them is most of what it costs. Two
+events, one for each wall, are 4 to 8 % slower; integrators for flight and contact that take
+turns leave `propagate_until` at every event, which is slower still. What else was tried stands in
+`SETTINGS` and is timed in every run of the benchmarks.
+"""
+
+import math
+
+import heyoka
+import numpy as np
+
+FASTEST = {"fast_math": True, "force_avx512": True}
+# Trajectories of a batch.
+BATCH = 4 * heyoka.recommended_simd_size()
+# Time after an event in which it is not looked for again. The one that heyoka works out hides the
+# end of a contact next to grazing, at tolerances down to 1e-10; with none an event repeats itself.
+COOLDOWN = 1e-9
+# What is changed from the fastest settings, one at a time.
+SETTINGS = {
+    "fast_math off": {"fast_math": False},
+    "force_avx512 off": {"force_avx512": False},
+    "slp_vectorize on": {"slp_vectorize": True},
+    "compact_mode on": {"compact_mode": True},
+    "high_accuracy on": {"high_accuracy": True},
+    "opt_level 2": {"opt_level": 2},
+    "forcing as cos(W T)": {"linear_forcing": False},
+    "cube as x**3": {"power": True},
+    "parameters as par": {"as_par": True},
+}
+
+
+class Motions:
+    """An integrator for given parameters.
+
+    Parameters
+    ----------
+    p : array, shape (7,)
+        Packed parameters.
+    tolerance : float
+    batch : int
+        Trajectories integrated together; 1 is the scalar integrator.
+    linear_forcing, power, as_par : bool
+        Whether the forcing comes from two more linear equations, the cube is a power, and the
+        equations take their parameters at run time.
+    settings
+        Further ones of heyoka's, over `FASTEST`.
+    """
+
+    def __init__(
+        self, p, tolerance, *, batch=1, linear_forcing=True, power=False, as_par=False, **settings
+    ):
+        self.batch, self.damped = batch, p[3] < math.inf
+        self.views = [None, None]
+        x, v, z, w, c, s = heyoka.make_vars("x", "v", "z", "w", "c", "s")
+        switches = [0.0, 0.0] if self.damped else []
+        pars = list(switches)
+
+        def number(value):
+            if not as_par:
+                return float(value)
+            pars.append(float(value))
+            return heyoka.par[len(pars) - 1]
+
+        frequency, damping = number(p[0]), number(p[1])
+        forcing = c if linear_forcing else heyoka.cos(frequency * heyoka.time)
+        free = forcing - damping * v - (x**3 if power else x * x * x)
+        if p[2] != 0:
+            free -= number(p[2]) * x
+        system, events = [(x, v), (v, free)], []
+        if self.damped:
+            depth = z - heyoka.par[1]
+            force = heyoka.par[0] * (depth + number(p[6] / p[4]) * w if p[6] > 0 else depth)
+            system = [(x, v), (v, free - force), (z, w), (w, free - number(1 + p[5]) * force)]
+            event = heyoka.t_event if batch == 1 else heyoka.t_event_batch
+            gap, callback = z * z - number(p[3] ** 2), self._callback(p[3], p[4])
+            events = [event(gap, callback=callback, cooldown=COOLDOWN)]
+        if linear_forcing:
+            system += [(c, -frequency * s), (s, frequency * c)]
+        self.begin = [math.cos(0.5 * math.pi), 1.0] if linear_forcing else []
+        state, pars = np.zeros(len(system)), np.array(pars)
+        make = heyoka.taylor_adaptive
+        if batch > 1:
+            make = heyoka.taylor_adaptive_batch
+            state, pars = (np.repeat(each[:, None], batch, axis=1) for each in (state, pars))
+        settings = FASTEST | settings
+        self.motion = make(system, state, pars=pars, t_events=events, tol=tolerance, **settings)
+        self.state, self.pars = self.motion.state, self.motion.pars
+        self.views[:] = memoryview(self.pars), memoryview(self.state)
+
+    def _callback(self, clearance, stiffness):
+        """What switches the contact on and off; it finds its arrays in `self.views`."""
+        views = self.views
+
+        def scalar(_, sign):
+            pars, state = views
+            if sign > 0:
+                pars[0] = stiffness
+                pars[1] = clearance if state[2] > 0 else -clearance
+            else:
+                pars[0] = 0.0
+            return True
+
+        def batched(_, sign, i):
+            pars, state = views
+            if sign > 0:
+                pars[0, i] = stiffness
+                pars[1, i] = clearance if state[2, i] > 0 else -clearance
+            else:
+                pars[0, i] = 0.0
+            return True
+
+        return scalar if self.batch == 1 else batched
+
+    def _start(self, columns):
+        n = 4 if self.damped else 2
+        self.state[:n] = columns[:n]
+        for i, value in enumerate(self.begin):
+            self.state[n + i] = value
+        if self.damped:
+            self.pars[0] = 0.0
+            self.motion.reset_cooldowns()
+        return n
+
+    def run(self, scene, starts):
+        """States (m, 4) at the scene's end from starts (m, 4), whose number the batch divides."""
+        motion, ended = self.motion, heyoka.taylor_outcome.time_limit
+        states = np.full((len(starts), 4), np.nan)
+        if self.batch == 1:
+            for i, start in enumerate(starts):
+                n = self._start(start)
+                motion.time = scene.begin
+                if motion.propagate_until(scene.end)[0] == ended:
+                    states[i, :n] = self.state[:n]
+            return states
+        for i in range(0, len(starts), self.batch):
+            n = self._start(starts[i : i + self.batch].T)
+            motion.set_time(scene.begin)
+            motion.propagate_until(scene.end)
+            if all(outcome[0] == ended for outcome in motion.propagate_res):
+                states[i : i + self.batch, :n] = self.state[:n].T
+        return states

@@ -1,0 +1,151 @@
+"""The kernel against heyoka.py and SciPy at equal error, in one interleaved run."""
+
+import pandas as pd
+
+from benchmarks.accuracy import LIMIT, loosest
+from benchmarks.heyoka_runs import BATCH, SETTINGS
+from benchmarks.methods import METHODS, heyoka, starts_of
+from benchmarks.timing import interleaved, spread
+from impact_damper import table_files
+
+# Against whom each way of using the kernel is set.
+RIVALS = {
+    "kernel": ("heyoka", "dop853_events"),
+    "kernel_ensemble": ("heyoka", "heyoka_batch", "dop853_events"),
+}
+TIMED = ("kernel", "kernel_ensemble", "heyoka", "heyoka_batch", "dop853_events")
+
+
+def tolerances(scene, timed, limit):
+    """The loosest tolerance within the limit of each method."""
+    found = {}
+    for name in timed:
+        each = found[name] = loosest(scene, name, limit)
+        missed = "" if each.met else ", limit not met"
+        print(
+            f"  {scene.name}, {METHODS[name].title}: tolerance {each.tolerance:.1e}, "
+            f"error {each.error:.1e}{missed}",
+            flush=True,
+        )
+    return found
+
+
+def microseconds(scene, found, rounds):
+    """Microseconds a forcing period and trajectory of each method in each round."""
+    starts = {name: starts_of(scene, name) for name in found}
+    calls = {
+        name: lambda run=each.run, starts=starts[name]: run(starts) for name, each in found.items()
+    }
+    seconds = interleaved(calls, rounds)
+    return {name: 1e6 * seconds[name] / (len(starts[name]) * scene.periods) for name in found}
+
+
+def time_row(scene, name, found, measured):
+    """A row of the table of times."""
+    median, lower, upper = spread(measured)
+    return {
+        "scene": scene.name,
+        "method": METHODS[name].title,
+        "tolerance": found.tolerance,
+        "error": found.error,
+        "within_limit": "yes" if found.met else "no",
+        "median_us": median,
+        "lower_quartile_us": lower,
+        "upper_quartile_us": upper,
+        "least_us": measured.min(),
+    }
+
+
+def ratio_row(scene, name, rival, found, measured):
+    """A row of the table of ratios."""
+    median, lower, upper = spread(measured[rival] / measured[name])
+    ours, other = METHODS[name].title, METHODS[rival].title
+    print(f"  {scene.name}, {ours}: {median:.4g} times faster than {other}", flush=True)
+    return {
+        "scene": scene.name,
+        "ours": ours,
+        "rival": other,
+        "times_faster": median,
+        "lower_quartile": lower,
+        "upper_quartile": upper,
+        "equal_error": "yes" if found[name].met and found[rival].met else "no",
+    }
+
+
+def compared(scenes, rounds, limit=LIMIT, timed=TIMED):
+    """Times and ratios at equal error.
+
+    Parameters
+    ----------
+    scenes : list of scenes.Scene
+    rounds : int
+    limit : float
+        Largest error of any component of any state at the end.
+    timed : sequence of str
+        Names of methods.
+
+    Returns
+    -------
+    times : pandas.DataFrame
+        For each scene and method the loosest tolerance within the limit, its error, and the
+        microseconds a forcing period and trajectory: median, quartiles and least.
+    ratios : pandas.DataFrame
+        For each use of the kernel and each rival, median and quartiles over rounds of the ratio of
+        their times in that round; whether both are within the limit.
+    """
+    times, ratios = [], []
+    for scene in scenes:
+        found = tolerances(scene, timed, limit)
+        measured = microseconds(scene, found, rounds)
+        times += [time_row(scene, name, found[name], measured[name]) for name in timed]
+        ratios += [
+            ratio_row(scene, name, rival, found, measured)
+            for name, rivals in RIVALS.items()
+            for rival in rivals
+            if name in timed and rival in timed
+        ]
+    return pd.DataFrame(times), pd.DataFrame(ratios)
+
+
+def document(machine):
+    """What makes the Markdown of the table of ratios: how it was measured, and on what."""
+
+    def made(ratios):
+        described = ", ".join(f"{row.item} {row.value}" for row in machine.itertuples())
+        how = (
+            "Each method at the loosest tolerance that keeps the error of the state at the end "
+            f"below {LIMIT:g} (`times.md`), against 80-bit arithmetic. Methods take turns on one "
+            "core; medians and quartiles over rounds of the ratio of times a trajectory. heyoka.py "
+            "at its fastest settings (`heyoka_settings.md`), SciPy with a compiled right-hand side."
+        )
+        table = table_files.plain(ratios)
+        return "\n\n".join([f"Made by `make benchmark` on: {described}.", how, table])
+
+    return made
+
+
+def heyoka_settings(scenes, times, rounds):
+    """How much slower heyoka.py is when one of its fastest settings is changed, by scene.
+
+    `times` is the table of `compared`, whose tolerances are taken.
+    """
+    rows = []
+    for scene in scenes:
+        chosen = times[
+            (times["scene"] == scene.name) & (times["method"] == METHODS["heyoka"].title)
+        ]
+        tolerance = float(chosen["tolerance"].iloc[0])
+        changes = {"fastest": {}} | SETTINGS
+        changes |= {f"batch of {n}": {"batch": n} for n in (4, 8, 16) if n <= BATCH}
+        calls, errors = {}, {}
+        for name, change in changes.items():
+            run = heyoka(scene, tolerance, **change)
+            errors[name] = scene.error(run(scene.starts))
+            calls[name] = lambda run=run, starts=scene.starts: run(starts)
+        seconds = interleaved(calls, rounds)
+        for name in changes:
+            median, lower, upper = spread(seconds[name] / seconds["fastest"])
+            row = {"scene": scene.name, "changed": name, "time_ratio": median}
+            row |= {"lower_quartile": lower, "upper_quartile": upper, "error": errors[name]}
+            rows.append(row)
+    return pd.DataFrame(rows)

@@ -1,0 +1,73 @@
+"""Ensembles over their size and over the cores that share them."""
+
+import os
+
+import numpy as np
+import pandas as pd
+
+from benchmarks.methods import METHODS, advance_rows
+from benchmarks.timing import interleaved, spread
+from impact_damper.ensemble import run_chunks
+from impact_damper.motions import random_states
+from impact_damper.parameters import Damper
+
+TOLERANCE = 1e-9
+RADIUS = 2.0
+# Trajectories that a thread takes at a time.
+SHARE = 64
+
+
+def starts_of(scene, count):
+    """Starts next to the scene's orbit, and from a ball within the gap, whose motions part."""
+    near = np.resize(scene.starts, (count, 4))
+    damper = Damper(0.12, scene.parameters[3]) if scene.components == 4 else None
+    return {"near the orbit": near, "random": random_states(count, RADIUS, damper, 1995)}
+
+
+def sizes(scenes, counts, rounds):
+    """Microseconds a trajectory and forcing period over the size of an ensemble, on one core."""
+    rows = []
+    for scene in scenes:
+        run = METHODS["kernel_ensemble"].prepare(scene, TOLERANCE)
+        for name, starts in starts_of(scene, max(counts)).items():
+            calls = {count: lambda y=starts[:count], run=run: run(y) for count in counts}
+            for count, seconds in interleaved(calls, rounds).items():
+                median, lower, upper = spread(1e6 * seconds / (count * scene.periods))
+                rows.append({
+                    "scene": scene.name, "starts": name, "trajectories": count,
+                    "median_us": median, "lower_quartile_us": lower, "upper_quartile_us": upper,
+                })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def cores(scenes, count, rounds):
+    """Throughput of an ensemble on several threads over that on one, and whether results agree.
+
+    The same starts, from a ball within the gap, in shares of SHARE.
+    """
+    threads = [1, *range(2, min(os.cpu_count(), 8) + 1)]
+    rows = []
+    for scene in scenes:
+        p, starts = scene.parameters, starts_of(scene, count)["random"]
+        results = {}
+
+        def run(workers, scene=scene, p=p, starts=starts, results=results):
+            states = starts.copy()
+            results[workers] = states
+
+            def work(part):
+                advance_rows(p, states[part], scene.begin, scene.end, TOLERANCE)
+
+            run_chunks(work, count, workers, None, SHARE)
+
+        calls = {workers: lambda workers=workers, run=run: run(workers) for workers in threads}
+        seconds = interleaved(calls, rounds)
+        for workers in threads:
+            median, lower, upper = spread(seconds[1] / seconds[workers])
+            same = np.array_equal(results[1], results[workers], equal_nan=True)
+            rows.append({
+                "scene": scene.name, "threads": workers, "trajectories": count,
+                "throughput": median, "lower_quartile": lower, "upper_quartile": upper,
+                "same_results": "yes" if same else "no",
+            })  # fmt: skip
+    return pd.DataFrame(rows)

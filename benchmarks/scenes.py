@@ -1,0 +1,86 @@
+"""Motions on which methods are timed: the scenes of the configuration, with exact states."""
+
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import extended
+import numpy as np
+import yaml
+
+from impact_damper.parameters import Damper, Oscillator, pack
+
+CONFIGURATION = Path(__file__).parents[1] / "config" / "config.yaml"
+# Starts are drawn within this of the scene's state, in each component.
+SPREAD = 1e-3
+# Where motions that start so far away leave the orbit for a chaotic one: next to grazing.
+SPREADS = {"grazing": 1e-8}
+
+
+class Scene(NamedTuple):
+    """Motions from states close to each other, all in flight at the beginning.
+
+    Attributes
+    ----------
+    name : str
+    parameters : numpy.ndarray, shape (7,)
+        As of `parameters.pack`.
+    begin, end : float
+        Times, W T = pi/2 at the beginning.
+    periods : int
+    starts, exact : numpy.ndarray, shape (m, 4)
+        States at the beginning and, by 80-bit arithmetic, at the end; the first start is that of
+        the configuration.
+    """
+
+    name: str
+    parameters: np.ndarray
+    begin: float
+    end: float
+    periods: int
+    starts: np.ndarray
+    exact: np.ndarray
+
+    @property
+    def components(self):
+        """How many components of the state count: without a damper there is no Z2."""
+        return 2 if self.parameters[3] == math.inf else 4
+
+    def error(self, states):
+        """Largest error of any component of states at the end, of the first so many starts."""
+        n = self.components
+        return float(np.abs(states[:, :n] - self.exact[: len(states), :n]).max())
+
+
+def make(name, p, state, periods, count, seed=1995):
+    """A scene with `count` starts."""
+    p, state = np.array(p, float), np.array(state, float)
+    width = SPREADS.get(name, SPREAD)
+    starts = state + width * np.random.default_rng(seed).uniform(-1, 1, (count, 4))
+    starts[0] = state
+    begin = 0.5 * math.pi / p[0]
+    end = begin + periods * 2 * math.pi / p[0]
+    if np.any(np.abs(starts[:, 2]) >= p[3]):
+        raise ValueError(f"scene {name}: must begin in flight")
+    rows = np.tile(p, (count, 1))
+    exact = extended.run_many(rows, starts, np.full(count, begin), np.full((count, 1), end))
+    return Scene(name, p, begin, end, periods, starts, exact.states.astype(float))
+
+
+def from_configuration(count):
+    """All scenes of the configuration but those for averages, with `count` starts each."""
+    config = yaml.safe_load(CONFIGURATION.read_text())
+    keys = ("mass_ratio", "clearance", "restitution")
+    found = []
+    for name, entry in config["scenes"].items():
+        if entry["motion"] == "chaotic":
+            continue
+        oscillator = config["oscillators"][entry["oscillator"]]
+        oscillator = Oscillator(oscillator["damping"], oscillator["linear_frequency"])
+        damper = None
+        if "mass_ratio" in entry:
+            stiffness = config["contact_stiffness"]
+            damper = Damper(**{key: entry[key] for key in keys}, contact_stiffness=stiffness)
+        p = pack(oscillator, damper, entry["frequency"])
+        found.append(make(name, p, entry["state"], entry["periods"], count))
+    return found

@@ -1,0 +1,51 @@
+"""What each stage of the pipeline took, from the files that Snakemake wrote."""
+
+import pandas as pd
+
+# Snakemake's columns, and what they hold.
+COLUMNS = {"s": "seconds", "cpu_time": "cpu_seconds", "max_rss": "memory_mb"}
+
+
+def jobs(folder):
+    """A row for each job under a folder of timings: stage, job and its measures.
+
+    A stage is a folder there; a job whose file lies in none is a stage of its own. What Snakemake
+    could not measure, in a job too short, is NaN.
+    """
+    rows = []
+    for path in sorted(folder.rglob("*.tsv")):
+        stage, *rest = path.relative_to(folder).with_suffix("").parts
+        values = pd.read_csv(path, sep="\t").iloc[-1]
+        measures = {
+            name: pd.to_numeric(values[column], errors="coerce") for column, name in COLUMNS.items()
+        }
+        rows.append({"stage": stage, "job": "/".join(rest) or stage} | measures)
+    return pd.DataFrame(rows, columns=["stage", "job", *COLUMNS.values()])
+
+
+def table(folder):
+    """A row for each stage, the longest first, and their total.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Stage, jobs, wall and CPU seconds, the longest job and its wall seconds, peak memory (MB).
+    """
+    found = jobs(folder)
+    rows = []
+    for stage, of in [*found.groupby("stage"), ("total", found)]:
+        if of.empty:
+            continue
+        longest = of.loc[of["seconds"].idxmax()]
+        rows.append({
+            "stage": stage, "jobs": len(of), "seconds": of["seconds"].sum(),
+            "cpu_seconds": of["cpu_seconds"].sum(), "longest_job": longest["job"],
+            "longest_seconds": longest["seconds"], "memory_mb": of["memory_mb"].max(),
+        })  # fmt: skip
+    columns = ["stage", "jobs", "seconds", "cpu_seconds"]
+    columns += ["longest_job", "longest_seconds", "memory_mb"]
+    made = pd.DataFrame(rows, columns=columns)
+    # the total is the last row
+    return made.sort_values(
+        "seconds", ascending=False, key=lambda s: s.where(made["stage"] != "total", -1.0)
+    ).reset_index(drop=True)

@@ -1,0 +1,175 @@
+"""Motions in 80-bit arithmetic by a C program that shares no code with the package.
+
+State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `parameters.pack`, whose
+doubles are taken as they are. Taylor series of order 32 with a local error of 1e-20; events are
+isolated by the signs of Bernstein coefficients (see motion.c). The compiler `cc` makes the
+program on first use, in about half a second.
+"""
+
+import ctypes
+import functools
+import math
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+TOLERANCE = 1e-20
+PROGRAM = Path(__file__).with_name("motion.c")
+STATUS = {1: "the log of contacts is full", 2: "no memory", 3: "too many steps"}
+Real = np.longdouble
+
+
+def obstacle():
+    """Why the program cannot run here, or an empty string."""
+    if np.finfo(Real).nmant < 63:
+        return "long double has no more digits than double here"
+    if shutil.which("cc") is None:
+        return "no C compiler `cc`"
+    return ""
+
+
+@functools.cache
+def _library():
+    """The program, compiled; raises RuntimeError where `obstacle` tells why it cannot be."""
+    if obstacle():
+        raise RuntimeError(obstacle())
+    with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
+        library = Path(folder) / "motion.so"
+        command = ["cc", "-O2", "-std=c11", "-shared", "-fPIC", "-o", library, PROGRAM, "-lm"]
+        subprocess.run(command, check=True)
+        loaded = ctypes.CDLL(str(library))
+    real, plain, whole, status = (
+        np.ctypeslib.ndpointer(kind, flags="C") for kind in (Real, float, np.int64, np.int32)
+    )
+    count = ctypes.c_long
+    loaded.motion.argtypes = [
+        plain, real, ctypes.c_longdouble, real, count, real, real, real,
+        real, count, real, count, real, real, whole,
+    ]  # fmt: skip
+    loaded.motions.restype = None
+    loaded.motions.argtypes = [
+        count, plain, real, real, real, count, real, real, real, whole, status
+    ]  # fmt: skip
+    return loaded
+
+
+class Run(NamedTuple):
+    """One motion; all arrays are long double.
+
+    Attributes
+    ----------
+    states : array, shape (n, 4)
+        State at each time asked for.
+    extremes : array, shape (n, 2)
+        Least and largest Z1 since the time before (or the start).
+    contacts : array, shape (k, 5)
+        Wall, beginning, end, Z2' at both; NaN where a contact has not ended. A contact of
+        the start is the first row and begins at the start.
+    begun : int
+        Contacts begun; a contact of the start is not among them.
+    turnings : array, shape (m, 4)
+        Extrema of Z2, touching or not, and Z2 at the end: time, nearest wall, height beyond it
+        (negative inside), largest growth of an error to one of Z2 there. None without walls.
+    flow : array, shape (4, 4)
+        Derivative of the last state by the first.
+    growth : long double
+        Largest norm of the flow's derivative from an instant of the run to its end, at least 1;
+        instants are the start, the times and the events (after their jump). The norm belongs to
+        the largest component: the largest sum of moduli in a row.
+    margin : long double
+        Least |height| of the turnings over the growth until there: an error of this size could
+        change the number of contacts.
+    steps : int
+    """
+
+    states: np.ndarray
+    extremes: np.ndarray
+    contacts: np.ndarray
+    begun: int
+    turnings: np.ndarray
+    flow: np.ndarray
+    growth: Real
+    margin: Real
+    steps: int
+
+
+class Runs(NamedTuple):
+    """Many motions: last states (m, 4) and, for each, what `Run` has under the same names."""
+
+    states: np.ndarray
+    begun: np.ndarray
+    growth: np.ndarray
+    margin: np.ndarray
+
+
+def _fail(status, what):
+    if status:
+        raise RuntimeError(f"{what}: {STATUS[status]}")
+
+
+def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=100_000):
+    """One motion from `start` through increasing `times`.
+
+    Parameters
+    ----------
+    p : array, shape (7,)
+        Packed parameters.
+    state : array, shape (4,)
+        On a wall and moving outward, or beyond it, the start is in contact.
+    start : float or long double
+    times : array, shape (n,)
+    tolerance, longest : float
+        Local error of a step, relative to the state where that is above 1, and longest step.
+    room : int
+        Most contacts and most turnings logged.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    RuntimeError
+        If the program cannot be made here, or the logs are too small.
+    """
+    times = np.atleast_1d(np.asarray(times, Real))
+    states, extremes = np.empty((len(times), 4), Real), np.empty((len(times), 2), Real)
+    contacts, turnings = np.empty((room, 5), Real), np.empty((room, 4), Real)
+    flow, summary, counts = np.empty((4, 4), Real), np.empty(2, Real), np.empty(4, np.int64)
+    status = _library().motion(
+        np.array(p, float), np.array(state, Real), start, times, len(times),
+        np.array([tolerance, longest], Real), states, extremes, contacts, room, turnings, room,
+        flow, summary, counts,
+    )  # fmt: skip
+    logged, begun, turned, steps = counts
+    _fail(status or int(turned > room), "80-bit motion")
+    return Run(
+        states, extremes, contacts[:logged].copy(), int(begun), turnings[:turned].copy(),
+        flow, *summary, int(steps),
+    )  # fmt: skip
+
+
+def run_many(parameters, states, starts, times, *, tolerance=TOLERANCE, longest=math.inf):
+    """Motions with parameters (m, 7), states (m, 4), starts (m,), each through times (m, n).
+
+    Raises
+    ------
+    RuntimeError
+        As `run`; the message names the motion.
+    """
+    times = np.ascontiguousarray(times, Real)
+    m, n = times.shape
+    last, summaries = np.empty((m, 4), Real), np.empty((m, 2), Real)
+    begun, status = np.empty(m, np.int64), np.empty(m, np.int32)
+    _library().motions(
+        m, np.array(parameters, float).reshape(m, 7), np.array(states, Real).reshape(m, 4),
+        np.array(starts, Real).reshape(m), times, n, np.array([tolerance, longest], Real),
+        last, summaries, begun, status,
+    )  # fmt: skip
+    for index in np.flatnonzero(status):
+        _fail(status[index], f"80-bit motion {index}")
+    return Runs(last, begun, *summaries.T)

@@ -1,0 +1,460 @@
+/* Motions of the damped oscillator in the machine's extended precision.
+
+   Equations (3), (4) and (20) to (24), integrated as a looped Taylor series of fixed order; the
+   kernels of the package share no code with it. Here the absence of an event is proved, and the
+   events are isolated, by the signs of Bernstein coefficients: a polynomial has at most as many
+   roots in an interval as its coefficients there change sign (Descartes' rule; Farouki, Computer
+   Aided Geometric Design 29, 2012). No sign change is no root, one is one root, more are bisected.
+
+   Z2 is kept as its distance from the wall that was touched last, so that a state on that wall
+   is exactly zero: the root there is divided out and cannot hide the next one. */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef long double real;
+
+enum { ORDER = 32, TERMS = ORDER + 1, MOST_ROOTS = ORDER };
+enum { DONE = 0, LOG_FULL = 1, NO_MEMORY = 2, TOO_MANY_STEPS = 3 };
+
+typedef struct {
+    real frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot;
+} Parameters;
+
+/* One step: Taylor coefficients of Z1, of the distance z of Z2 from the wall, of Z1^2, and of
+   the derivatives of Z1 and z by the four initial values. */
+typedef struct {
+    real x[TERMS], z[TERMS], square[TERMS], dx[4][TERMS], dz[4][TERMS];
+} Series;
+
+typedef struct {
+    real m[4][4];
+} Matrix;
+
+/* A run under way. `origin` is the wall that z is measured from (Z2 = origin + z), `side` the
+   wall in contact or 0. `since` is the flow's derivative since the last instant (start, event,
+   time asked for); flows[i] is that from instant i to the last one. */
+typedef struct {
+    const Parameters *p;
+    real y[4], origin, t;
+    int side;
+    Matrix since, *flows;
+    long instants, room;
+    real margin;
+    real *turnings;
+    long turning_count, turning_room;
+} Run;
+
+static const Matrix IDENTITY = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+
+static real value(const real *c, real t)
+{
+    real sum = c[ORDER];
+    for (int k = ORDER - 1; k >= 0; k--) sum = sum * t + c[k];
+    return sum;
+}
+
+static void differentiate(const real *c, real *slope)
+{
+    for (int k = 0; k < ORDER; k++) slope[k] = (k + 1) * c[k + 1];
+    slope[ORDER] = 0;
+}
+
+/* ---- roots of a step's polynomials ---- */
+
+static void bernstein(const real *c, real length, real *b)
+{
+    real power = 1, binomial = 1;
+    for (int k = 0; k <= ORDER; k++) {
+        b[k] = c[k] * power / binomial;
+        power *= length;
+        binomial = binomial * (ORDER - k) / (k + 1);
+    }
+    for (int k = 1; k <= ORDER; k++)
+        for (int i = ORDER; i >= k; i--) b[i] += b[i - 1];
+}
+
+static int sign_changes(const real *b)
+{
+    int changes = 0;
+    real last = 0;
+    for (int k = 0; k <= ORDER; k++) {
+        if (b[k] == 0) continue;
+        if (last != 0 && (last < 0) != (b[k] < 0)) changes++;
+        last = b[k];
+    }
+    return changes;
+}
+
+/* The one root between left and right, by Newton's method kept between the bounds. */
+static real refine(const real *c, real left, real right, int rising)
+{
+    real slope[TERMS], t = (left + right) / 2;
+    differentiate(c, slope);
+    for (int i = 0; i < 200; i++) {
+        real f = value(c, t);
+        if (f == 0) break;
+        if ((f > 0) == rising) right = t;
+        else left = t;
+        real next = t - f / value(slope, t);
+        if (!(next > left && next < right)) next = (left + right) / 2;
+        if (next == t || fabsl(next - t) <= 0x1p-66L * t) break;
+        t = next;
+    }
+    return t;
+}
+
+/* Roots inside (left, right) in increasing order, at most `most`; b holds the Bernstein
+   coefficients there. Roots closer to each other than rounding are passed over; if they leave
+   the sign changed, `roots` reports it at the beginning of the next step. */
+static int isolate(const real *c, const real *b, real left, real right, real *found, int most)
+{
+    int changes = sign_changes(b);
+    if (changes == 0 || most == 0) return 0;
+    if (changes == 1) {
+        int first = 0;
+        while (b[first] == 0) first++;
+        found[0] = refine(c, left, right, b[first] < 0);
+        return 1;
+    }
+    real middle = (left + right) / 2;
+    if (right - left <= 0x1p-62L * right) return 0;
+    real near[TERMS], far[TERMS];
+    memcpy(far, b, sizeof far);
+    for (int k = 0; k <= ORDER; k++) { /* de Casteljau's halving */
+        near[k] = far[0];
+        for (int i = 0; i < ORDER - k; i++) far[i] = (far[i] + far[i + 1]) / 2;
+    }
+    /* far[] now holds the right half. */
+    int count = isolate(c, near, left, middle, found, most);
+    if (far[0] == 0 && count < most) found[count++] = middle;
+    return count + isolate(c, far, middle, right, found + count, most - count);
+}
+
+/* Whether the first coefficient outweighs all others, so that there is certainly no root. */
+static int far_from_zero(const real *c, real length)
+{
+    real rest = 0;
+    for (int k = ORDER; k > 0; k--) rest = (rest + fabsl(c[k])) * length;
+    return fabsl(c[0]) > rest;
+}
+
+/* Roots in (0, length), without those at zero, which are divided out. If the first sign after
+   zero is against `sign` (when it is not 0), zero itself is the first root. */
+static int roots(const real *series, real length, int sign, real *found, int most)
+{
+    real c[TERMS], b[TERMS];
+    int zeros = 0;
+    while (zeros < ORDER && series[zeros] == 0) zeros++;
+    memset(c, 0, sizeof c);
+    memcpy(c, series + zeros, (TERMS - zeros) * sizeof(real));
+    if (sign && c[0] * sign < 0) {
+        found[0] = 0;
+        return 1;
+    }
+    if (far_from_zero(c, length)) return 0;
+    bernstein(c, length, b);
+    return isolate(c, b, 0, length, found, most);
+}
+
+/* ---- the step ---- */
+
+static void expand(const Run *run, Series *s)
+{
+    const Parameters *p = run->p;
+    real w = p->frequency, phase = w * run->t;
+    real drive[4] = {cosl(phase), -sinl(phase), -cosl(phase), sinl(phase)}, factor = 1;
+    int touching = run->side != 0, columns = touching ? 4 : 2;
+    memset(s, 0, sizeof *s);
+    s->x[0] = run->y[0], s->x[1] = run->y[1], s->z[0] = run->y[2], s->z[1] = run->y[3];
+    s->dx[0][0] = s->dx[1][1] = s->dz[2][0] = s->dz[3][1] = 1;
+    for (int k = 0; k + 2 <= ORDER; k++) {
+        real cube = 0, square = 0, both = (real)(k + 1) * (k + 2);
+        for (int j = 0; j <= k; j++) square += s->x[j] * s->x[k - j];
+        s->square[k] = square;
+        for (int j = 0; j <= k; j++) cube += s->square[j] * s->x[k - j];
+        real force = touching ? p->spring * s->z[k] + p->dashpot * (k + 1) * s->z[k + 1] : 0;
+        real rest = drive[k % 4] * factor - p->damping * (k + 1) * s->x[k + 1]
+                    - p->stiffness * s->x[k] - cube - force;
+        s->x[k + 2] = rest / both;
+        s->z[k + 2] = (rest - p->inverse_mass * force) / both;
+        factor *= w / (k + 1);
+        for (int i = 0; i < columns; i++) {
+            real *dx = s->dx[i], *dz = s->dz[i];
+            cube = 0;
+            for (int j = 0; j <= k; j++) cube += s->square[j] * dx[k - j];
+            force = touching ? p->spring * dz[k] + p->dashpot * (k + 1) * dz[k + 1] : 0;
+            rest = -p->damping * (k + 1) * dx[k + 1] - p->stiffness * dx[k] - 3 * cube - force;
+            dx[k + 2] = rest / both;
+            dz[k + 2] = (rest - p->inverse_mass * force) / both;
+        }
+    }
+}
+
+/* Longest step for which the last four terms of the slope are at most `allowed`. */
+static real reach(const real *c, real allowed)
+{
+    double shortest = INFINITY;
+    for (int k = ORDER - 3; k <= ORDER; k++)
+        if (c[k] != 0) shortest = fmin(shortest, pow(allowed / (k * fabsl(c[k])), 1.0 / (k - 1)));
+    return shortest;
+}
+
+/* Height of Z2 beyond the wall `side` over the step; negative inside. */
+static void height(const Run *run, const Series *s, int side, real *c)
+{
+    for (int k = 0; k <= ORDER; k++) c[k] = side * s->z[k];
+    c[0] += side * run->origin - run->p->clearance;
+}
+
+/* First event within `length`: its time, or `length`; `wall` becomes the side after it. */
+static real first_event(const Run *run, const Series *s, real length, int *wall)
+{
+    real c[TERMS], found;
+    *wall = run->side;
+    if (run->side) {
+        height(run, s, run->side, c);
+        if (roots(c, length, 1, &found, 1)) {
+            *wall = 0;
+            length = found;
+        }
+        return length;
+    }
+    for (int side = -1; side <= 1 && isfinite(run->p->clearance); side += 2) {
+        height(run, s, side, c);
+        if (roots(c, length, -1, &found, 1)) {
+            *wall = side;
+            length = found;
+        }
+    }
+    return length;
+}
+
+/* ---- the flow's derivative ---- */
+
+static Matrix product(const Matrix *a, const Matrix *b)
+{
+    Matrix c;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            c.m[i][j] = 0;
+            for (int k = 0; k < 4; k++) c.m[i][j] += a->m[i][k] * b->m[k][j];
+        }
+    return c;
+}
+
+/* The norm that belongs to the largest component: the largest sum of a row. */
+static real row_sum(const real *row)
+{
+    return fabsl(row[0]) + fabsl(row[1]) + fabsl(row[2]) + fabsl(row[3]);
+}
+
+static int new_instant(Run *run)
+{
+    if (run->instants == run->room) {
+        run->room = 2 * run->room + 64;
+        Matrix *larger = realloc(run->flows, run->room * sizeof(Matrix));
+        if (!larger) return NO_MEMORY;
+        run->flows = larger;
+    }
+    for (long i = 0; i < run->instants; i++)
+        run->flows[i] = product(&run->since, &run->flows[i]);
+    run->since = run->flows[run->instants++] = IDENTITY;
+    return DONE;
+}
+
+static Matrix step_derivative(const Series *s, real length)
+{
+    Matrix a;
+    for (int j = 0; j < 4; j++) {
+        real slope[TERMS];
+        differentiate(s->dx[j], slope);
+        a.m[0][j] = value(s->dx[j], length), a.m[1][j] = value(slope, length);
+        differentiate(s->dz[j], slope);
+        a.m[2][j] = value(s->dz[j], length), a.m[3][j] = value(slope, length);
+    }
+    return a;
+}
+
+/* Jump of the derivative where the dashpot's force begins (-1) or ends (+1). */
+static void saltation(Run *run, int direction)
+{
+    const Parameters *p = run->p;
+    for (int j = 0; j < 4; j++) {
+        real jump = direction * p->dashpot * run->since.m[2][j];
+        run->since.m[1][j] += jump;
+        run->since.m[3][j] += jump * (1 + p->inverse_mass);
+    }
+}
+
+/* ---- what is noted along the way ---- */
+
+/* Largest growth, from any instant to now, of an error of Z2; `row` is Z2 by the last instant. */
+static real growth_of_gap(const Run *run, const real *row)
+{
+    real growth = 1;
+    for (long i = 0; i < run->instants; i++) {
+        real now[4] = {0, 0, 0, 0};
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < 4; k++) now[j] += row[k] * run->flows[i].m[k][j];
+        growth = fmaxl(growth, row_sum(now));
+    }
+    return growth;
+}
+
+/* An extremum of Z2 = origin + z, or its end, and how high beyond the wall on its side it lies:
+   where this is small, errors decide on a contact. */
+static void note_turning(Run *run, real t, real z, const real *row)
+{
+    int side = run->origin + z < 0 ? -1 : 1;
+    real height = side * z + (side * run->origin - run->p->clearance);
+    real growth = growth_of_gap(run, row);
+    run->margin = fminl(run->margin, fabsl(height) / growth);
+    if (run->turning_count < run->turning_room) {
+        real entry[4] = {t, side, height, growth};
+        memcpy(run->turnings + 4 * run->turning_count, entry, sizeof entry);
+    }
+    run->turning_count++;
+}
+
+static void look_for_turnings(Run *run, const Series *s, real length)
+{
+    real slope[TERMS], found[MOST_ROOTS];
+    differentiate(s->z, slope);
+    int count = roots(slope, length, 0, found, MOST_ROOTS);
+    for (int i = 0; i < count; i++) {
+        Matrix a = step_derivative(s, found[i]);
+        a = product(&a, &run->since);
+        note_turning(run, run->t + found[i], value(s->z, found[i]), a.m[2]);
+    }
+}
+
+static void look_for_extremes(const Series *s, real length, real *extremes)
+{
+    real slope[TERMS], found[MOST_ROOTS + 2];
+    differentiate(s->x, slope);
+    int count = roots(slope, length, 0, found, MOST_ROOTS);
+    found[count++] = 0;
+    found[count++] = length;
+    for (int i = 0; i < count; i++) {
+        real x = value(s->x, found[i]);
+        extremes[0] = fminl(extremes[0], x);
+        extremes[1] = fmaxl(extremes[1], x);
+    }
+}
+
+/* ---- runs ---- */
+
+static int start_side(const Run *run, const real *y)
+{
+    real d = run->p->clearance;
+    if (y[2] > d || (y[2] == d && y[3] > 0)) return 1;
+    if (y[2] < -d || (y[2] == -d && y[3] < 0)) return -1;
+    return 0;
+}
+
+/* One run from `start` through the increasing `times`.
+
+   settings: local error allowed (relative to the state where that is above 1), longest step.
+   contacts: rows of wall, beginning, end, Z2' at both (NaN while it lasts); the first row is
+   the contact of the start, if there is one. turnings: rows of time, wall, height beyond it,
+   growth of Z2 until there. states, extremes: for each time, Z1 Z1' Z2 Z2', and the least and
+   largest Z1 since the time before. flow: derivative of the last state by the first.
+   summary: growth, margin. counts: contacts in the log, contacts begun, turnings, steps. */
+int motion(const double *packed, const real *first, real start, const real *times, long n,
+           const real *settings, real *states, real *extremes, real *contacts,
+           long contact_room, real *turnings, long turning_room, real *flow, real *summary,
+           long *counts)
+{
+    Parameters p = {packed[0], packed[1], packed[2], packed[3], packed[4], packed[5], packed[6]};
+    Run run = {.p = &p, .t = start, .since = IDENTITY, .margin = INFINITY,
+               .turnings = turnings, .turning_room = turning_room};
+    Series s;
+    long logged = 0, begun = 0, steps = 0;
+    int status = new_instant(&run);
+    memcpy(run.y, first, sizeof run.y);
+    run.side = start_side(&run, first);
+    if (isfinite(p.clearance) && (run.side || fabsl(first[2]) == p.clearance)) {
+        run.origin = copysignl(p.clearance, first[2]);
+        run.y[2] -= run.origin;
+    }
+    if (run.side && contact_room > 0) {
+        real row[5] = {run.side, run.t, NAN, run.y[3], NAN};
+        memcpy(contacts, row, sizeof row);
+        logged = 1;
+    }
+    for (long i = 0; i < n && status == DONE; i++) {
+        if (extremes) extremes[2 * i] = INFINITY, extremes[2 * i + 1] = -INFINITY;
+        while (run.t < times[i] && status == DONE) {
+            int wall;
+            expand(&run, &s);
+            real now = fmaxl(fmaxl(1, fabsl(run.y[0])), fmaxl(fabsl(run.y[1]), fabsl(run.y[3])));
+            real allowed = settings[0] * now, left = times[i] - run.t;
+            real longest = fminl(settings[1], reach(s.x, allowed));
+            if (run.side) longest = fminl(longest, reach(s.z, allowed));
+            real length = first_event(&run, &s, fminl(longest, left), &wall);
+            int event = wall != run.side;
+            if (isfinite(p.clearance)) look_for_turnings(&run, &s, length);
+            if (extremes) look_for_extremes(&s, length, extremes + 2 * i);
+            Matrix step = step_derivative(&s, length);
+            run.since = product(&step, &run.since);
+            real slope[TERMS];
+            run.y[0] = value(s.x, length), run.y[2] = value(s.z, length);
+            differentiate(s.x, slope), run.y[1] = value(slope, length);
+            differentiate(s.z, slope), run.y[3] = value(slope, length);
+            run.t = length == left ? times[i] : run.t + length;
+            if (++steps > 10000000) status = TOO_MANY_STEPS;
+            if (!event) continue;
+            saltation(&run, wall ? -1 : 1);
+            if (status == DONE) status = new_instant(&run);
+            if (wall) {
+                begun++;
+                run.origin = wall * p.clearance;
+                if (logged < contact_room) {
+                    real row[5] = {wall, run.t, NAN, run.y[3], NAN};
+                    memcpy(contacts + 5 * logged++, row, sizeof row);
+                } else if (contact_room) status = LOG_FULL;
+            } else if (contact_room) {
+                contacts[5 * logged - 3] = run.t;
+                contacts[5 * logged - 1] = run.y[3];
+            }
+            run.y[2] = 0;
+            run.side = wall;
+        }
+        real *y = states + 4 * i;
+        memcpy(y, run.y, sizeof run.y);
+        y[2] += run.origin;
+        if (i + 1 < n && status == DONE) status = new_instant(&run);
+    }
+    if (isfinite(p.clearance)) note_turning(&run, run.t, run.y[2], run.since.m[2]);
+    summary[0] = 1;
+    for (long i = 0; i < run.instants; i++) {
+        Matrix whole = product(&run.since, &run.flows[i]);
+        if (i == 0) memcpy(flow, whole.m, sizeof whole.m);
+        for (int k = 0; k < 4; k++) summary[0] = fmaxl(summary[0], row_sum(whole.m[k]));
+    }
+    summary[1] = run.margin;
+    counts[0] = logged, counts[1] = begun, counts[2] = run.turning_count, counts[3] = steps;
+    free(run.flows);
+    return status;
+}
+
+/* Many runs without their logs, each through n times of its own; the last state is kept. */
+void motions(long m, const double *packed, const real *first, const real *starts,
+             const real *times, long n, const real *settings, real *last, real *summaries,
+             long *contacts, int *status)
+{
+    real *states = malloc(4 * n * sizeof(real));
+    for (long i = 0; i < m; i++) {
+        real flow[16];
+        long counts[4] = {0};
+        status[i] = states
+            ? motion(packed + 7 * i, first + 4 * i, starts[i], times + n * i, n, settings,
+                     states, NULL, NULL, 0, NULL, 0, flow, summaries + 2 * i, counts)
+            : NO_MEMORY;
+        contacts[i] = counts[1];
+        if (status[i] != NO_MEMORY) memcpy(last + 4 * i, states + 4 * (n - 1), 4 * sizeof(real));
+    }
+    free(states);
+}
