@@ -84,11 +84,12 @@ def rigid_map(p, restitution, y, tolerance):
     state = y.copy()
     tangents = np.eye(4)
     work = workspace()
+    flight = np.int64(0)  # a literal would have the step compiled for it alone
     t = strobe_time(p)
     end = t + 2.0 * math.pi / p[0]
     impacts, speed, first, largest = 0, math.inf, (math.nan, math.nan), abs(y[0])
     while t < end and impacts < MOST_IMPACTS:
-        length, side = step(p, state, tangents, 0, t, end - t, tolerance, work)
+        length, side = step(p, state, tangents, flight, t, end - t, tolerance, work)
         # Z1 may be largest at an impact, where it turns without a stationary point
         largest = max(extremum(work[0], FLIGHT_ORDER, length, largest), abs(state[0]))
         t = end if length >= end - t else t + length

@@ -170,6 +170,8 @@ def run_merson(p, start, t, tolerance, locate, strobes, largest):
         if steps < 0:
             return k, total
         total += steps
-        strobes[k] = y
+        # one by one: to assign arrays compiles the message for unlike shapes too, for 2 s
+        for i in range(4):
+            strobes[k, i] = y[i]
         largest[k] = most
     return len(strobes), total

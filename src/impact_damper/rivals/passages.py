@@ -45,12 +45,15 @@ def largest_of_flight(p, y, t, end):
     """
     work = workspace()
     none = np.empty((0, 4))
+    flight = np.int64(0)  # a literal would have the step compiled for it alone
     c = np.zeros(FLIGHT_ORDER + 1)
     at, largest, bend = t, abs(y[2]), 0.0
     while t < end:
         offset, drift = y[2] - y[0], y[3] - y[1]
-        length, _ = step(p, y, none, 0, t, end - t, TOLERANCE, work)
-        c[:] = work[0, : FLIGHT_ORDER + 1]
+        length, _ = step(p, y, none, flight, t, end - t, TOLERANCE, work)
+        # one by one: to assign arrays compiles the message for unlike shapes too, for 2 s
+        for k in range(FLIGHT_ORDER + 1):
+            c[k] = work[0, k]
         c[0] += offset
         c[1] += drift
         for i in range(PIECES):
