@@ -7,10 +7,14 @@ import pytest
 from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
 
-from impact_damper import series
 from impact_damper.parameters import Damper, Oscillator, pack
+from impact_damper.widths import CONTACT_ORDER, FLIGHT_ORDER, instance
 
 ANGLE = 0.7
+LANE = 5
+ORDERS = {"flight": FLIGHT_ORDER, "contact": CONTACT_ORDER}
+LENGTH = max(ORDERS.values()) + 1
+widths = pytest.mark.parametrize("lanes", [1, 16])
 SIGNS = [(0.3, -1.1, 0.02, 0.9), (-1.7, 0.4, -0.01, -2.0), (0.0, 0.0, 0.0, 1.0)]
 
 
@@ -21,20 +25,39 @@ def p():
 
 def drive(p):
     """Series of cos(W (t + t0)) from its derivatives, each a quarter turn on."""
-    k = np.arange(series.LENGTH)
+    k = np.arange(LENGTH)
     factorials = np.array([math.factorial(i) for i in k], float)
     return Polynomial(p[0] ** k * np.cos(ANGLE + k * np.pi / 2) / factorials)
 
 
-def state_series(p, state, contact):
-    """Z1, penetration (None in flight) and Z1^2 as polynomials."""
-    x, q, square = (np.zeros(series.LENGTH) for _ in range(3))
-    turn = math.cos(ANGLE), math.sin(ANGLE)
-    if contact:
-        series.contact(p, *turn, *state, x, q, square)
-        return Polynomial(x), Polynomial(q), square
-    series.flight(p, *turn, *state[:2], x, square)
-    return Polynomial(x[: series.FLIGHT_ORDER + 1]), None, square
+def filled(lanes, p, state, phase):
+    """The array of an instance with the series of a step; every lane has a motion of its own."""
+    module = instance(lanes)
+    a = np.zeros((module.SIZE // lanes, lanes))
+    for i in range(lanes):
+        a[:7, i] = p
+        a[7:11, i] = np.multiply(state, 1.0 + 0.1 * (i - LANE % lanes))
+    a[module.SIDE // lanes] = 1.0
+    a[module.Y2 // lanes] += p[3]
+    a[module.COSINE // lanes], a[module.SINE // lanes] = math.cos(ANGLE), math.sin(ANGLE)
+    flat = a.ravel()
+    getattr(module, f"{phase}_series")(flat)
+    return module, flat
+
+
+def row(module, a, first, count):
+    """Coefficients of a series in the lane looked at."""
+    lanes = module.LANES
+    return a[first + LANE % lanes :: lanes][:count].copy()
+
+
+def state_series(lanes, p, state, phase):
+    """Z1, penetration (None in flight) as polynomials, and Z1^2."""
+    module, a = filled(lanes, p, state, phase)
+    order = ORDERS[phase]
+    x = Polynomial(row(module, a, module.X, order + 1))
+    q = Polynomial(row(module, a, module.Q, order + 1)) if phase == "contact" else None
+    return x, q, row(module, a, module.S, order - 1)
 
 
 def vanishes(polynomial, order, scale):
@@ -47,7 +70,7 @@ def vanishes(polynomial, order, scale):
 
 def size(*polynomials):
     """Size of each coefficient, as the rounding errors scale with it."""
-    width = series.LENGTH
+    width = LENGTH
     padded = [np.pad(np.abs(q.coef[:width]), (0, max(0, width - len(q.coef)))) for q in polynomials]
     return 1 + np.maximum.reduce(padded)
 
@@ -56,40 +79,45 @@ def contact_force(p, q):
     return p[4] * q + p[6] * q.deriv()
 
 
+@widths
 @pytest.mark.parametrize("state", SIGNS)
-def test_flight_solves_the_duffing_equation(p, state):
-    x, _, square = state_series(p, state, contact=False)
+def test_flight_solves_the_duffing_equation(lanes, p, state):
+    x, _, square = state_series(lanes, p, state, "flight")
     terms = [x.deriv(2), p[1] * x.deriv(), p[2] * x, x**3, -drive(p)]
-    order = series.FLIGHT_ORDER
-    vanishes(sum(terms, Polynomial([0.0])), order, size(*terms)[: order - 1])
-    assert_allclose(square[: order - 1], (x**2).coef[: order - 1], rtol=1e-13, atol=1e-15)
+    vanishes(sum(terms, Polynomial([0.0])), FLIGHT_ORDER, size(*terms)[: FLIGHT_ORDER - 1])
+    assert_allclose(square, (x**2).coef[: FLIGHT_ORDER - 1], rtol=1e-13, atol=1e-15)
 
 
+@widths
 @pytest.mark.parametrize("state", SIGNS)
-def test_contact_solves_20_to_24(p, state):
-    x, q, _ = state_series(p, state, contact=True)
+def test_contact_solves_20_to_24(lanes, p, state):
+    x, q, _ = state_series(lanes, p, state, "contact")
     force = contact_force(p, q)
     terms = [x.deriv(2), p[1] * x.deriv(), p[2] * x, x**3, force, -drive(p)]
-    order = series.CONTACT_ORDER
+    order = CONTACT_ORDER
     vanishes(sum(terms, Polynomial([0.0])), order, size(*terms)[: order - 1])
     relative = [q.deriv(2), p[5] * force, -x.deriv(2)]
     vanishes(sum(relative, Polynomial([0.0])), order, size(*relative)[: order - 1])
 
 
-@pytest.mark.parametrize("contact", [False, True])
-def test_tangents_solve_the_variational_equations(p, contact):
-    x, _, square = state_series(p, SIGNS[0], contact)
-    start = 0.5, -0.8, 0.3, 1.2
-    first, second = np.zeros(series.LENGTH), np.zeros(series.LENGTH)
-    order = series.CONTACT_ORDER if contact else series.FLIGHT_ORDER
-    if contact:
-        series.contact_tangent(p, square, *start, first, second)
-    else:
-        series.flight_tangent(p, square, *start[:2], first)
-    dx, dq = Polynomial(first), Polynomial(second)
-    force = contact_force(p, dq)
-    terms = [dx.deriv(2), p[1] * dx.deriv(), p[2] * dx, 3 * x**2 * dx, force]
+@widths
+@pytest.mark.parametrize("phase", ORDERS)
+def test_tangents_solve_the_variational_equations(lanes, p, phase):
+    x, _, _ = state_series(lanes, p, SIGNS[0], phase)
+    module, a = filled(lanes, p, SIGNS[0], phase)
+    order, columns = ORDERS[phase], module.TANGENTS
+    lane = LANE % columns
+    d = np.zeros((module.TANGENT_SIZE // columns, columns))
+    d[:4, lane] = 0.5, -0.8, 0.3, 1.2
+    # With several lanes a tangent belongs to the motion in its lane.
+    d = d.ravel()
+    getattr(module, f"{phase}_tangent_series")(a, d)
+    first, second = (
+        Polynomial(d[columns * place + lane :: columns][: order + 1]) for place in (4, 4 + LENGTH)
+    )
+    force = contact_force(p, second) if phase == "contact" else Polynomial([0.0])
+    terms = [first.deriv(2), p[1] * first.deriv(), p[2] * first, 3 * x**2 * first, force]
     vanishes(sum(terms, Polynomial([0.0])), order, size(*terms)[: order - 1])
-    if contact:
-        relative = [dq.deriv(2), p[5] * force, -dx.deriv(2)]
+    if phase == "contact":
+        relative = [second.deriv(2), p[5] * force, -first.deriv(2)]
         vanishes(sum(relative, Polynomial([0.0])), order, size(*relative)[: order - 1])

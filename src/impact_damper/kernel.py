@@ -1,42 +1,32 @@
-"""The event-driven flow: one certified Taylor step, in flight or in contact.
+"""The event-driven flow of one trajectory, in steps that end at events.
 
-A step takes the state (Z1, Z1', Z2, Z2'), the tangents and the wall that the
-loose mass touches (`side`: -1, 0 in flight, +1) to the next event or to the end
-of the step, whichever is first. Events are the beginning and the end of contacts.
-The absence of an event is certified by a bound on the second derivative of the
-gap over the step; the same bound marches to the first root without passing it.
+A state is (Z1, Z1', Z2, Z2') with the wall that the loose mass touches (`side`: -1, 0 in
+flight, +1). Tangents are carried along if there are any.
 """
-
-import math
 
 import numpy as np
 
-from impact_damper.accelerate import inlined, kernel
-from impact_damper.series import (
-    CONTACT_ORDER,
-    FLIGHT_ORDER,
-    LENGTH,
-    contact,
-    contact_tangent,
-    flight,
-    flight_tangent,
-)
+from impact_damper import widths
+from impact_damper.accelerate import kernel
 
-ROUNDING = 2.0**-50
-# Share of the contact's natural period that a step may take. A contact lasts half a period:
-# a series beyond that is cut at the release, and only loosens the bound that certifies it.
-CONTACT_CAP = 0.4
-TINY = 1e-300
-# Local errors pass through contacts, which amplify them; this share of the tolerance
-# keeps the error of settled motions within 10 times of it.
-SAFETY = 0.05
-CURVATURE = tuple(float(k * (k - 1)) for k in range(LENGTH))
+_ONE = widths.instance(1)
+flight_step, contact_step = _ONE.flight_step, _ONE.contact_step
+flight_tangents, contact_tangents = _ONE.flight_tangents, _ONE.contact_tangents
+SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
+SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
+    _ONE.SIDE,
+    _ONE.TIME,
+    _ONE.LONGEST,
+    _ONE.TOLERANCE,
+    _ONE.LENGTH,
+)
+PARAMETERS, STATE, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.X, _ONE.Q
 
 
 @kernel
 def workspace():
-    """Arrays for the series of one step, shape (5, LENGTH): Z1, Z2, Z1^2 and two tangents."""
-    return np.zeros((5, LENGTH))
+    """Arrays for the numbers of one trajectory and of its tangents, as `step` keeps them."""
+    return np.zeros(SIZE), np.zeros(TANGENT_SIZE)
 
 
 @kernel
@@ -51,151 +41,47 @@ def polynomial(c, order, t):
 
 
 @kernel
-def curvature_bound(c, order, length):
-    """Bound on the second derivative of a polynomial over [0, length]."""
-    bound = 0.0
-    for k in range(order, 1, -1):
-        bound = bound * length + CURVATURE[k] * abs(c[k])
-    return bound
+def load(p, y, tangents, side, tolerance, work):
+    """Put a trajectory and its tangents into the workspace."""
+    a, d = work
+    for i in range(7):
+        a[PARAMETERS + i] = p[i]
+    for i in range(4):
+        a[STATE + i] = y[i]
+    a[SIDE] = side
+    a[TOLERANCE] = tolerance
+    if len(tangents) > 0:
+        for i in range(COLUMNS):
+            for j in range(4):
+                d[COLUMNS * j + i] = tangents[i, j] if i < len(tangents) else 0.0
 
 
 @kernel
-def step_length(c, order, tolerance):
-    """Length of a step whose last two terms stay well below the tolerance, in the slope too."""
-    tolerance *= SAFETY
-    last = math.log(tolerance / (order * abs(c[order]) + TINY)) / (order - 1)
-    before = math.log(tolerance / ((order - 1) * abs(c[order - 1]) + TINY)) / (order - 2)
-    return math.exp(min(last, before))
+def unload(y, tangents, work):
+    """Take the state and the tangents out of the workspace."""
+    a, d = work
+    for i in range(4):
+        y[i] = a[STATE + i]
+    for i in range(len(tangents)):
+        for j in range(4):
+            tangents[i, j] = d[COLUMNS * j + i]
 
 
 @kernel
-def safe_advance(gap, closing, bound):
-    """Time within which a gap that closes at a given speed cannot vanish.
-
-    First root of gap - closing t - bound t^2/2, with bound on the second derivative.
-    """
-    root = math.sqrt(closing * closing + 2.0 * bound * max(gap, 0.0))
-    if closing > 0.0:
-        return 2.0 * max(gap, 0.0) / (closing + root)
-    return (root - closing) / (bound + TINY)
-
-
-@kernel
-def first_contact(c, order, offset, drift, clearance, length):
-    """First time in [0, length) at which |Z2| reaches the clearance from inside.
-
-    Z2 is the polynomial plus offset + drift t. Returns the time and the side, or
-    (length, 0) when there is certainly none.
-    """
-    if clearance == math.inf:
-        return length, 0
-    bound = curvature_bound(c, order, length)
-    precision = ROUNDING * clearance
-    # From a wall that recedes, a penetration within so short a time is below rounding.
-    shortest = math.sqrt(8.0 * precision / (bound + TINY))
-    t = 0.0
-    z, w = c[0] + offset, c[1] + drift
-    while True:
-        upper = safe_advance(clearance - z, w, bound)
-        lower = safe_advance(clearance + z, -w, bound)
-        side = 1 if upper < lower else -1
-        if side * w > 0.0:
-            ahead = min(upper, lower)
-            if clearance - side * z <= precision or t + ahead == t:
-                return t, side
-        else:
-            ahead = max(min(upper, lower), shortest, ROUNDING * t)
-        t += ahead
-        if not t < length:
-            return length, 0
-        z, w = polynomial(c, order, t)
-        z += offset + drift * t
-        w += drift
-
-
-@kernel
-def first_release(c, order, side, length):
-    """First time in [0, length) at which the penetration returns to zero, and whether it does."""
-    bound = curvature_bound(c, order, length)
-    precision = ROUNDING * (abs(c[0]) + abs(c[1]) * length)
-    t = 0.0
-    q, w = side * c[0], side * c[1]
-    while True:
-        ahead = safe_advance(q, -w, bound)
-        if w <= 0.0 and (q <= precision or t + ahead == t):
-            return t, True
-        t += ahead
-        if not t < length:
-            return length, False
-        q, w = polynomial(c, order, t)
-        q *= side
-        w *= side
-
-
-@kernel
-def dashpot_jump(p, tangent, direction):
-    """Jump of a tangent where the dashpot's force sets in (-1) or ends (+1).
-
-    Saltation across Z2 = +-d0: only the force is discontinuous, so the jump is linear in
-    the relative displacement, does not depend on the speed, and has determinant 1.
-    """
-    jump = direction * p[6] * tangent[2]
-    tangent[1] += jump
-    tangent[3] += jump * (1.0 + p[5])
-
-
-@inlined
-def flight_step(p, y, tangents, t, longest, tolerance, work):
-    """One step in flight. Returns its length and the side on which a contact begins, or 0."""
-    x, square, dx = work[0], work[2], work[3]
-    angle = p[0] * t
-    flight(p, math.cos(angle), math.sin(angle), y[0], y[1], x, square)
-    scale = max(1.0, abs(y[0]), abs(y[1]))
-    length = min(longest, step_length(x, FLIGHT_ORDER, tolerance * scale))
-    offset = y[2] - y[0]
-    drift = y[3] - y[1]
-    length, side = first_contact(x, FLIGHT_ORDER, offset, drift, p[3], length)
-    y[0], y[1] = polynomial(x, FLIGHT_ORDER, length)
-    y[2] = side * p[3] if side != 0 else y[0] + offset + drift * length
-    y[3] = y[1] + drift
-    for i in range(tangents.shape[0]):
-        d = tangents[i]
-        offset = d[2] - d[0]
-        drift = d[3] - d[1]
-        flight_tangent(p, square, d[0], d[1], dx)
-        d[0], d[1] = polynomial(dx, FLIGHT_ORDER, length)
-        d[2] = d[0] + offset + drift * length
-        d[3] = d[1] + drift
-        if side != 0 and p[6] > 0.0:
-            dashpot_jump(p, d, -1.0)
-    return length, side
-
-
-@inlined
-def contact_step(p, y, tangents, side, t, longest, tolerance, work):
-    """One step in contact. Returns its length and the side after it: 0 if the contact ended."""
-    x, q, square, dx, dq = work[0], work[1], work[2], work[3], work[4]
-    angle = p[0] * t
-    contact(p, math.cos(angle), math.sin(angle), y[0], y[1], y[2] - side * p[3], y[3], x, q, square)
-    scale = max(1.0, abs(y[0]), abs(y[1]), abs(y[3]))
-    length = min(
-        longest,
-        CONTACT_CAP * 2.0 * math.pi / math.sqrt(p[4] * (1.0 + p[5])),
-        step_length(q, CONTACT_ORDER, tolerance * scale),
-        step_length(x, CONTACT_ORDER, tolerance * scale),
-    )
-    length, released = first_release(q, CONTACT_ORDER, side, length)
-    y[0], y[1] = polynomial(x, CONTACT_ORDER, length)
-    penetration, y[3] = polynomial(q, CONTACT_ORDER, length)
-    y[2] = side * p[3] if released else side * p[3] + penetration
-    for i in range(tangents.shape[0]):
-        d = tangents[i]
-        contact_tangent(p, square, d[0], d[1], d[2], d[3], dx, dq)
-        d[0], d[1] = polynomial(dx, CONTACT_ORDER, length)
-        d[2], d[3] = polynomial(dq, CONTACT_ORDER, length)
-        if released and p[6] > 0.0:
-            dashpot_jump(p, d, 1.0)
-    return length, 0 if released else side
+def step_loaded(tangents, t, longest, work):
+    """`step` of a trajectory that stays in the workspace."""
+    a, d = work
+    a[TIME] = t
+    a[LONGEST] = longest
+    if a[SIDE] == 0.0:
+        flight_step(a)
+        if len(tangents) > 0:
+            flight_tangents(a, d)
+    else:
+        contact_step(a)
+        if len(tangents) > 0:
+            contact_tangents(a, d)
+    return a[LENGTH], np.int64(a[SIDE])
 
 
 @kernel
@@ -209,13 +95,14 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     y : array, shape (4,)
         Z1, Z1', Z2, Z2'; replaced.
     tangents : array, shape (m, 4)
-        Solutions of the variational equations, m may be 0; replaced.
+        Solutions of the variational equations, m from 0 to 4; replaced.
     side : int
         Wall in contact, -1 or 1, or 0 in flight.
     t, longest, tolerance : float
         Time (only its forcing phase counts), longest step, local error allowed.
-    work : array
-        `workspace()`; row 0 holds the series of Z1 over the step afterwards.
+    work : tuple of arrays
+        `workspace()`. From X and Q on, its first array holds the series of Z1 and, in contact, of
+        Z2 -+ d0 over the step afterwards.
 
     Returns
     -------
@@ -224,9 +111,10 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     side : int
         Wall in contact after the step.
     """
-    if side == 0:
-        return flight_step(p, y, tangents, t, longest, tolerance, work)
-    return contact_step(p, y, tangents, side, t, longest, tolerance, work)
+    load(p, y, tangents, side, tolerance, work)
+    length, side = step_loaded(tangents, t, longest, work)
+    unload(y, tangents, work)
+    return length, side
 
 
 @kernel
@@ -244,12 +132,14 @@ def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate from t to end. Returns the side after it, contacts begun and time in contact."""
     contacts = 0
     touching = 0.0
+    load(p, y, tangents, side, tolerance, work)
     while t < end:
         before = side
-        length, side = step(p, y, tangents, side, t, end - t, tolerance, work)
+        length, side = step_loaded(tangents, t, end - t, work)
         t = end if length >= end - t else t + length
         if before == 0 and side != 0:
             contacts += 1
         if before != 0:
             touching += length
+    unload(y, tangents, work)
     return side, contacts, touching

@@ -10,10 +10,10 @@ import math
 import numpy as np
 
 from impact_damper.accelerate import kernel
-from impact_damper.kernel import step, workspace
+from impact_damper.kernel import X, step, workspace
 from impact_damper.orbits import strobe_time
 from impact_damper.recording import extremum
-from impact_damper.series import FLIGHT_ORDER
+from impact_damper.widths import FLIGHT_ORDER
 
 # With e < 1 impacts may follow each other without end, closer and closer.
 MOST_IMPACTS = 200
@@ -91,7 +91,7 @@ def rigid_map(p, restitution, y, tolerance):
     while t < end and impacts < MOST_IMPACTS:
         length, side = step(p, state, tangents, flight, t, end - t, tolerance, work)
         # Z1 may be largest at an impact, where it turns without a stationary point
-        largest = max(extremum(work[0], FLIGHT_ORDER, length, largest), abs(state[0]))
+        largest = max(extremum(work[0][X:], FLIGHT_ORDER, length, largest), abs(state[0]))
         t = end if length >= end - t else t + length
         if side != 0:
             if impacts == 0:

@@ -22,13 +22,16 @@ from itertools import chain
 # What a step is given, what it finds, and what it needs on its way. X, Q and S below are
 # the series of Z1, of the penetration and of Z1^2; D are those of a tangent, in an array
 # of their own.
-PARAMETERS = ["FREQUENCY", "DAMPING", "STIFFNESS", "CLEARANCE", "CONTACT", "INVERSE_MASS", "DASHPOT"]
-STATE = ["Y0", "Y1", "Y2", "Y3"]
-STEP = ["SIDE", "TIME", "LONGEST", "TOLERANCE", "LENGTH"]
-SCRATCH = ["COSINE", "SINE", "T", "VALUE", "SLOPE", "CURVE", "BOUND", "FINE", "SCALE", "WALL", "MODE", "LOW", "HIGH", "NATURAL", "END_VALUE", "END_SLOPE"]
+PARAMETERS = "FREQUENCY DAMPING STIFFNESS CLEARANCE CONTACT INVERSE_MASS DASHPOT".split()
+STATE = "Y0 Y1 Y2 Y3".split()
+STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
+SCRATCH = (
+    "COSINE SINE T VALUE SLOPE CURVE BOUND FINE SCALE WALL MODE LOW HIGH NATURAL "
+    "END_VALUE END_SLOPE"
+).split()
 SINGLE = PARAMETERS + STATE + STEP + SCRATCH
 SERIES = ["X", "Q", "S"]
-NAMES = ["value", "slope", "curve"]
+DERIVATIVES = ["value", "slope", "curve"]
 
 
 def rows(flight_order, contact_order):
@@ -120,14 +123,19 @@ class Writer:
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
     def _contact_given(self):
-        return [f"r1 = {self.at('CONTACT')}", f"dash = {self.at('DASHPOT')}", f"c = 1.0 + {self.at('INVERSE_MASS')}"]
+        return [
+            f"r1 = {self.at('CONTACT')}",
+            f"dash = {self.at('DASHPOT')}",
+            f"c = 1.0 + {self.at('INVERSE_MASS')}",
+        ]
 
     def value(self, phase, row, derivatives):
-        """VALUE and SLOPE of the series of a row at T, and CURVE if its second derivative is wanted."""
+        """VALUE and SLOPE of the series of a row at T, and CURVE if two derivatives are wanted."""
         order = self.orders[phase]
-        lines = [f"t = {self.at('T')}", *_horner([self.at(row, k) for k in range(order + 1)], derivatives)]
-        lines += [f"{self.at(name.upper())} = {name}" for name in NAMES[: derivatives + 1]]
-        return self.function(f"{phase}_{NAMES[derivatives]}_{row.lower()}", lines)
+        coefficients = [self.at(row, k) for k in range(order + 1)]
+        lines = [f"t = {self.at('T')}", *_horner(coefficients, derivatives)]
+        lines += [f"{self.at(name.upper())} = {name}" for name in DERIVATIVES[: derivatives + 1]]
+        return self.function(f"{phase}_{DERIVATIVES[derivatives]}_{row.lower()}", lines)
 
     def tangent_value(self, phase):
         """The tangent at T."""

@@ -5,9 +5,11 @@ the end of the step, whichever is first for each. Events are the beginning and t
 contacts. The absence of an event is certified by a bound on the second derivative of the gap
 over the step; the same bound marches to the first root without passing it.
 
-The source is compiled for each number of lanes and each pair of orders that is wanted, with
-the constants below set (`widths.instance`). Trajectories do not touch each other: what one
-comes to does not depend on its neighbours.
+This file is a template: `widths.instance` compiles it for each number of lanes and each pair of
+orders that is wanted, after the constants and the functions that `series` writes for them. All
+numbers stand in flat arrays, `a` for trajectories and `d` for tangents; names in capitals are
+the beginnings of their rows. Trajectories do not touch each other: what one comes to does not
+depend on its neighbours.
 """
 
 import math
@@ -20,6 +22,8 @@ LANES: int
 TANGENTS: int
 FLIGHT_ORDER: int
 CONTACT_ORDER: int
+SIZE: int
+TANGENT_SIZE: int
 
 ROUNDING = 2.0**-50
 # Longest steps in contact, while it deepens and on the way back, in natural periods of it, and
@@ -43,7 +47,7 @@ SINES = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9))
 
 @kernel
 def bits(x):
-    """The bits of a number; of a positive one 2^52 times its logarithm to base 2, but for a constant."""
+    """The bits of a number: if positive, about 2^52 times its logarithm to base 2, plus ONE."""
     return np.float64(x).view(np.int64)
 
 
@@ -79,7 +83,6 @@ def forcing(a):
         turns = np.floor(angle * (2.0 / math.pi) + 0.5)
         t = (angle - turns * QUARTER) - turns * QUARTER_REST
         u = t * t
-        v = u * u
         c = paired(COSINES, u)
         s = paired(SINES, u)
         c = 1.0 + u * c
@@ -94,9 +97,9 @@ def forcing(a):
 
 @kernel
 def limit_length(a, series, order):
-    """Shorten LENGTH so that the last two terms of a series stay below the tolerance, in the slope too.
+    """Shorten LENGTH so that the last two terms of a series stay below the tolerance.
 
-    Roots are taken by division of the bits, which is within a few per cent.
+    Those of the slope do as well. Roots are taken by division of the bits, within a few per cent.
     """
     for i in range(LANES):
         allowed = bits(SAFETY * a[TOLERANCE + i] * a[SCALE + i])
@@ -151,7 +154,8 @@ def close_in(t, f, slope, curve, natural, low, high, length, fine):
         return 0.0, MISSED
     past = high == FAR and not t + move < length
     inner = move if inside else 0.5 * (low + min(high, length)) - t
-    return length - t if past else inner, MET if last else BRACKET
+    step = length - t if past else inner
+    return step, MET if last or t + step == t else BRACKET
 
 
 @kernel
@@ -231,7 +235,8 @@ def search_contact(a):
                 f = clearance - wall * z
                 low = t if f > 0.0 else low
                 high = high if f > 0.0 else t
-                move, mode = close_in(t, f, -wall * w, -wall * a[CURVE + i], 0.0, low, high, length, fine)
+                curve = -wall * a[CURVE + i]
+                move, mode = close_in(t, f, -wall * w, curve, 0.0, low, high, length, fine)
                 t += move
             elif mode == ENDING:
                 mode = MISSED
@@ -271,7 +276,7 @@ def find_release(a):
         rest = a[BOUND + i]
         speed = math.sqrt(w * w + natural * natural * q * q)
         least = 0.99 * fast_exp2(-loss * length / math.log(2.0)) * speed - rest * length
-        certain = rest + 0.5 * loss * least < TURNING * natural * least
+        certain = least > 0.0 and rest + 0.5 * loss * least < TURNING * natural * least
         a[NATURAL + i] = natural
         a[BOUND + i] = rest + (natural + loss) * (speed + rest * length)
         a[FINE + i] = ROUNDING * (abs(q) + abs(w) * length)
@@ -318,7 +323,7 @@ def find_release(a):
 
 @kernel
 def flight_step(a):
-    """Step of trajectories in flight, whose SIDE becomes the wall on which a contact begins, or 0."""
+    """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
     forcing(a)
     flight_series(a)
     for i in range(LANES):
@@ -344,6 +349,44 @@ def flight_step(a):
         a[Y3 + i] = a[END_SLOPE + i] + drift
         a[SIDE + i] = a[WALL + i] if met else 0.0
         a[LENGTH + i] = t
+
+
+@kernel
+def flight_tangents(a, d):
+    """Carry tangents through the flight that `flight_step` has just made."""
+    flight_tangent_series(a, d)
+    for i in range(TANGENTS):
+        d[2 * TANGENTS + i] -= d[i]
+        d[3 * TANGENTS + i] -= d[TANGENTS + i]
+    flight_tangent_value(a, d)
+    for i in range(TANGENTS):
+        d[2 * TANGENTS + i] += d[i] + d[3 * TANGENTS + i] * a[LENGTH + i % LANES]
+        d[3 * TANGENTS + i] += d[TANGENTS + i]
+    dashpot_jump(a, d, -1.0)
+
+
+@kernel
+def contact_tangents(a, d):
+    """Carry tangents through the contact that `contact_step` has just made."""
+    contact_tangent_series(a, d)
+    contact_tangent_value(a, d)
+    dashpot_jump(a, d, 1.0)
+
+
+@kernel
+def dashpot_jump(a, d, direction):
+    """Jump of tangents where the dashpot's force has set in (-1) or ended (+1).
+
+    Saltation across Z2 = +-d0: only the force is discontinuous, so the jump is linear in
+    the relative displacement, does not depend on the speed, and has determinant 1.
+    """
+    for i in range(TANGENTS):
+        j = i % LANES
+        begun = a[SIDE + j] != 0.0
+        crossed = begun if direction < 0.0 else not begun
+        jump = direction * a[DASHPOT + j] * d[2 * TANGENTS + i] if crossed else 0.0
+        d[TANGENTS + i] += jump
+        d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS + j])
 
 
 @kernel

@@ -1,16 +1,17 @@
 """The step compiled for a number of lanes and the orders of its series."""
 
 import importlib.util
+import inspect
 import os
 import sys
 from functools import cache
-from pathlib import Path
 
+from impact_damper import step
 from impact_damper.accelerate import CACHE_DIRECTORY
 from impact_damper.series import SERIES, SINGLE, Writer
 
-FLIGHT_ORDER = 20
-CONTACT_ORDER = 25
+FLIGHT_ORDER = 18
+CONTACT_ORDER = 22
 
 
 @cache
@@ -45,5 +46,4 @@ def _source(writer):
     }
     constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
-    step = Path(__file__).with_name("step.py").read_text()
-    return lines + "\n" + writer.source() + "\n\n" + step
+    return lines + "\n" + writer.source() + "\n\n" + inspect.getsource(step)

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.accelerate import kernel
-from impact_damper.kernel import polynomial, step, workspace
-from impact_damper.series import FLIGHT_ORDER
+from impact_damper.kernel import X, polynomial, step, workspace
+from impact_damper.widths import FLIGHT_ORDER
 
 PIECES = 16
 TOLERANCE = 1e-15
@@ -53,7 +53,7 @@ def largest_of_flight(p, y, t, end):
         length, _ = step(p, y, none, flight, t, end - t, TOLERANCE, work)
         # one by one: to assign arrays compiles the message for unlike shapes too, for 2 s
         for k in range(FLIGHT_ORDER + 1):
-            c[k] = work[0, k]
+            c[k] = work[0][X + k]
         c[0] += offset
         c[1] += drift
         for i in range(PIECES):
