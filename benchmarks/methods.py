@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks import scipy_runs
 from benchmarks.heyoka_runs import BATCH, Motions
-from impact_damper.accelerate import kernel
+from impact_damper import lanes
 from impact_damper.kernel import advance, side_of, workspace
 from impact_damper.rivals.merson import run_merson
 
@@ -45,13 +45,13 @@ def single(scene, tolerance):
     return run
 
 
-@kernel
-def advance_rows(p, states, begin, end, tolerance):
-    """The kernel over rows of states, which are replaced."""
-    work = workspace()
-    tangents = np.empty((0, 4))
-    for y in states:
-        advance(p, y, tangents, side_of(p, y), begin, end, tolerance, work)
+def advance_rows(scene, states, tolerance):
+    """The kernel over states in flight, several side by side; they are replaced."""
+    count = len(states)
+    rows = np.tile(scene.parameters, (count, 1))
+    sides, contacts = np.zeros((2, count), int)
+    times = (np.full(count, time) for time in (scene.begin, scene.end))
+    lanes.advance(rows, states, sides, *times, tolerance, contacts)
 
 
 def ensemble(scene, tolerance):
@@ -59,7 +59,7 @@ def ensemble(scene, tolerance):
 
     def run(starts):
         states = starts.copy()
-        advance_rows(scene.parameters, states, scene.begin, scene.end, tolerance)
+        advance_rows(scene, states, tolerance)
         return states
 
     return run

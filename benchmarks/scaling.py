@@ -14,7 +14,7 @@ from impact_damper.parameters import Damper
 TOLERANCE = 1e-9
 RADIUS = 2.0
 # Trajectories that a thread takes at a time.
-SHARE = 64
+SHARE = 128
 
 
 def starts_of(scene, count):
@@ -48,15 +48,15 @@ def cores(scenes, count, rounds):
     threads = [1, *range(2, min(os.cpu_count(), 8) + 1)]
     rows = []
     for scene in scenes:
-        p, starts = scene.parameters, starts_of(scene, count)["random"]
+        starts = starts_of(scene, count)["random"]
         results = {}
 
-        def run(workers, scene=scene, p=p, starts=starts, results=results):
+        def run(workers, scene=scene, starts=starts, results=results):
             states = starts.copy()
             results[workers] = states
 
             def work(part):
-                advance_rows(p, states[part], scene.begin, scene.end, TOLERANCE)
+                advance_rows(scene, states[part], TOLERANCE)
 
             run_chunks(work, count, workers, None, SHARE)
 

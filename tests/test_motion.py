@@ -8,7 +8,7 @@ from conftest import DESIGN, PAPER
 from numpy.testing import assert_allclose
 from sampling import sample
 
-from impact_damper import kernel, motion, orbits, recording
+from impact_damper import ensemble, kernel, motion, orbits, recording
 from impact_damper.parameters import Damper, pack
 
 NONE = np.empty((0, 4))
@@ -16,12 +16,8 @@ NONE = np.empty((0, 4))
 
 def settled(p, state, tolerance=1e-9, patience=300, limit=1500, watched=50):
     """Record of the motion from a state at W T = pi/2."""
-    record = np.zeros(1, recording.MOTION)
-    motion.settle_and_measure(
-        p, np.array(state, float), 0.5 * math.pi / p[0], tolerance, patience, limit, watched,
-        record[0],
-    )  # fmt: skip
-    return record[0]
+    settling = ensemble.Settling(tolerance, patience, limit, watched)
+    return ensemble.settle(p[None], np.array(state, float)[None], settling, from_strobe=True)[0]
 
 
 def growth_of_tangent(p, state, periods, skipped):

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numba
 import platformdirs
+from numba.core.codegen import get_host_cpu_features
 
 
 def source_digest() -> str:
@@ -40,6 +41,10 @@ def _cache_directory() -> Path:
 
 CACHE_DIRECTORY = _cache_directory()
 numba.config.CACHE_DIR = str(CACHE_DIRECTORY)
+
+# Vectors as wide as the processor has: LLVM takes half of that where it fears a slower clock.
+if "+avx512f" in get_host_cpu_features():
+    numba.config.CPU_FEATURES = f"{get_host_cpu_features()},-prefer-256-bit"
 
 # "contract" allows fused multiply-add and nothing else: reordering sums would
 # cost both digits and speed. Kernels release the interpreter lock, so threads

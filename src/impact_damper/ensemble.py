@@ -14,7 +14,7 @@ from impact_damper import motion
 from impact_damper.parameters import check_count, check_number
 from impact_damper.recording import MOTION
 
-CHUNK = 16
+CHUNK = 128
 
 
 @dataclass(frozen=True)

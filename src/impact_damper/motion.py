@@ -12,11 +12,20 @@ import math
 import numpy as np
 
 from impact_damper.accelerate import inlined, kernel
-from impact_damper.kernel import advance, side_of, workspace
+from impact_damper.kernel import side_of
+from impact_damper.lanes import (
+    LANES,
+    RESIDENT,
+    SIDE,
+    STATE,
+    advance_some,
+    enter,
+    make_pool,
+    send,
+)
 from impact_damper.orbits import (
     POLISH_TOLERANCE,
     distance,
-    one_period,
     polish,
     repeats_sooner,
     speed_weight,
@@ -33,6 +42,21 @@ CONFIDENCE = 4.0
 WEAK = 0.05
 NEAR = 1e-4
 NEAREST = 1e-9
+# What is kept of a motion on its way: which it is, strobes and periods without contact so far, how
+# near an orbit it must come; and of its tangent, the growth over periods and batches of them.
+SEEN = np.dtype(
+    [
+        ("index", "i8"),
+        ("strobes", "i8"),
+        ("quiet", "i8"),
+        ("near", "f8"),
+        ("periods", "i8"),
+        ("batch", "f8"),
+        ("mean", "f8"),
+        ("squares", "f8"),
+        ("recent", "f8", RECENT),
+    ]
+)
 
 
 @kernel
@@ -81,36 +105,52 @@ def land(p, y, periods, near, out):
 
 
 @kernel
-def follow_tangent(tangents, rates, k):
-    """Renormalise a tangent after its period k and add its growth to its batch of BLOCK periods."""
+def follow_tangent(tangent, growth):
+    """Renormalise a tangent after a period and add its growth to its batch of BLOCK periods.
+
+    The mean and the sum of squares of finished batches are updated by Welford's recurrence.
+    """
     size = 0.0
     for i in range(4):
-        size += tangents[0, i] ** 2
+        size += tangent[i] ** 2
     size = math.sqrt(size)
     for i in range(4):
-        tangents[0, i] /= size
-    rates[k // BLOCK] += math.log(size)
+        tangent[i] /= size
+    growth.batch += math.log(size)
+    growth.periods += 1
+    if growth.periods % BLOCK == 0:
+        count = growth.periods // BLOCK
+        change = growth.batch - growth.mean
+        growth.mean += change / count
+        growth.squares += change * (growth.batch - growth.mean)
+        growth.recent[count % RECENT] = growth.batch
+        growth.batch = 0.0
 
 
 @kernel
-def exponent(rates):
+def exponent(growth):
     """Mean growth of a batch, its standard error, and whether the last batches grow as well."""
-    count = len(rates)
-    mean, recent, squares = 0.0, 0.0, 0.0
-    for i in range(count):
-        mean += rates[i] / count
-        recent += rates[i] / RECENT if i >= count - RECENT else 0.0
-    for i in range(count):
-        squares += (rates[i] - mean) ** 2
-    return mean, math.sqrt(squares / (count * (count - 1.0))), recent > 0.5 * mean
+    count = growth.periods // BLOCK
+    recent = 0.0
+    for i in range(RECENT):
+        recent += growth.recent[i] / RECENT
+    error = math.sqrt(growth.squares / (count * (count - 1.0)))
+    return growth.mean, error, recent > 0.5 * growth.mean
 
 
 @inlined
-def settle(p, y, start, tolerance, patience, limit, out):
-    """Run a motion until it has settled, is certainly chaotic, or `limit` periods are gone.
+def begin_watch(seen, index, out):
+    """Begin to watch a motion: the record of what is seen, and the record to be filled."""
+    seen.index, seen.strobes, seen.quiet, seen.near = index, 0, 0, NEAR
+    seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
+    out.outcome, out.period = UNRESOLVED, 0
+    out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
+    out.lyapunov_exponent, out.lyapunov_error = np.nan, np.nan
 
-    The state y is given at the time `start`, at most the strobe's, and is replaced by the last
-    one at a strobe, or by the orbit's.
+
+@inlined
+def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
+    """Look at a motion at a strobe; whether it needs to go on no further.
 
     After half the patience the largest Lyapunov exponent is followed as well, by one
     tangent, its error from batches of BLOCK periods. A motion that is chaotic beyond doubt
@@ -121,67 +161,106 @@ def settle(p, y, start, tolerance, patience, limit, out):
     within the limit is taken as non-colliding, and so is a settled motion without contacts.
 
     To the record `out` go outcome, period, residual, dominant multiplier, periods_run, and the
-    exponent per unit time.
+    exponent per unit time; y is taken onto the orbit if there is one.
     """
+    k = seen.strobes
     period = 2.0 * math.pi / p[0]
-    work = workspace()
-    ring = np.empty((RING, 4))
-    tangents = np.empty((0, 4))
+    for i in range(4):
+        ring[k % RING, i] = y[i]
+    out.periods_run = k
+    if k > 0:
+        seen.quiet = seen.quiet + 1 if contacts == 0 and side == 0 else 0
+    if not abs(y[0]) + abs(y[1]) + abs(y[3]) < 1e6:
+        out.outcome = DIVERGED
+        return True
+    n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
+    if n > 0:
+        if land(p, y, n, seen.near, out):
+            if seen.quiet >= out.period and p[3] < math.inf:
+                out.outcome = NON_COLLIDING
+            return True
+        seen.near = max(0.1 * seen.near, NEAREST)
+    drift = abs(y[3] - y[1]) * limit * period
+    if seen.quiet >= patience and drift < 0.01 * p[3] < math.inf:
+        out.outcome = NON_COLLIDING
+        return True
     half = patience // 2
-    rates = np.zeros((limit - half) // BLOCK + 1)
-    near = NEAR
-    quiet = 0
-    out.outcome, out.period = UNRESOLVED, 0
-    out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
-    out.lyapunov_exponent, out.lyapunov_error = np.nan, np.nan
-    side, _, _ = advance(p, y, tangents, side_of(p, y), start, strobe_time(p), tolerance, work)
-    for k in range(limit):
-        ring[k % RING] = y
-        out.periods_run = k
-        if not abs(y[0]) + abs(y[1]) + abs(y[3]) < 1e6:
-            out.outcome = DIVERGED
-            break
-        n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)
-        if n > 0:
-            if land(p, y, n, near, out):
-                if quiet >= out.period and p[3] < math.inf:
-                    out.outcome = NON_COLLIDING
-                break
-            near = max(0.1 * near, NEAREST)
-        drift = abs(y[3] - y[1]) * limit * period
-        if quiet >= patience and drift < 0.01 * p[3] < math.inf:
-            out.outcome = NON_COLLIDING
-            break
-        if k == half:
-            tangents = np.full((1, 4), 0.5)
-        elif k > half:
-            follow_tangent(tangents, rates, k - half - 1)
-        batches = (k - half) // BLOCK
-        if batches > RECENT and (k - half) % BLOCK == 0:
-            mean, error, growing = exponent(rates[:batches])
-            out.lyapunov_exponent = mean / (BLOCK * period)
-            out.lyapunov_error = error / (BLOCK * period)
-            last = k >= limit - BLOCK
-            ripe = last or (k >= patience and out.lyapunov_exponent > WEAK)
-            if ripe and growing and mean > CONFIDENCE * error:
-                out.outcome = CHAOTIC
-                break
-        side, contacts, _ = one_period(p, y, tangents, side, tolerance, work)
-        quiet = quiet + 1 if contacts == 0 and side == 0 else 0
-
-
-@inlined
-def settle_and_measure(p, y, start, tolerance, patience, limit, watched, out):
-    """`settle`, then `measure` over one period of the motion, or `watched` periods if unsettled."""
-    settle(p, y, start, tolerance, patience, limit, out)
-    out.state[:] = y
-    if out.outcome != DIVERGED:
-        measure(p, y, out.period if out.period > 0 else watched, tolerance, out)
+    if k == half:
+        for i in range(4):
+            tangent[i] = 0.5
+    elif k > half:
+        follow_tangent(tangent, seen)
+    if (k - half) // BLOCK > RECENT and (k - half) % BLOCK == 0:
+        mean, error, growing = exponent(seen)
+        out.lyapunov_exponent = mean / (BLOCK * period)
+        out.lyapunov_error = error / (BLOCK * period)
+        last = k >= limit - BLOCK
+        ripe = last or (k >= patience and out.lyapunov_exponent > WEAK)
+        if ripe and growing and mean > CONFIDENCE * error:
+            out.outcome = CHAOTIC
+            return True
+    seen.strobes += 1
+    return seen.strobes == limit
 
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, watched, out):
-    """`settle_and_measure` for rows of parameters (m, 7), states (m, 4) and starts (m,)."""
-    for i in range(len(out)):
-        y = states[i].copy()
-        settle_and_measure(parameters[i], y, start[i], tolerance, patience, limit, watched, out[i])
+    """Run motions until each has settled, is certainly chaotic, or `limit` periods are gone.
+
+    Parameters
+    ----------
+    parameters : array, shape (m, 7)
+        Packed parameters.
+    states : array, shape (m, 4)
+    start : array, shape (m,)
+        Times at which the states are given, at most the strobe's.
+    tolerance, patience, limit, watched
+        As of `ensemble.Settling`.
+    out : array of recording.MOTION, shape (m,)
+        Gets what `watch` finds, the last state at a strobe or that on the orbit, and what
+        `measure` finds over a period of the motion, or `watched` periods if unsettled.
+    """
+    size = min(len(out), RESIDENT)
+    pool = make_pool(size)
+    seen = np.zeros(size, SEEN)
+    rings = np.empty((size, RING, 4))
+    chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
+    y = np.empty(4)
+    following, left = 0, len(out)
+    for m in range(size):
+        following = take_next(pool, m, following, parameters, states, start, tolerance, seen, out)
+    while left > 0:
+        for j in range(advance_some(pool, chosen, arrived)):
+            m = arrived[j]
+            i = seen[m].index
+            p, strobe = parameters[i], strobe_time(parameters[i])
+            side = np.int64(pool.numbers[m, SIDE])
+            contacts, tangent = pool.contacts[m], pool.tangents[m]
+            for k in range(4):
+                y[k] = pool.numbers[m, STATE + k]
+            if watch(
+                p, y, side, contacts, tangent, rings[m], seen[m], tolerance, patience, limit, out[i]
+            ):
+                left -= 1
+                for k in range(4):
+                    out[i].state[k] = y[k]
+                if out[i].outcome != DIVERGED:
+                    periods = out[i].period if out[i].period > 0 else watched
+                    measure(p, y, periods, tolerance, out[i])
+                following = take_next(
+                    pool, m, following, parameters, states, start, tolerance, seen, out
+                )
+            else:
+                with_tangent = seen[m].strobes > patience // 2
+                send(pool, m, strobe, strobe + 2.0 * math.pi / p[0], with_tangent)
+
+
+@kernel
+def take_next(pool, m, i, parameters, states, start, tolerance, seen, out):
+    """Give a place of the pool to motion i, if there is one. Returns the number of the next."""
+    if i < len(out):
+        p, y = parameters[i], states[i]
+        begin_watch(seen[m], i, out[i])
+        enter(pool, m, p, y, side_of(p, y), tolerance)
+        send(pool, m, start[i], strobe_time(p), False)
+    return i + 1

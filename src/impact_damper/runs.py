@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
+from impact_damper import kernel
 from impact_damper.kernel import side_of, step, workspace
 from impact_damper.recording import measured, trace
 from impact_damper.rigid import MOST_IMPACTS, rebound, rigid_map
@@ -26,7 +27,7 @@ from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
 from impact_damper.work import operations
 
-FLIGHT_ROUNDS, CONTACT_ROUNDS = 2, 5
+FLIGHT_ROUNDS, CONTACT_ROUNDS = 1, 3
 MOST_CONTACTS = 100_000
 SAMPLES = 64
 MOST_ENDS = 400_000
@@ -113,8 +114,11 @@ def taylor_steps(p, start, t, periods, tolerance):
 
 def step_work(side, tangents=0):
     """Operations of one step of the Taylor series with so many tangents."""
-    rounds = CONTACT_ROUNDS if side != 0 else FLIGHT_ROUNDS
-    return operations(step, rounds, side=side, tangents=np.empty((tangents, 4)))
+    if side == 0:
+        state, each = operations(kernel.flight_step, FLIGHT_ROUNDS), kernel.flight_tangents
+    else:
+        state, each = operations(kernel.contact_step, CONTACT_ROUNDS), kernel.contact_tangents
+    return state + tangents * operations(each) // kernel.COLUMNS
 
 
 def rigid(p, restitution, start, t, periods, tolerance):

@@ -13,6 +13,7 @@ import numpy as np
 
 import extended
 from extended.starts import KINDS, draw
+from impact_damper import lanes
 from impact_damper.kernel import advance, side_of, workspace
 
 SEED = 4
@@ -30,8 +31,17 @@ def scalar(starts, tolerance):
     return states, contacts
 
 
+def side_by_side(starts, tolerance):
+    """The same, sixteen motions at a time."""
+    states, contacts = starts.states.copy(), np.empty(len(starts.states), int)
+    sides = np.array([side_of(p, y) for p, y in zip(starts.parameters, states, strict=True)])
+    ends = starts.times[:, -1].copy()
+    lanes.advance(starts.parameters, states, sides, starts.starts, ends, tolerance, contacts)
+    return states, contacts
+
+
 # What runs all starts of a kind: a function of `Starts` and the tolerance, as `scalar`.
-KERNELS = {"scalar": scalar}
+KERNELS = {"scalar": scalar, "lanes": side_by_side}
 
 
 class Agreement(NamedTuple):
