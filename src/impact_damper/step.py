@@ -124,9 +124,9 @@ def safe_advance(gap, closing, bound):
 
 
 @kernel
-def march(t, f, slope, ahead, length, fine):
+def march(t, f, closing, ahead, length, fine):
     """Next time and mode while a gap f, now f(t), is certainly positive for the time `ahead`."""
-    met = slope <= 0.0 and (f <= fine or t + ahead == t)
+    met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
     following = t if met else (length if ends else t + ahead)
     return following, MET if met else (ENDING if ends else MARCH)
@@ -230,7 +230,8 @@ def search_contact(a):
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)
-                t, mode = march(t, clearance - wall * z, -wall * w, ahead, length, fine)
+                # At rest on a wall the acceleration decides, a little later.
+                t, mode = march(t, clearance - wall * z, wall * w > 0.0, ahead, length, fine)
             elif mode == BRACKET:
                 f = clearance - wall * z
                 low = t if f > 0.0 else low
@@ -303,7 +304,8 @@ def find_release(a):
             move = 0.0
             going = mode <= ENDING
             if mode == MARCH:
-                t, mode = march(t, f, slope, safe_advance(f, -slope, bound), length, fine)
+                ahead = safe_advance(f, -slope, bound)
+                t, mode = march(t, f, slope <= 0.0, ahead, length, fine)
             elif mode == BRACKET:
                 low = t if f > 0.0 else low
                 high = high if f > 0.0 else t
