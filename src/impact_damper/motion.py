@@ -97,7 +97,7 @@ def land(p, y, periods, near, out):
                 out.period, out.residual, out.multiplier = n, residual, multiplier
                 break
     stable = out.period > 0 and not abs(multiplier) >= 1.0
-    if not stable or repeats_sooner(p, y, out.period, POLISH_TOLERANCE):
+    if not stable or repeats_sooner(p, y, np.int64(out.period), POLISH_TOLERANCE):
         out.period = 0
         return False
     out.outcome = SETTLED

@@ -55,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
             orbit = y.copy()
             if land(p, orbit, n, near, out):
                 out.state[:] = orbit
-                measure(p, orbit, out.period, tolerance, out)
+                measure(p, orbit, np.int64(out.period), tolerance, out)
                 break
             near = max(0.1 * near, NEAREST)
         if k < limit:
