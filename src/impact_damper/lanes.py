@@ -92,14 +92,14 @@ def send(pool, m, t, end, with_tangent):
     pool.ends[m] = end
     pool.contacts[m] = 0
     phase = CONTACT if pool.numbers[m, SIDE] != 0.0 else FLIGHT
-    enqueue(pool, m, phase + (FLIGHT_WITH_TANGENT if with_tangent else 0))
+    enqueue(pool.queues, pool.waiting, m, phase + (FLIGHT_WITH_TANGENT if with_tangent else 0))
 
 
 @kernel
-def enqueue(pool, m, kind):
+def enqueue(queues, waiting, m, kind):
     """Let a trajectory wait for a step."""
-    pool.queues[kind, pool.waiting[kind]] = m
-    pool.waiting[kind] += 1
+    queues[kind, waiting[kind]] = m
+    waiting[kind] += 1
 
 
 @kernel
@@ -153,7 +153,8 @@ def scatter(pool, chosen, count, kind, arrived):
             ended += 1
         else:
             numbers[TIME] += length
-            enqueue(pool, m, (kind & FLIGHT_WITH_TANGENT) + (CONTACT if touching else FLIGHT))
+            phase = CONTACT if touching else FLIGHT
+            enqueue(pool.queues, pool.waiting, m, (kind & FLIGHT_WITH_TANGENT) + phase)
     return ended
 
 

@@ -155,7 +155,9 @@ def close_in(t, f, slope, curve, natural, low, high, length, fine):
     past = high == FAR and not t + move < length
     inner = move if inside else 0.5 * (low + min(high, length)) - t
     step = length - t if past else inner
-    return step, MET if last or t + step == t else BRACKET
+    # Nor is there more to be had where the move is rounding, or no number.
+    moved = t + step > t or t + step < t
+    return step, MET if last or not moved else BRACKET
 
 
 @kernel
