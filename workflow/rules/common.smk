@@ -11,6 +11,7 @@ import yaml
 from snakemake.exceptions import WorkflowError
 
 from impact_damper.configuration import (
+    LOADER,
     ConfigurationError,
     check_configuration,
     check_unique_keys,
@@ -44,7 +45,7 @@ wildcard_constraints:
 def checked(config):
     """The configuration with its keys in order, or an error that lists what is wrong with it."""
     config = without_left_out(config)
-    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+    schema = yaml.load((ROOT / "workflow/schemas/config.schema.yaml").read_text(), LOADER)
     try:
         for path in workflow.configfiles:
             check_unique_keys(Path(path).read_text(), Path(path).name)
@@ -56,6 +57,20 @@ def checked(config):
 
 
 config = checked(config)
+
+
+SHARED = workflow.workflow_settings.cache is not None
+
+
+def untimed(path):
+    """Leaves a rule as it is."""
+    return lambda rule: rule
+
+
+# Snakemake refuses to share what it times, for data that come from another workflow cost nothing
+# here: with `--cache` the directive `benchmark` does nothing.
+if SHARED:
+    workflow.benchmark = untimed
 
 
 def local(path):
@@ -70,12 +85,14 @@ def imports(path):
     A package's `__init__` counts only where a name is taken from it: it runs in any
     case, but decides nothing.
     """
-    names = []
-    for node in ast.walk(ast.parse(path.read_text())):
+    names, nodes = [], ast.parse(path.read_text()).body
+    for node in nodes:
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
             names += [f"{node.module}.{alias.name}" for alias in node.names]
+        # Expressions hold no imports, and to walk them takes most of a dry run.
+        nodes += [child for child in ast.iter_child_nodes(node) if not isinstance(child, ast.expr)]
     return {module_file(name) for name in names if name.split(".")[0] == PACKAGE.name}
 
 
@@ -91,9 +108,12 @@ def module_file(name):
 
 @cache
 def code(script, *others):
-    """A script, other files, and all modules they import: inputs, so that their contents count."""
+    """What a job runs: inputs, so that their contents count.
+
+    These are a script, other files and all modules they import, and the versions of all packages.
+    """
     found, new = set(), {ROOT / "workflow/scripts" / script, *others}
     while new:
         found |= new
         new = set().union(*map(imports, new)) - found
-    return sorted(map(local, found))
+    return sorted(map(local, found | {ROOT / "requirements.lock"}))

@@ -1,5 +1,8 @@
 """What each job needs: its parameters, in one dictionary that holds no others, and its data."""
 
+from functools import partial
+from itertools import chain
+
 # Section of the configuration whose entries a stage computes, each into a file of its name.
 STAGES = {
     "free_design": "oscillators",
@@ -91,6 +94,20 @@ def data(stage, chosen=None):
     return expand(f"<results>/{stage}/{{name}}.nc", name=names(stage) if chosen is None else chosen)
 
 
+def parts(job, stage):
+    """Parameters of a stage's jobs, each with its name; `job` gives all of them for an entry.
+
+    One by one, so that a dry run tells which of them changed; and with its name in its value, for
+    Snakemake compares the values as a set.
+    """
+
+    def part(key, wildcards):
+        (name,) = wildcards
+        return {key: job(name)[key]}
+
+    return {key: partial(part, key) for key in chain(*map(job, names(stage)))}
+
+
 def oscillator_of(name):
     entry = config["oscillators"][name]
     return {key: entry[key] for key in ("damping", "linear_frequency")}
@@ -122,15 +139,15 @@ def settling():
     return given | {"tolerance": config["scenes"][config["settling"]["scene"]]["tolerance"]}
 
 
-def free_design_job(wildcards):
+def free_design_job(name):
     return {
-        "oscillator": oscillator_of(wildcards.oscillator),
-        "frequencies": frequencies_of(wildcards.oscillator, "harmonic_balance"),
+        "oscillator": oscillator_of(name),
+        "frequencies": frequencies_of(name, "harmonic_balance"),
     }
 
 
-def design_job(wildcards):
-    curve = config["curves"][wildcards.curve]
+def design_job(name):
+    curve = config["curves"][name]
     return {
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
@@ -138,17 +155,17 @@ def design_job(wildcards):
     }
 
 
-def free_job(wildcards):
+def free_job(name):
     return {
-        "oscillator": oscillator_of(wildcards.oscillator),
-        "frequencies": frequencies_of(wildcards.oscillator, "free"),
+        "oscillator": oscillator_of(name),
+        "frequencies": frequencies_of(name, "free"),
         "search": search("starts"),
         "settling": settling(),
     }
 
 
-def response_job(wildcards):
-    curve = config["curves"][wildcards.curve]
+def response_job(name):
+    curve = config["curves"][name]
     return {
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
@@ -158,8 +175,8 @@ def response_job(wildcards):
     }
 
 
-def motion_job(wildcards):
-    motion = config["motions"][wildcards.motion]
+def motion_job(name):
+    motion = config["motions"][name]
     return {
         "oscillator": oscillator_of(motion["oscillator"]),
         "damper": damper_of(motion),
@@ -168,8 +185,8 @@ def motion_job(wildcards):
     }
 
 
-def collisions_job(wildcards):
-    motion = config["collisions"][wildcards.motion]
+def collisions_job(name):
+    motion = config["collisions"][name]
     return {
         "oscillator": oscillator_of(motion["oscillator"]),
         "damper": damper_of(motion),
@@ -179,8 +196,8 @@ def collisions_job(wildcards):
     }
 
 
-def optimum_job(wildcards):
-    optimum = config["optima"][wildcards.optimum]
+def optimum_job(name):
+    optimum = config["optima"][name]
     return {
         "oscillator": oscillator_of(optimum["oscillator"]),
         "damper": damper_of(optimum),
@@ -191,8 +208,8 @@ def optimum_job(wildcards):
     }
 
 
-def migration_job(wildcards):
-    run = config["migration"][wildcards.run]
+def migration_job(name):
+    run = config["migration"][name]
     return {
         "oscillator": oscillator_of(run["oscillator"]),
         "damper": damper_of(run),
@@ -203,8 +220,8 @@ def migration_job(wildcards):
     }
 
 
-def release_scan_job(wildcards):
-    scan = config["release_scans"][wildcards.scan]
+def release_scan_job(name):
+    scan = config["release_scans"][name]
     return {
         "oscillator": oscillator_of(scan["oscillator"]),
         "damper": damper_of(scan),
@@ -226,37 +243,58 @@ def one_of(choices):
     return "|".join(choices) or "(?!)"
 
 
-def figure_job(wildcards):
+def figure_kind(wildcards):
+    return config["figures"][wildcards.figure]["kind"]
+
+
+def figure_entries(wildcards):
+    return config["figures"][wildcards.figure]["data"]
+
+
+def figure_caption(wildcards, output):
+    """What the report's caption says of a figure.
+
+    Since it takes `output`, Snakemake does not compare it: a title is not drawn.
+    """
     return figure_entry(wildcards.figure)
 
 
 def figure_entry(name):
-    """A figure's entry, with the parameters of what it draws in place of the names alone."""
+    """A figure's entry, with what its caption says of the data in place of the names alone."""
     figure = config["figures"][name]
-    return figure | {"data": {name: drawn(figure["kind"], name) for name in figure["data"]}}
+    return figure | {"data": {name: said(figure["kind"], name) for name in figure["data"]}}
 
 
-def drawn(kind, name):
-    """Parameters of what a figure draws; a schematic has none."""
+def caption_of(name, wildcards):
+    return {name: figure_entry(name)}
+
+
+# What captions say of an entry beside its oscillator and damper.
+SAID = {
+    "design_rules": ["restitutions", "contact_stiffnesses", "frequencies"],
+    "balance_map": ["damping", "linear_frequency", "mass_ratio", "clearance", "restitution"],
+}
+
+
+def said(kind, name):
+    """Parameters of what a figure draws, those in its caption alone; a schematic has none."""
     if kind == "schematic":
         return {}
     if kind == "free":
         return {"oscillator": oscillator_of(name)}
     entry = config[SECTIONS[kind]][name]
-    if "oscillator" not in entry:
-        return entry
-    parts = {
-        "oscillator": oscillator_of(entry["oscillator"]),
-        "damper": damper_of(entry) if "mass_ratio" in entry else None,
-    }
-    # A section that one stage has to itself is drawn with all that it holds.
-    keys = entry if SECTIONS[kind] == kind else [key for key in ("frequency",) if key in entry]
-    return {key: entry[key] for key in keys} | parts
+    found = {key: entry[key] for key in SAID.get(kind, ["frequency"]) if key in entry}
+    if "oscillator" in entry:
+        found["oscillator"] = oscillator_of(entry["oscillator"])
+        found["damper"] = damper_of(entry) if "mass_ratio" in entry else None
+    if found.get("damper") and kind not in ("harmonics", "contact_model"):
+        del found["damper"]["contact_stiffness"]
+    return found
 
 
 def figure_module(wildcards):
     """Full name of the module that draws a figure; it is called as the kind, but for two."""
-    kind = config["figures"][wildcards.figure]["kind"]
+    kind = figure_kind(wildcards)
     others = {"release": "migration", "branches": "orbits"}
     return f"impact_damper.figures.{others.get(kind, kind)}"
 

@@ -7,9 +7,10 @@ from types import SimpleNamespace
 import jinja2
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-for template, job, output in zip(
-    snakemake.input.templates, snakemake.params.jobs, snakemake.output, strict=True
+for template, figure, output in zip(
+    snakemake.input.templates, snakemake.params, snakemake.output, strict=True
 ):
+    (job,) = figure.values()
     caption = jinja2.Template(Path(template).read_text(), undefined=jinja2.StrictUndefined)
-    figure = SimpleNamespace(params=SimpleNamespace(job=job))
-    Path(output).write_text(caption.render(snakemake=figure) + "\n")
+    drawn = SimpleNamespace(params=SimpleNamespace(job=job))
+    Path(output).write_text(caption.render(snakemake=drawn) + "\n")

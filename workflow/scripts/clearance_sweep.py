@@ -1,6 +1,7 @@
 """Largest displacement against clearance, and its optimum (figures 6, 7 and 11)."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from impact_damper.optimum import clearance_sweep
 from impact_damper.parameters import Oscillator
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 sweep = clearance_sweep(
     Oscillator(**job["oscillator"]),
     job["damper"],

@@ -1,6 +1,7 @@
 """The contact model over restitution and load, and contacts of motions in it."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from impact_damper.ensemble import Settling
 from impact_damper.parameters import Damper, Oscillator
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 model = contact_model(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

@@ -8,7 +8,7 @@ from impact_damper.datasets import load
 from impact_damper.figures.style import save
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-draw = getattr(import_module(snakemake.params.module), f"draw_{snakemake.params.job['kind']}")
+draw = getattr(import_module(snakemake.params.module), f"draw_{snakemake.params.kind}")
 drawing = draw(
     **{
         stage: [load(path) for path in paths]

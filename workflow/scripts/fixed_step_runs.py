@@ -1,6 +1,7 @@
 """What becomes of the quiet motion with fixed steps, over stiffness and step."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from impact_damper.parameters import Damper, Oscillator
 from impact_damper.stable_steps import stable_steps
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 stiffnesses, scaled = job["stiffnesses"], job["scaled_steps"]
 found = stable_steps(
     Oscillator(**job["oscillator"]),

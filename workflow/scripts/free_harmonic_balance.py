@@ -1,6 +1,7 @@
 """Free response by harmonic balance, stable and unstable (figures 2, 5, 8 and 10)."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from impact_damper.design import harmonic_balance_response
 from impact_damper.parameters import Oscillator
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 response = harmonic_balance_response(
     Oscillator(**job["oscillator"]),
     None,

@@ -1,6 +1,7 @@
 """Simulated motions with the damper over frequency (figures 5, 8 and 10)."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from impact_damper.parameters import Damper, Oscillator
 from impact_damper.response import frequency_response
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 response = frequency_response(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

@@ -1,6 +1,7 @@
 """Contacts near grazing that integrators miss, counted over random passages."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from impact_damper.missed_contacts import missed_contacts
 from impact_damper.parameters import Oscillator
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 depths, tolerances, steps = job["depths"], job["tolerances"], job["steps"]
 steps = np.geomspace(steps["first"], steps["last"], tolerances["points"])
 found = missed_contacts(

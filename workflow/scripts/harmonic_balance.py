@@ -1,6 +1,7 @@
 """Harmonic-balance response and suppression band of a damper (section 2, figures 3, 5 and 8)."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 import xarray as xr
@@ -10,7 +11,7 @@ from impact_damper.design import harmonic_balance_response, optimum_clearance, s
 from impact_damper.parameters import Damper, Oscillator
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])
 given = job["damper"]
 if given["clearance"] == "rule":

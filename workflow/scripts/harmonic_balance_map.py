@@ -1,6 +1,7 @@
 """Where harmonic balance fails, over frequency and another parameter."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 found = balance_map(
     job["parameter"],
     np.linspace(*job["values"]),

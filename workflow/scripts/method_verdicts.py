@@ -1,6 +1,7 @@
 """Verdicts of integrators by tolerance, against the truth."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from impact_damper.parameters import Damper, Oscillator
 from impact_damper.verdicts import make_scene, verdicts
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])
 scenes = {}
 for name, given in (job["damped"] | job["free"]).items():

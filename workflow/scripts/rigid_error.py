@@ -1,6 +1,7 @@
 """Rigid impacts against compliant contact over frequency and contact stiffness."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from impact_damper.parameters import Damper, Oscillator
 from impact_damper.rigid_limit import rigid_limit
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 limit = rigid_limit(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

@@ -1,6 +1,7 @@
 """The one-third subharmonic, and what the damper makes of it (figures 5 and 8)."""
 
 import sys
+from collections import ChainMap
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from impact_damper.parameters import Damper, Oscillator
 from impact_damper.subharmonic import subharmonic_suppression
 
 sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+job = ChainMap(*snakemake.params)
 motions = subharmonic_suppression(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),
