@@ -16,7 +16,7 @@ import yaml
 from impact_damper.contradictions import SECTIONS
 
 ROOT = Path(__file__).parents[1]
-PARTS = ["Snakefile", "config", "profiles", "workflow", "src"]
+PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow", "src"]
 STUB = """
 from pathlib import Path
 for path in snakemake.output:
@@ -189,9 +189,9 @@ def test_a_curve_reruns_itself_and_what_draws_it(edit):
     }
 
 
-def test_a_title_redraws_its_figure_alone(edit):
+def test_a_title_is_told_in_captions_and_not_drawn(edit):
     plan = edit("config/config.yaml", lambda text: text.replace("at low damping", "again"))
-    assert plan == {"Drawing figure_08", "Captions of the figures"}
+    assert plan == {"Captions of the figures"}
 
 
 def test_a_caption_template_is_read_again_for_captions_alone(edit):
