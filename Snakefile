@@ -66,3 +66,5 @@ rule all:
         rules.accuracy.input,
         rules.figures.input,
         rules.tables.input,
+    message:
+        "Everything"
