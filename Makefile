@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: reproduce smoke test benchmark lint format lock clean
+.PHONY: reproduce smoke test same-bytes benchmark lint format lock clean
 
 reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
@@ -17,6 +17,11 @@ smoke: $(READY)
 
 test: $(READY)
 	$(BIN)/python -m pytest
+
+# Two runs, on one core and two, are compared; the whole paper with CONFIG= and nothing after it.
+CONFIG ?= config/smoke.yaml
+same-bytes: $(READY)
+	PYTHONPATH=tests $(BIN)/python -m same_bytes $(CONFIG)
 
 # Into results/benchmarks/; the tests hold the reference.
 benchmark: $(READY)

@@ -44,6 +44,10 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
 
+onsuccess:
+    write_provenance()
+
+
 rule all:
     default_target: True
     input:

@@ -124,3 +124,13 @@ def code(script, *others):
         found |= new
         new = set().union(*map(imports, new)) - found
     return sorted(map(local, found | {ROOT / "requirements.lock"}))
+
+
+def write_provenance():
+    """Write down what the results were made with; this alone may differ from run to run."""
+    from impact_damper.provenance import provenance
+
+    path = Path(config["results"]) / "provenance.json"
+    part = path.with_name(f"{path.name}.part-{os.getpid()}")
+    part.write_text(json.dumps(provenance(config, ROOT), indent=2) + "\n")
+    os.replace(part, path)
