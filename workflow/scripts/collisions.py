@@ -1,12 +1,11 @@
 """Whether random starts in the literal ball lead to collisions (section 3, claim 8)."""
 
-import sys
-
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.response import collisions
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+begin(snakemake.log[0])
 job = snakemake.params.job
 shares = collisions(
     Oscillator(**job["oscillator"]),

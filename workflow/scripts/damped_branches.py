@@ -1,12 +1,11 @@
 """Every branch of periodic orbits with a damper, stable or not (figures 5, 8 and 10)."""
 
-import sys
-
 from impact_damper.datasets import load, save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.periodic import complete_branches
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+begin(snakemake.log[0])
 job = snakemake.params.job
 branches = complete_branches(
     Oscillator(**job["oscillator"]),

@@ -1,12 +1,11 @@
 """Harmonic balance with many harmonics against the exact orbit."""
 
-import sys
-
 from impact_damper.datasets import save
 from impact_damper.harmonics import harmonic_convergence, ladder
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+begin(snakemake.log[0])
 job = snakemake.params.job
 harmonics = ladder(job["highest"])
 convergence = harmonic_convergence(

@@ -1,14 +1,14 @@
 """Errors of methods against counted work, on one scene."""
 
 import json
-import sys
 from pathlib import Path
 
 from impact_damper.accuracy import Scene, error_against_work
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+begin(snakemake.log[0])
 job = dict(snakemake.params.job)
 settings, damper = job.pop("settings"), job.pop("damper")
 name = snakemake.wildcards.scene
