@@ -144,7 +144,10 @@ def _digest(data):
     digest = hashlib.sha256()
     for name, variable in sorted(data.variables.items()):
         values = np.asarray(variable)
-        if values.dtype.kind not in "biuf":
-            values = np.array("\0".join(map(str, values.ravel())).encode())
-        digest.update(f"{name} {variable.dims} {variable.shape}".encode() + values.tobytes())
+        if values.dtype.kind == "f":
+            values = np.where(np.isnan(values), np.nan, values)  # a file keeps no sign of NaN
+        # Texts, and what is empty, may come back from a file as another type.
+        numbers = values.dtype.kind in "biuf"
+        content = values.tobytes() if numbers else "\0".join(map(str, values.ravel())).encode()
+        digest.update(f"{name} {variable.dims} {variable.shape}".encode() + content)
     return digest.hexdigest()

@@ -1,5 +1,6 @@
 """Results that no run has left like this: told, or mended, before anything is planned."""
 
+import tempfile
 import time
 
 from impact_damper.whole_files import check_length
@@ -31,3 +32,16 @@ def check_results(folder):
 
 
 check_results(Path(config["results"]))
+
+
+onstart:
+    try:
+        os.makedirs(config["results"], exist_ok=True)
+        with tempfile.TemporaryFile(dir=config["results"]) as file:
+            file.write(b"a trial")
+            file.flush()
+    except OSError as error:
+        raise WorkflowError(
+            f"Nothing can be written to the folder {config['results']} ({error.strerror}): mend "
+            "that, or name another folder under `results:` in the configuration."
+        ) from None
