@@ -2,6 +2,7 @@
 
 import argparse
 import shutil
+import signal
 import sys
 import tempfile
 import time
@@ -15,7 +16,7 @@ from impact_damper import table_files
 
 from . import damages, disks, kills, times
 from .disks import CannotMount
-from .project import Fault, Project, expect
+from .project import Fault, Project, end_all, expect
 
 KINDS = {
     trials.__name__: trials for part in (kills, damages, disks, times) for trials in part.TRIALS
@@ -59,15 +60,8 @@ def tried(trial):
         return "FAILED", " ".join(str(fault).split())
 
 
-def main():
-    reader = argparse.ArgumentParser(prog="python -m faults", description=__doc__)
-    reader.add_argument("kinds", nargs="*", help=f"of {', '.join(KINDS)}; all if none")
-    reader.add_argument("--moments", type=int, default=20, help="kills of each kind")
-    reader.add_argument("--seed", type=int, default=1995, help="of all random moments and places")
-    reader.add_argument("--table", type=Path, default=Path("results/faults/trials"))
-    given = reader.parse_args()
-    if unknown := set(given.kinds) - set(KINDS):
-        reader.error(f"unknown: {', '.join(sorted(unknown))}; known: {', '.join(KINDS)}")
+def try_all(given):
+    """A row for each trial, printed as it ends."""
     rows = []
     with tempfile.TemporaryDirectory(prefix="faults-") as folder:
         context = Context(Path(folder), given)
@@ -80,6 +74,24 @@ def main():
                 for left in context.folder.iterdir():
                     if left.name != "undisturbed":
                         shutil.rmtree(left, ignore_errors=True)
+    return rows
+
+
+def main():
+    reader = argparse.ArgumentParser(prog="python -m faults", description=__doc__)
+    reader.add_argument("kinds", nargs="*", help=f"of {', '.join(KINDS)}; all if none")
+    reader.add_argument("--moments", type=int, default=20, help="kills of each kind")
+    reader.add_argument("--seed", type=int, default=1995, help="of all random moments and places")
+    reader.add_argument("--table", type=Path, default=Path("results/faults/trials"))
+    given = reader.parse_args()
+    if unknown := set(given.kinds) - set(KINDS):
+        reader.error(f"unknown: {', '.join(sorted(unknown))}; known: {', '.join(KINDS)}")
+    # As after Ctrl-C, runs under way end and mounts are taken down.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    try:
+        rows = try_all(given)
+    finally:
+        end_all()
     table = given.table
     table_files.save(pd.DataFrame(rows), table.with_suffix(".csv"), table.with_suffix(".md"))
     sys.exit(any(row["outcome"] == "FAILED" for row in rows))
