@@ -2,8 +2,14 @@
 
 import tempfile
 import time
+from contextlib import suppress
 
 from impact_damper.whole_files import check_length
+
+# Seconds by which clocks of machines that share a disk may differ.
+SKEW = 10
+# The first second of 1970; Snakemake takes a date of 0 for none.
+OLDEST = 1
 
 
 def check_results(folder):
@@ -13,22 +19,22 @@ def check_results(folder):
     result with a date in the future, from before the clock was set back, would hide every edit
     since: it gets the oldest date, so that contents decide.
     """
-    now, ahead = time.time(), []
-    for path in folder.rglob("*"):
-        if path.is_file() and path.stat().st_mtime > now:
-            ahead.append(path)
-    for path in ahead:
-        os.utime(path, (0, 0))
+    ahead = []
+    try:
+        for path in sorted(folder.rglob("*")):
+            with suppress(FileNotFoundError):  # another run may take files away
+                if path.suffix == ".nc":
+                    check_length(path)
+                if path.is_file() and path.stat().st_mtime > time.time() + SKEW:
+                    os.utime(path, (OLDEST, OLDEST))
+                    ahead.append(path)
+    except OSError as error:
+        raise WorkflowError(str(error)) from None
     if ahead:
         logger.warning(
             f"{len(ahead)} files in {folder} had dates in the future, as {ahead[0]}, for the clock "
             "was set back. They are now dated 1970, and contents decide what runs again."
         )
-    try:
-        for path in sorted(folder.glob("*/*.nc")):
-            check_length(path)
-    except OSError as error:
-        raise WorkflowError(str(error)) from None
 
 
 check_results(Path(config["results"]))
