@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: reproduce smoke test same-bytes benchmark lint format lock clean
+.PHONY: reproduce smoke test same-bytes benchmark faults lint format lock clean
 
 reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
@@ -26,6 +26,10 @@ same-bytes: $(READY)
 # Into results/benchmarks/; the tests hold the reference.
 benchmark: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m benchmarks
+
+# Into results/faults/: what a run makes of kills, damaged files, full disks and the like.
+faults: $(READY)
+	PYTHONPATH=tests $(BIN)/python -m faults
 
 lint: $(READY)
 	$(BIN)/ruff format --check benchmarks src tests workflow

@@ -20,6 +20,7 @@ pathvars:
 report: "workflow/report/workflow.rst"
 
 
+include: "workflow/rules/checks.smk"
 include: "workflow/rules/jobs.smk"
 include: "workflow/rules/further_jobs.smk"
 include: "workflow/rules/kernels.smk"

@@ -1,13 +1,16 @@
 """Labelled datasets: built from the registry, written whole or not at all."""
 
+import hashlib
 import json
-import os
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from impact_damper.variables import VARIABLES
+from impact_damper.whole_files import DELETE, BrokenFileError, check_length, whole
+
+SOURCE = "impact-damper"
 
 
 def variable(name, data, dims=None) -> xr.Variable:
@@ -66,7 +69,7 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
         {
             "Conventions": "CF-1.11",
             "title": title,
-            "source": "impact-damper",
+            "source": SOURCE,
             "references": "Chatterjee, Mallik and Ghosh, J. Sound Vib. 187(3), 403-420, 1995",
             "parameters": json.dumps(parameters, sort_keys=True),
         },
@@ -89,21 +92,62 @@ def parameters_of(data) -> dict:
 
 
 def save(data, path) -> None:
-    """Write a dataset to NetCDF; the file appears only when it is whole."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.part-{os.getpid()}")
+    """Write a dataset to NetCDF; the file appears only when it is whole.
+
+    It carries its stage and name, and the digest of its arrays, which `load` looks at.
+    """
     encoding = {name: {"_FillValue": None} for name in data.coords}
     encoding |= {
         name: {"_FillValue": None} for name in data.data_vars if data[name].dtype.kind in "iub"
     }
-    try:
-        data.to_netcdf(part, engine="netcdf4", encoding=encoding)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    data = data.assign_attrs(id=_identity(path), sha256=_digest(data))
+    with whole(path) as part:
+        try:
+            data.to_netcdf(part, engine="netcdf4", encoding=encoding)
+        except RuntimeError as error:  # the NetCDF library's own
+            raise OSError(str(error)) from error
+        check_length(part)
 
 
 def load(path) -> xr.Dataset:
-    """Read a dataset into memory and close the file, so that it can be overwritten."""
-    return xr.load_dataset(path, engine="netcdf4")
+    """Read a dataset into memory and close the file, so that it can be overwritten.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    BrokenFileError
+        If the file is not what `save` has written under this path.
+    """
+    check_length(path)
+    try:
+        data = xr.load_dataset(path, engine="netcdf4")
+    except (OSError, RuntimeError, ValueError) as error:
+        raise BrokenFileError(f"{path} cannot be read ({error}): {DELETE}.") from error
+    if data.attrs.get("source") != SOURCE:
+        raise BrokenFileError(f"{path} was not made by this project: {DELETE}.")
+    if data.attrs.get("id") != _identity(path):
+        raise BrokenFileError(f"{path} holds {data.attrs.get('id')}: {DELETE}.")
+    if data.attrs.get("sha256") != _digest(data):
+        raise BrokenFileError(f"{path} holds other numbers than were written: {DELETE}.")
+    return data
+
+
+def _identity(path):
+    """Stage and name of a file of results, wherever their folder lies."""
+    path = Path(path).absolute()
+    return f"{path.parent.name}/{path.stem}"
+
+
+def _digest(data):
+    """Digest of all names and arrays."""
+    digest = hashlib.sha256()
+    for name, variable in sorted(data.variables.items()):
+        values = np.asarray(variable)
+        if values.dtype.kind == "f":
+            values = np.where(np.isnan(values), np.nan, values)  # a file keeps no sign of NaN
+        # Texts, and what is empty, may come back from a file as another type.
+        numbers = values.dtype.kind in "biuf"
+        content = values.tobytes() if numbers else "\0".join(map(str, values.ravel())).encode()
+        digest.update(f"{name} {variable.dims} {variable.shape}".encode() + content)
+    return digest.hexdigest()

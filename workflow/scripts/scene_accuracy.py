@@ -1,15 +1,15 @@
 """Errors of methods against counted work, on one scene."""
 
 import json
-import sys
 from collections import ChainMap
 from pathlib import Path
 
 from impact_damper.accuracy import Scene, error_against_work
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+begin(snakemake.log[0])
 job = dict(ChainMap(*snakemake.params))
 settings, damper = job.pop("settings"), job.pop("damper")
 scene = Scene(
