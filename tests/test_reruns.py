@@ -13,6 +13,7 @@ from base64 import b64decode
 import pytest
 import yaml
 from data_flow import DRAWN, Flow
+from netCDF4 import Dataset
 from planning import Planner, name_of, reruns
 from running import ROOT, copy_of_project, snakemake
 
@@ -90,7 +91,7 @@ def sources(project):
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory):
-    """The whole project after a run to its end, in which every result is an empty file."""
+    """The whole project after a run to its end, in which every result is empty."""
     project = copy_of_project(tmp_path_factory.mktemp("a project"))
     path = project / "config/config.yaml"
     # so that `settling.scene` can be changed by itself
@@ -100,7 +101,8 @@ def project(tmp_path_factory):
     for line in told.stdout.splitlines()[1:]:
         output = project / line.split("\t")[0]
         output.parent.mkdir(parents=True, exist_ok=True)
-        output.touch()
+        with Dataset(output, "w") if output.suffix == ".nc" else output.open("w"):
+            pass
     result = snakemake(project, "--touch", "--forceall")
     assert result.returncode == 0, result.stdout + result.stderr
     return project
