@@ -103,6 +103,7 @@ def imports(path):
     return {module_file(name) for name in names}
 
 
+@cache
 def module_file(name):
     """File of the module that `impact_damper.a.b` is, or that it is taken from."""
     path = PACKAGE.joinpath(*name.split(".")[1:])
