@@ -22,6 +22,7 @@ report: "workflow/report/workflow.rst"
 
 include: "workflow/rules/jobs.smk"
 include: "workflow/rules/further_jobs.smk"
+include: "workflow/rules/figure_jobs.smk"
 include: "workflow/rules/kernels.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/free.smk"
