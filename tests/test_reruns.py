@@ -12,7 +12,8 @@ from base64 import b64decode
 
 import pytest
 import yaml
-from data_flow import DRAWN, Flow
+from data_flow import DRAWN
+from following import Flow
 from netCDF4 import Dataset
 from planning import Planner, name_of, reruns
 from running import ROOT, copy_of_project, snakemake

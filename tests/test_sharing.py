@@ -57,6 +57,8 @@ def shared(tmp_path_factory):
 def test_a_checkout_takes_what_another_computed(shared):
     first, second, cache = shared
     assert run(second, cache, DESIGN, BRANCHES) == [str(first)] * 2
+    told = snakemake(second, DESIGN, BRANCHES, "-n")
+    assert "Nothing to be done" in told.stdout + told.stderr
 
 
 @pytest.mark.parametrize(
