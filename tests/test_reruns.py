@@ -64,7 +64,7 @@ def other(config, path, value):
         figure = config["figures"][path[1]]
         section = DRAWN.get(figure["kind"], figure["kind"])
         if key == "kind":
-            kinds = DRAWN | {section: section}
+            kinds = DRAWN | {"migration": "migration"}
             choices = [kind for kind, drawn in kinds.items() if drawn == section]
         else:
             choices = config.get(section, ["elastic_model", "inelastic_model"])
