@@ -34,7 +34,7 @@ def whole(path):
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         for left in path.parent.glob(f"{glob.escape(path.name)}.part-*"):
-            left.unlink()
+            left.unlink(missing_ok=True)
         yield part
         os.replace(part, path)
     except OSError as error:

@@ -46,6 +46,12 @@ class Context:
         """A project after its run."""
         return Project(self.folder / name, like=self._whole)
 
+    def clear(self):
+        """Remove all projects but the undisturbed one."""
+        for left in self.folder.iterdir():
+            if left != self._whole.folder:
+                shutil.rmtree(left, ignore_errors=True)
+
     def random(self, name):
         return np.random.default_rng([self.seed, zlib.crc32(name.encode())])
 
@@ -64,16 +70,17 @@ def try_all(given):
     """A row for each trial, printed as it ends."""
     rows = []
     with tempfile.TemporaryDirectory(prefix="faults-") as folder:
-        context = Context(Path(folder), given)
-        print(f"undisturbed in {context.seconds:.0f} s", flush=True)
-        for kind in given.kinds or KINDS:
-            for name, trial in KINDS[kind](context):
-                ended, said = tried(trial)
-                rows.append({"fault": name, "outcome": ended, "what it takes": said})
-                print(f"{ended:12s} | {name} | {said}", flush=True)
-                for left in context.folder.iterdir():
-                    if left.name != "undisturbed":
-                        shutil.rmtree(left, ignore_errors=True)
+        try:
+            context = Context(Path(folder), given)
+            print(f"undisturbed in {context.seconds:.0f} s", flush=True)
+            for kind in given.kinds or KINDS:
+                for name, trial in KINDS[kind](context):
+                    ended, said = tried(trial)
+                    rows.append({"fault": name, "outcome": ended, "what it takes": said})
+                    print(f"{ended:12s} | {name} | {said}", flush=True)
+                    context.clear()
+        finally:
+            end_all()
     return rows
 
 
@@ -88,10 +95,7 @@ def main():
         reader.error(f"unknown: {', '.join(sorted(unknown))}; known: {', '.join(KINDS)}")
     # As after Ctrl-C, runs under way end and mounts are taken down.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
-    try:
-        rows = try_all(given)
-    finally:
-        end_all()
+    rows = try_all(given)
     table = given.table
     table_files.save(pd.DataFrame(rows), table.with_suffix(".csv"), table.with_suffix(".md"))
     sys.exit(any(row["outcome"] == "FAILED" for row in rows))

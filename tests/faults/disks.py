@@ -2,9 +2,11 @@
 
 import subprocess
 from contextlib import contextmanager
+from functools import partial
 
 from .project import DATA, expect
 
+FIGURE = ["results/figures/figure_06.png", "results/figures/figure_06.pdf"]
 FULL = "No space left on device"
 KILOBYTES = (8, 40, 80, 120, 160, 200)
 
@@ -63,17 +65,19 @@ def _full(context, kilobytes, whole):
 
 
 def read_only(context):
-    def unfinished():
+    def trial(missing):
         project = context.finished("read-only")
-        (project.folder / DATA).unlink()
+        for path in missing:
+            (project.folder / path).unlink()
         results = project.folder / "results"
         with _mounted(results, "--bind", results):
             _mount("-o", "remount,ro,bind", results)
             code, told = project.run()
-        expect(code and "Nothing can be written" in told, f"it is not told: {told[-500:]}")
+        expect(code, "the run says that all is well")
+        expect("make it writable" in told, f"it is not told what to do: {told[-500:]}")
         expect("Traceback" not in told, "a traceback is shown")
         project.recover(context.undisturbed)
-        return "told: not writable; made writable, run again"
+        return "told: make it writable; run again"
 
     def finished():
         project = context.finished("read-only-finished")
@@ -85,7 +89,8 @@ def read_only(context):
         expect(code == 0, f"a run with nothing to do fails: {told[-500:]}")
         return "nothing to do"
 
-    yield "a read-only `results/`, data missing", unfinished
+    yield "a read-only `results/`, data missing", partial(trial, [DATA])
+    yield "a read-only `results/`, a figure missing", partial(trial, FIGURE)
     yield "a read-only `results/`, all finished", finished
 
 

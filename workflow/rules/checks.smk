@@ -1,6 +1,5 @@
 """Results that no run has left like this: told, or mended, before anything is planned."""
 
-import tempfile
 import time
 from contextlib import suppress
 
@@ -37,17 +36,23 @@ def check_results(folder):
         )
 
 
+def unwritable(folder):
+    """What to do about a folder that cannot be written to; nothing if it can."""
+    there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if os.access(there, os.W_OK):
+        return ""
+    return (
+        f"Nothing can be written to the folder {folder}: make it writable, or name another folder "
+        "under `results:` in the configuration."
+    )
+
+
 check_results(Path(config["results"]))
+# What is there can still be looked at; Snakemake's own words for a run that would write come later.
+if unwritable(Path(config["results"])):
+    logger.warning(unwritable(Path(config["results"])))
 
 
 onstart:
-    try:
-        os.makedirs(config["results"], exist_ok=True)
-        with tempfile.TemporaryFile(dir=config["results"]) as file:
-            file.write(b"a trial")
-            file.flush()
-    except OSError as error:
-        raise WorkflowError(
-            f"Nothing can be written to the folder {config['results']} ({error.strerror}): mend "
-            "that, or name another folder under `results:` in the configuration."
-        ) from None
+    if unwritable(Path(config["results"])):
+        raise WorkflowError(unwritable(Path(config["results"])))
