@@ -9,7 +9,14 @@ from impact_damper import fourier, harmonic_balance, harmonics_theory, hill
 from impact_damper.datasets import dataset, flag
 from impact_damper.motions import simulate
 from impact_damper.multiharmonic import Balance, solve
-from impact_damper.parameters import check_count, describe, pack
+from impact_damper.parameters import (
+    check_count,
+    check_counts,
+    check_increasing,
+    describe,
+    pack,
+    shown,
+)
 from impact_damper.shooting import find_orbit
 
 SAMPLES = 2**14
@@ -60,11 +67,11 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     ArithmeticError
         If there is no single-term solution to begin from.
     """
-    harmonics = np.array(harmonics)
-    if len(harmonics) < 1 or np.any(np.diff(harmonics) <= 0):
-        raise ValueError(f"harmonics: must be increasing, and at least one; {harmonics} given")
-    if not set(cold) <= set(harmonics.tolist()):
-        raise ValueError(f"cold = {list(cold)}: must be among the harmonics {harmonics.tolist()}")
+    harmonics = check_counts("harmonics", harmonics)
+    check_increasing("harmonics", harmonics)
+    if not set(check_counts("cold", cold)) <= set(harmonics):
+        given = shown(harmonics.tolist())
+        raise ValueError(f"cold = {shown(cold)}: must be among the harmonics {given}")
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
     first = single_term(oscillator, damper, frequency)
     solutions = refine(balances, first)
