@@ -238,8 +238,8 @@ def _wrong_data(path, figure, config):
     if len(figure["data"]) > most:
         reason = f"must be {most} at most (what a figure of the kind {kind} draws)"
         yield problem(path, figure["data"], reason)
-    for name in figure["data"]:
-        yield from _unknown(path, name, known)
+    for place, name in enumerate(figure["data"]):
+        yield from _unknown([*path, place], name, known)
         if (
             kind in ("design", "response", "branches")
             and name in known
