@@ -12,7 +12,7 @@ import numpy as np
 from impact_damper import ensemble, recording, switching
 from impact_damper.datasets import dataset, flag
 from impact_damper.motions import MOST_SEED, check_settling
-from impact_damper.parameters import check_count, check_damper, describe
+from impact_damper.parameters import check_count, check_damper, describe, pack
 from impact_damper.releases import (
     DESTINATIONS,
     KINDS,
@@ -151,6 +151,7 @@ def _totals(logs):
 def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
     """The scene, and the parameters of the dataset, or an error that names a bad argument."""
     check_damper(damper)
+    pack(oscillator, damper, frequency)
     check_count("longest_hold", longest_hold, most=10**6)
     check_count("periods", periods, most=10**6)
     check_count("switchings", switchings, most=10**4)

@@ -117,9 +117,9 @@ def check_starts(starts, points, least=1):
     check_count("starts", starts, least=least, most=most, why=f"at {points} points: memory")
 
 
-def check_span(name, span) -> tuple:
+def check_span(name, span, **bounds) -> tuple:
     """Return least and greatest value of a range above 0, or raise TypeError or ValueError."""
-    ends = check_numbers(name, span)
+    ends = check_numbers(name, span, **bounds)
     if ends.shape != (2,) or not 0 < ends[0] < ends[1]:
         raise ValueError(f"{name} = {shown(span)}: must be least and greatest value, above 0")
     return float(ends[0]), float(ends[1])

@@ -13,6 +13,7 @@ from impact_damper.continuation import Problem
 from impact_damper.datasets import dataset, flag
 from impact_damper.motions import COMPONENTS, check_state, phase_of
 from impact_damper.parameters import (
+    FREQUENCY_RANGE,
     Damper,
     Oscillator,
     check_count,
@@ -144,15 +145,14 @@ def complete_branches(oscillator, damper, frequencies, motions):
         without contacts belong to the free oscillator and are left out where there is a damper.
     """
 
-    frequencies = check_span("frequencies", frequencies)
+    frequencies = check_span("frequencies", frequencies, **FREQUENCY_RANGE)
     if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
         raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
 
     def family(value):
         return pack(oscillator, damper, value)
 
-    for bound in frequencies:
-        family(bound)
+    family(frequencies[0])
     branches, seeds, lost = [], 0, 0
     for period, frequency, _, state in sorted(_seeds(motions, damper), key=lambda s: s[:3]):
         seeds += 1
@@ -202,8 +202,11 @@ def family_of(oscillator, damper, frequency, parameter, span):
     if not least <= value <= most:
         raise ValueError(f"span = {shown(span)}: must hold {parameter} = {value:g}")
     pack_at = _pack_by(oscillator, damper, frequency, parameter)
-    for bound in (least, most):
-        pack_at(bound)
+    try:
+        for bound in (least, most):
+            pack_at(bound)
+    except ValueError as error:
+        raise ValueError(f"span = {shown(span)}: {error}") from None
     if parameter in LINEAR:
         return pack_at, value, (least, most)
     return (lambda x: pack_at(np.exp(x))), np.log(value), (np.log(least), np.log(most))
