@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from broken import SMALL
 
 from impact_damper.configuration import (
     ConfigurationError,
@@ -28,9 +29,9 @@ def problems(config):
     return str(caught.value).splitlines()
 
 
-def changed(path, value):
-    """The paper's configuration with one value set."""
-    config = copy.deepcopy(PAPER)
+def changed(path, value, config=PAPER):
+    """The paper's configuration, or another one, with one value set."""
+    config = copy.deepcopy(config)
     *parents, key = path.split("/")
     place = config
     for name in parents:
@@ -48,7 +49,7 @@ def every_leaf(config, path=()):
 
 
 # One of each kind: entries of a section have the same keys.
-LEAVES = {(path[0], path[-1]): "/".join(path) for path in every_leaf(PAPER)}.values()
+LEAVES = {(path[0], path[-1]): "/".join(path) for path in every_leaf(SMALL)}.values()
 
 
 def test_the_paper_is_accepted():
@@ -75,13 +76,13 @@ def test_valid_extremes_are_accepted(path, value):
 @pytest.mark.parametrize("path", LEAVES)
 @pytest.mark.parametrize("value", [math.nan, -math.inf, None, {}, [[]], True])
 def test_no_leaf_takes_a_value_of_another_kind(path, value):
-    lines = problems(changed(path, value))
+    lines = problems(changed(path, value, SMALL))
     assert all(line.startswith(path.replace("/", ".")) for line in lines)
 
 
 @pytest.mark.parametrize("path", LEAVES)
 def test_every_leaf_is_needed(path):
-    config = copy.deepcopy(PAPER)
+    config = copy.deepcopy(SMALL)
     *parents, key = path.split("/")
     place = config
     for name in parents:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from impact_damper.parameters import check_damper, check_frequency
+from impact_damper.parameters import check_damper, check_frequency, plain
 from impact_damper.roots import polynomial_roots, smooth_roots
 
 
@@ -309,6 +309,6 @@ def check_elastic(damper):
     check_damper(damper)
     if damper.restitution != 1:
         raise ValueError(
-            f"restitution = {damper.restitution:g}: must be 1, "
+            f"restitution = {plain(damper.restitution)}: must be 1, "
             "the harmonic balance of section 2 is for elastic contact"
         )

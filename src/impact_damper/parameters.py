@@ -29,6 +29,12 @@ def shown(value) -> str:
     return " ".join(reprlib.repr(value).split())
 
 
+def plain(value) -> str:
+    """A number with six digits, or with all of them if it has more."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(float(value))
+
+
 def check_number(name, value, *, above=None, least=None, most=None, why=""):
     """Return `value` as a float, or raise an error that names what is allowed.
 
@@ -55,7 +61,7 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
     if not math.isfinite(value) or not holds:
         reason = f" ({why})" if why else ""
         raise ValueError(
-            f"{name} = {value:g}: must be {' and '.join(['finite', *allowed])}{reason}"
+            f"{name} = {plain(value)}: must be {' and '.join(['finite', *allowed])}{reason}"
         )
     return value
 
