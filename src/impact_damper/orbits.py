@@ -15,8 +15,6 @@ CONVERGED = 1e-9
 POLISH_TOLERANCE = 1e-12
 # A step of following that moves an orbit further may have jumped to another one.
 REACH = 0.03
-# Steps of following after which it is given up: where none but tiny ones succeed it has no end.
-MOST_STEPS = 1000
 SAME_STATE = 1e-4
 
 
@@ -174,17 +172,15 @@ def repeats_sooner(p, y, periods, tolerance):
 def follow(p, y, periods, index, target, resolution, tolerance):
     """Follow a stable orbit while parameter `index` moves to a target, as far as it goes.
 
-    Steps are halved until the next one that fails is shorter than the resolution, or MOST_STEPS
-    are done. Both p and y are left at the last orbit. Returns the dominant multiplier there.
+    Steps are halved until the next one that fails is shorter than the resolution. Both p
+    and y are left at the last orbit. Returns the dominant multiplier there.
     """
     before = y.copy()
     last_step = 0.0
     step_now = target - p[index]
     _, _, multiplier = polish(p, y, periods, 1e-3, tolerance)
     trial = p.copy()
-    for _ in range(MOST_STEPS):
-        if p[index] == target:
-            break
+    while p[index] != target:
         left = target - p[index]
         if abs(step_now) > abs(left):
             step_now = left
