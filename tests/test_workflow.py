@@ -7,24 +7,6 @@ from running import ROOT, snakemake
 
 from impact_damper.contradictions import SECTIONS
 
-ROOT = Path(__file__).parents[1]
-PARTS = ["Snakefile", "config", "profiles", "workflow", "src"]
-# An output begins as a NetCDF file does, for the check of results.
-STUB = r"""
-from pathlib import Path
-for path in snakemake.output:
-    Path(path).write_bytes(b"\x89HDF\r\n\x1a\n")
-raise SystemExit
-"""
-
-
-def snakemake(project, *arguments, **options):
-    """Run Snakemake on a project with the project's own package."""
-    environment = os.environ | {"PYTHONPATH": str(project / "src")}
-    command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
-    options = {"cwd": project, "env": environment, "capture_output": True, "text": True} | options
-    return subprocess.run(command, check=False, **options)
-
 
 def jobs(result):
     """Number of jobs by rule, from the table that Snakemake prints first."""
@@ -63,9 +45,36 @@ def test_a_broken_configuration_is_told_in_one_line_each(tmp_path):
     assert result.returncode == 1
     assert "Traceback" not in told
     assert re.search(
-        r"^ *curves\.figure_05a\.mass_ratio = -1: must be .*greater than 0", told, re.M
+        r"^ *curves\.figure_05a\.mass_ratio = -1: must be .*at least 1e-06", told, re.M
     )
     assert re.search(r"^ *sed = 3: unknown key; known: ", told, re.M)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "line"),
+    [
+        ("mine.yaml", "seed: .nan", r"seed = nan: must be a whole number"),
+        ("mine.yaml", "contact_stiffness: 1e3", r"contact_stiffness = '1e3': must be a finite num"),
+        (
+            "mine.yaml",
+            "points: {free: 1000000000}",
+            r"points\.free = 1000000000: must be .*at most",
+        ),
+        ("mine.yaml", "points: {free: 100000}", r"points\.free = 100000: with search\.starts"),
+        ("mine.yaml", "curves: 5", r"curves = 5: must be keys with values"),
+        ("mine.yaml", "search: {starts: []}", r"search\.starts = \[\]: must be a whole number"),
+        ("mine.yaml", '"se\\ned": 3', r"'se\\ned' = 3: unknown key; known: balance_map"),
+        ("mine.json", '{"seed": Infinity}', r"seed = inf: must be a whole number"),
+    ],
+)
+def test_a_broken_configuration_starts_no_job(name, text, line, tmp_path):
+    mine = tmp_path / name
+    mine.write_text(text)
+    result = snakemake(ROOT, "--configfile", mine, "--directory", tmp_path / "elsewhere")
+    told = result.stderr + result.stdout
+    assert result.returncode == 1 and "Traceback" not in told
+    assert re.search(rf"^ *{line}", told, re.M), told
+    assert not (tmp_path / "elsewhere/results").exists()
 
 
 def test_a_key_that_stands_twice_is_told(tmp_path):

@@ -8,14 +8,13 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-import yaml
 from snakemake.exceptions import WorkflowError
 
 from impact_damper.configuration import (
-    LOADER,
     ConfigurationError,
     check_configuration,
-    check_unique_keys,
+    check_file,
+    read_schemas,
     without_left_out,
 )
 from impact_damper.contradictions import SECTIONS
@@ -46,11 +45,11 @@ wildcard_constraints:
 def checked(config):
     """The configuration with its keys in order, or an error that lists what is wrong with it."""
     config = without_left_out(config)
-    schema = yaml.load((ROOT / "workflow/schemas/config.schema.yaml").read_text(), LOADER)
+    schemas = read_schemas(ROOT / "workflow/schemas")
     try:
         for path in workflow.configfiles:
-            check_unique_keys(Path(path).read_text(), Path(path).name)
-        check_configuration(config, schema)
+            check_file(path)
+        check_configuration(config, schemas)
     except ConfigurationError as error:
         raise WorkflowError(f"The configuration cannot be run.\n{error}") from None
     # Snakemake compares parameters as text, in which the order of keys would count.
