@@ -121,7 +121,7 @@ def test_every_script_serves_the_paper_and_the_smoke_run(arguments, tmp_path):
 def test_each_stage_is_a_target():
     stages = "design free response branches optimum subharmonic migration release_scan".split()
     stages += "design_rules harmonics balance_map contact_model rigid_limit".split()
-    stages += "missed_contacts stable_steps verdicts accuracy".split()
+    stages += "missed_contacts stable_steps verdicts accuracy studies".split()
     found = jobs(snakemake(ROOT, *stages, "figures", "tables", "-n", "--forceall"))
     assert {*stages, "figures", "tables"} < found.keys()
 
@@ -239,6 +239,22 @@ def test_a_release_scan_reruns_itself_and_its_tables(edit):
         "Where releases lead over frequency, the scan close",
         "Table of releases",
         "Table of claims",
+    }
+
+
+def test_a_lost_chunk_costs_itself(finished):
+    chunk = finished / "results/study_chunks/design_plane/2-of-4.nc"
+    study = finished / "results/studies/design_plane.nc"
+    chunk.unlink()
+    gathered = planned(snakemake(finished, "-n"))
+    study.unlink()
+    plan = planned(snakemake(finished, "-n"))
+    chunk.touch()
+    study.touch()
+    assert gathered == set()
+    assert plan == {
+        "Chunk 2-of-4 of the study design_plane",
+        "Gathering the study design_plane",
     }
 
 

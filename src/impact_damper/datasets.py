@@ -2,6 +2,7 @@
 
 import json
 import os
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -90,18 +91,30 @@ def parameters_of(data) -> dict:
 
 def save(data, path) -> None:
     """Write a dataset to NetCDF; the file appears only when it is whole."""
+    with whole(path) as part:
+        write(data, part)
+
+
+@contextmanager
+def whole(path):
+    """Name under which to write a file, which takes the name `path` when all went well."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
+    try:
+        yield part
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def write(data, path) -> None:
+    """Write a dataset to a NetCDF file of this very name."""
     encoding = {name: {"_FillValue": None} for name in data.coords}
     encoding |= {
         name: {"_FillValue": None} for name in data.data_vars if data[name].dtype.kind in "iub"
     }
-    try:
-        data.to_netcdf(part, engine="netcdf4", encoding=encoding)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    data.to_netcdf(path, engine="netcdf4", encoding=encoding)
 
 
 def load(path) -> xr.Dataset:

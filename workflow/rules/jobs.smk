@@ -24,6 +24,7 @@ STAGES = {
     "verdicts": "verdicts",
     "balance_map": "balance_map",
     "accuracy": "scenes",
+    "studies": "studies",
 }
 
 # Stages whose data a table holds.

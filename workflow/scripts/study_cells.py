@@ -1,0 +1,24 @@
+"""A chunk of a study over mass ratio, clearance, frequency and restitution."""
+
+import sys
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.parameters import Oscillator
+from impact_damper.studies import study_chunk
+
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job = snakemake.params.job
+chunk = study_chunk(
+    Oscillator(**job["oscillator"]),
+    {name: np.linspace(*ends) for name, ends in job["axes"].items()},
+    job["cells"],
+    contact_stiffness=job["contact_stiffness"],
+    **job["search"],
+    settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.study,
+)
+save(chunk, snakemake.output[0])
