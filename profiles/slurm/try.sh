@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The smoke run on a Slurm of one node, against a local run: the same bytes, or it fails.
-#   profiles/slurm/try.sh [COMMAND THAT STARTS SNAKEMAKE]
+#   make slurm, or profiles/slurm/try.sh [PATH OF SNAKEMAKE]
 # Slurm is set up for this alone, in namespaces of its own (processes, network, mounts), and goes
 # with them: nothing outside is changed, and no other Slurm is touched.
 set -euo pipefail
@@ -77,7 +77,7 @@ sinfo
     stop "the node does not come up: $(grep -h -E 'error|fatal' "$SLURM_TRIAL"/*.log | tail -n 5)"
 
 run() {
-    $snakemake --directory "$SLURM_TRIAL/$1" --configfile config/smoke.yaml "${@:2}"
+    "$snakemake" --directory "$SLURM_TRIAL/$1" --configfile config/smoke.yaml "${@:2}"
 }
 run local --cores "$(nproc)"
 run slurm --profile profiles/slurm
