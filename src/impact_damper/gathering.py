@@ -42,15 +42,21 @@ def gather_chunks(paths, path) -> None:
             for each in paths:
                 chunk = load(each)
                 _check_next(chunk, each, done, head)
-                for cells, block in blocks(done, done + chunk.sizes["cell"], shape):
-                    for name in chunk.data_vars:
-                        values = chunk[name].values[cells.start - done : cells.stop - done]
-                        lengths = [index.stop - index.start for index in block]
-                        file[name][block] = values.reshape(*lengths, *values.shape[1:])
-                done += chunk.sizes["cell"]
+                done += _place(file, chunk, done, shape)
             if done != math.prod(shape):
                 raise ValueError(f"{paths[-1]}: ends at cell {done} of {math.prod(shape)}")
             _write_clearances(file, axes)
+
+
+def _place(file, chunk, first, shape):
+    """Write a chunk to its cells, from the number `first` on; returns how many there are."""
+    count = chunk.sizes["cell"]
+    for cells, block in blocks(first, first + count, shape):
+        lengths = [index.stop - index.start for index in block]
+        for name in chunk.data_vars:
+            values = chunk[name].values[cells.start - first : cells.stop - first]
+            file[name][block] = values.reshape(*lengths, *values.shape[1:])
+    return count
 
 
 def _define(file, name, dims, dtype):
