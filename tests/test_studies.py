@@ -180,6 +180,10 @@ def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator()
         ({"cells": (3, 3)}, r"cells\[1\] = 3: must be from 4 to 8"),
         ({"cells": (-1, 3)}, r"cells\[0\] = -1: must be from 0 to 7"),
         ({"starts": 0}, "starts = 0"),
+        # told by the first chunk, though the last cell alone has it
+        ({"axes": AXES | {"mass_ratio": [1, 20]}}, "mass_ratio = 20: must be .*at most 10"),
+        ({"axes": AXES | {"clearance": [1e-3, 1]}}, "radius = 2: must be .*at most 1"),
+        ({"oscillator": None}, "oscillator = None: must be an Oscillator"),
     ],
 )
 def test_bad_arguments_are_named(change, told):

@@ -16,7 +16,14 @@ from impact_damper.parameters import Damper, check_count, check_increasing, desc
 from impact_damper.quiet_orbit import is_symmetric_pair
 from impact_damper.variables.studies import AXES, OUTCOMES
 
-COUNTED = [flag("outcome", name) for name in OUTCOMES]
+CELL = np.dtype(
+    [
+        ("outcome_count", "i4", len(OUTCOMES)),
+        ("quiet_count", "i4"),
+        ("largest_displacement", "f8"),
+        ("quiet_displacement", "f8"),
+    ]
+)
 
 
 def study_chunk(
@@ -64,35 +71,28 @@ def study_chunk(
     shape = [len(values) for values in axes.values()]
     first = check_count("cells[0]", cells[0], least=0, most=math.prod(shape) - 1)
     last = check_count("cells[1]", cells[1], least=first + 1, most=math.prod(shape))
-    counts = np.empty((last - first, len(OUTCOMES)), np.int32)
-    quiet_counts = np.empty(last - first, np.int32)
-    largest, quiet_size = np.empty((2, last - first))
+
+    def system(place):
+        values = {name: axis[i] for (name, axis), i in zip(axes.items(), place, strict=True)}
+        frequency = values.pop("frequency")
+        damper = Damper(contact_stiffness=contact_stiffness, **values)
+        return pack(oscillator, damper, frequency), damper
+
+    # what is out of range is so at an end: it is to be told before hours of work
+    for end in (0, -1):
+        _, damper = system([end] * len(AXES))
+        random_states(0, radius, damper, seed)
+    found = np.empty(last - first, CELL)
 
     def work(part):
         for k in range(part.start, part.stop):
-            place = np.unravel_index(first + k, shape)
-            values = {name: axis[i] for (name, axis), i in zip(axes.items(), place, strict=True)}
-            frequency = values.pop("frequency")
-            damper = Damper(contact_stiffness=contact_stiffness, **values)
-            runs = ensemble.settle(
-                np.tile(pack(oscillator, damper, frequency), (starts, 1)),
-                random_states(starts, radius, damper, [seed, first + k]),
-                settling,
-            )
-            diverged = runs["outcome"] == flag("outcome", "diverged")
-            sizes = np.where(diverged, np.inf, runs["maximum_displacement"])
-            quiet = is_settled(runs) & is_symmetric_pair(runs)
-            counts[k] = [np.sum(runs["outcome"] == value) for value in COUNTED]
-            quiet_counts[k] = np.sum(quiet)
-            largest[k] = np.max(sizes)
-            quiet_size[k] = np.min(sizes[quiet], initial=np.inf) if quiet.any() else np.nan
+            p, damper = system(np.unravel_index(first + k, shape))
+            states = random_states(starts, radius, damper, [seed, first + k])
+            found[k] = _condensed(ensemble.settle(np.tile(p, (starts, 1)), states, settling))
 
     ensemble.run_chunks(work, last - first, workers, progress, size=1)
     data = {
-        "outcome_count": counts,
-        "quiet_count": quiet_counts,
-        "largest_displacement": (("cell",), largest),
-        "quiet_displacement": (("cell",), quiet_size),
+        name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names
     }
     made = describe(oscillator, settling) | {
         "contact_stiffness": contact_stiffness,
@@ -102,6 +102,19 @@ def study_chunk(
     }
     coordinates = axes | {"cell": np.arange(first, last), "counted_outcome": list(OUTCOMES)}
     return dataset(data, coordinates, made, "What random starts come to over a grid")
+
+
+def _condensed(runs):
+    """What a study keeps of the runs in a cell, as a row of `CELL`."""
+    diverged = runs["outcome"] == flag("outcome", "diverged")
+    sizes = np.where(diverged, np.inf, runs["maximum_displacement"])
+    quiet = is_settled(runs) & is_symmetric_pair(runs)
+    return (
+        [np.sum(runs["outcome"] == flag("outcome", name)) for name in OUTCOMES],
+        np.sum(quiet),
+        np.max(sizes),
+        np.min(sizes[quiet]) if quiet.any() else np.nan,
+    )
 
 
 def _checked(axes):
