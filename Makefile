@@ -7,13 +7,17 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: reproduce smoke test same-bytes benchmark faults lint format lock clean
+.PHONY: reproduce smoke slurm test same-bytes benchmark faults lint format lock clean
 
 reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
 
 smoke: $(READY)
 	$(BIN)/snakemake --cores $(CORES) --configfile config/smoke.yaml
+
+# The smoke run on a Slurm that is set up for it alone; needs root and Slurm's packages.
+slurm: $(READY)
+	profiles/slurm/try.sh $(abspath $(BIN))/snakemake
 
 test: $(READY)
 	$(BIN)/python -m pytest

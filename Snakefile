@@ -42,6 +42,7 @@ include: "workflow/rules/stable_steps.smk"
 include: "workflow/rules/verdicts.smk"
 include: "workflow/rules/balance_map.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/studies.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
@@ -70,6 +71,7 @@ rule all:
         rules.verdicts.input,
         rules.balance_map.input,
         rules.accuracy.input,
+        rules.studies.input,
         rules.figures.input,
         rules.tables.input,
     message:

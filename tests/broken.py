@@ -10,11 +10,21 @@ from hypothesis import strategies as st
 from snakemake.utils import update_config
 
 from impact_damper.configuration import without_left_out
+from impact_damper.variables.studies import AXES as STUDY_AXES
 
 ROOT = Path(__file__).parents[1]
 GONE = object()
 # Keys of whole numbers, beside those of whole sections.
-WHOLE = {"starts", "sweep_starts", "scan_starts", "longest_hold", "lifetime", "highest"}
+WHOLE = {
+    "starts",
+    "sweep_starts",
+    "scan_starts",
+    "study_starts",
+    "chunks",
+    "longest_hold",
+    "lifetime",
+    "highest",
+}
 WHOLE |= {"highest_cold", "periods", "passages", "implicit_passages", "points", "most_steps"}
 WHOLE |= {"period", "scipy_every"}
 ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "scipy_every", "within"}
@@ -89,6 +99,8 @@ def at(path):
 MAPPINGS = [path for path, value in places(SMALL) if isinstance(value, dict)]
 FIXED = [path for path in MAPPINGS if not is_named(path)]
 NAMED = [path for path in MAPPINGS if is_named(path)]
+# Where a number or a range may stand.
+AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXES]
 LEAVES = [path for path, value in places(SMALL) if not isinstance(value, (dict, list))]
 NUMBERS = [path for path, value in places(SMALL) if is_number(value)]
 TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]
@@ -144,8 +156,8 @@ def missing_key(draw):
 def wrong_kind(draw):
     path = draw(st.sampled_from(LEAVES + LISTS))
     value = at(path)
-    others = [st.none(), st.booleans(), st.dictionaries(junk_text, junk, max_size=2), st.dates()]
-    others += [st.just([value]), st.binary(max_size=3)]
+    others = [st.none(), st.booleans(), st.dates(), st.just([value]), st.binary(max_size=3)]
+    others += [] if path in AXES else [st.dictionaries(junk_text, junk, max_size=2)]
     if isinstance(value, str):
         others += [st.integers(), st.floats()]
     elif isinstance(value, list):

@@ -1,7 +1,8 @@
 """What depends on what, written down from the paper's stages and not taken from the workflow.
 
 A job has the name of what it makes, as `free/h215`. `{0}` is what the first star of a key stands
-for; a star in a job's name is every entry; what is not there is left out.
+for; a star in a job's name is every entry; what is not there is left out. A study is made from
+chunks, as `study_chunks/plane/1-of-4`.
 """
 
 # Stages that an entry of a section goes through.
@@ -22,14 +23,15 @@ STAGES = {
     "stable_steps": ["stable_steps"],
     "verdicts": ["verdicts"],
     "scenes": ["accuracy"],
+    "studies": ["study_chunks", "studies"],
 }
 
 # Stages that run motions until they settle.
 SETTLING = (
     "free/* response/* subharmonic/* motion/* optimum/* design_orbit/* migration/* release_scan/* "
-    "contact_model/* rigid_limit/* balance_map/*"
+    "contact_model/* rigid_limit/* balance_map/* study_chunks/*"
 )
-SEARCHING = "free/* response/* subharmonic/* optimum/* design_orbit/* release_scan/*"
+SEARCHING = "free/* response/* subharmonic/* optimum/* design_orbit/* release_scan/* study_chunks/*"
 
 # Jobs that read a value, where that is not every stage of the entry in which it stands.
 READERS = {
@@ -43,6 +45,8 @@ READERS = {
     "search.starts": "free/* response/* subharmonic/*",
     "search.sweep_starts": "optimum/* design_orbit/*",
     "search.scan_starts": "release_scan/* contact_model/* rigid_limit/*",
+    "search.study_starts": "study_chunks/*",
+    "chunks": "study_chunks/*",
     "search.radius": f"{SEARCHING} collisions/*",
     "settling.*": SETTLING,
     "controller.*": "migration/*",
@@ -118,6 +122,8 @@ SCRIPTS = {
     "method_verdicts": "verdicts/*",
     "harmonic_balance_map": "balance_map/*",
     "scene_accuracy": "accuracy/*",
+    "study_cells": "study_chunks/*",
+    "study_grid": "studies/*",
     "captions": "captions",
     "claims": "tables/claims",
     "table": "tables/*",

@@ -54,14 +54,24 @@ class Flow:
     def _computed(self):
         for section, stages in STAGES.items():
             for name, entry in self.config[section].items():
-                yield from (f"{stage}/{name}" for stage in entry.get("stages", stages))
+                for stage in entry.get("stages", stages):
+                    yield from self._parts(stage, name)
+
+    def _parts(self, stage, name):
+        """Jobs of an entry: one, or as many as there are chunks."""
+        if stage != "study_chunks":
+            return [f"{stage}/{name}"]
+        count = self.config["chunks"]
+        return [f"{stage}/{name}/{k}-of-{count}" for k in range(1, count + 1)]
 
     def _computed_from(self, job):
-        stage, name = job.split("/")
+        stage, _, name = job.partition("/")
         if stage == "free_branches":
             return {f"free/{name}"}
         if stage == "branches":
             return set(self.like(f"response/{name}", f"subharmonic/{name}"))
+        if stage == "studies":
+            return set(self._parts("study_chunks", name))
         return set()
 
     def _pictured(self, figure):
@@ -181,7 +191,7 @@ class Flow:
             yield from self._with_oscillator(*inner[:2])
 
     def _stages(self, section, name):
-        return self.like(*(f"{stage}/{name}" for stage in STAGES[section]))
+        return self.like(*(job for stage in STAGES[section] for job in self._parts(stage, name)))
 
     def _with_oscillator(self, oscillator, key):
         for section in STAGES:

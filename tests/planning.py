@@ -56,10 +56,18 @@ class Planner:
 
     def _jobs(self, config):
         paths = [path for stage in self.known["STAGES"] for path in self.known["data"](stage)]
+        paths += [path for name in config["studies"] for path in self._chunks(name)]
         paths += [f"<results>/figures/{name}.png" for name in config["figures"]]
         paths += [f"<results>/tables/{name}.csv" for name in self.known["TABLES"]]
         jobs = {name_of(path): self._job(*self._rule_of(self._kind(path), path)) for path in paths}
         return jobs | {"captions": self._job(self._rule("captions"), Wildcards())}
+
+    def _chunks(self, study):
+        """Files that a study is gathered from."""
+        rule = self._rule("study_grid")
+        wildcards = Wildcards(fromdict={"study": study})
+        found = {path for item in rule.input for path in _files(item, wildcards)}
+        return sorted(path for path in found if "/study_chunks/" in path)
 
     def _rule(self, name):
         return self.workflow.get_rule(name)
@@ -107,7 +115,7 @@ def _files(item, wildcards):
 def name_of(path):
     """Name of the job that makes a file of the results."""
     path = Path(path)
-    return "captions" if path.suffix == ".rst" else f"{path.parent.name}/{path.stem}"
+    return "captions" if path.suffix == ".rst" else "/".join(path.with_suffix("").parts[1:])
 
 
 def reruns(before, after, edited=frozenset()) -> set:

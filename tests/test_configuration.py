@@ -17,6 +17,7 @@ from impact_damper.configuration import (
 )
 from impact_damper.contradictions import SCHEMATICS
 from impact_damper.figures import schematics
+from impact_damper.variables.studies import AXES
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = read_schemas(ROOT / "workflow/schemas")
@@ -103,7 +104,7 @@ def test_unknown_keys_are_rejected(section):
 @pytest.mark.parametrize(
     ("path", "value", "allowed"),
     [
-        ("tolerance", 1.0e-9, "unknown key; known: balance_map, collisions, comparison"),
+        ("tolerance", 1.0e-9, "unknown key; known: balance_map, chunks, collisions"),
         ("seed", 0.5, "a whole number, at least 0"),
         ("contact_stiffness", 0, "at least 1e-06"),
         ("contact_stiffness", "2000", "a finite number"),
@@ -149,6 +150,22 @@ def test_unknown_keys_are_rejected(section):
         ("curves", {}, "with 1 or more entries"),
         ("figures/figure_05a/data", ["figure_5a"], "one of figure_03a"),
         ("balance_map/over_clearance/parameter", "frequency", "one of damping, mass_ratio"),
+        ("studies/design_plane/mass_ratio/first", 0.7, "less than last = 0.5"),
+        ("studies/design_plane/clearance/points", 10**9, "at most 100000"),
+        ("studies/design_plane/clearance", 2, "must be a range (an axis of the map of figures"),
+        ("studies/design_plane/restitution", 0.01, "at least 0.05"),
+        (
+            "studies/design_plane",
+            PAPER["studies"]["design_plane"]
+            | {key: {"first": 0.5, "last": 1, "points": 10**3} for key in AXES},
+            "studies.design_plane: cells = 1000000000000: must be at most 100000000",
+        ),
+        (
+            "studies/design_plane/frequency",
+            {"first": 1, "last": 2, "points": 10**5},
+            "points = 100000: must be at most 3 (panels of figures.design_plane",
+        ),
+        ("chunks", 1000, "must be at most 943 (the cells of studies.design_plane)"),
         ("balance_map/over_clearance/clearance", 2, "left out (it changes from row to row)"),
         ("balance_map/over_clearance/values", {"first": 2, "last": 1}, "less than last = 1"),
         ("balance_map/over_restitution/values/last", 1.5, "must be from 0.05 to 1"),

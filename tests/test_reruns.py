@@ -162,7 +162,7 @@ def edit(project):
 
 def test_rules_say_what_snakemake_notes(project, jobs):
     noted = list(recorded(project))
-    assert {name for name, *_ in noted} - {"results/kernels", "results/rival_kernels"} == set(jobs)
+    assert {name for name, *_ in noted} - {"kernels", "rival_kernels"} == set(jobs)
     for name, params, inputs in noted:
         if name in jobs:
             assert (params, inputs) == jobs[name][:2], name
@@ -172,7 +172,7 @@ def test_each_value_reruns_what_depends_on_it(planner, jobs, flow, config):
     wrong = {}
     for path in leaves(config):
         edited = changed(config, path)
-        if edited is None or path == ("results",):
+        if edited is None or path in (("results",), ("chunks",)):
             continue
         found, expected = reruns(jobs, planner.jobs(edited)), flow.of(path)
         if found != expected:
@@ -206,7 +206,7 @@ VALUES = [
 @pytest.mark.parametrize("path", VALUES, ids=lambda path: ".".join(map(str, path)))
 def test_snakemake_reruns_what_depends_on_a_value(path, project, edit, flow, config):
     edit("config/config.yaml", yaml.safe_dump(changed(config, path), sort_keys=False))
-    everything = {"results-again/kernels", "results-again/rival_kernels"} | flow.of(path)
+    everything = {"kernels", "rival_kernels"} | flow.of(path)
     assert to_do(project) == (everything if path == ("results",) else flow.of(path))
 
 
@@ -223,6 +223,29 @@ FILES = [
 def test_snakemake_reruns_what_depends_on_a_file(path, project, edit, flow):
     edit(path, (project / path).read_text() + "\n")
     assert to_do(project) == flow.of_file(project, path)
+
+
+def test_another_number_of_chunks_computes_studies_anew(project, edit, config):
+    edited = changed(config, ("chunks",))
+    edit("config/config.yaml", yaml.safe_dump(edited))
+    assert to_do(project) == Flow(project, edited).of(("chunks",))
+
+
+def test_a_lost_chunk_costs_itself(project, flow):
+    chunk = project / "results/study_chunks/design_plane/2-of-4.nc"
+    study = project / "results/studies/design_plane.nc"
+    kept = {path: path.read_bytes() for path in (chunk, study)}
+    chunk.unlink()
+    gathered = snakemake(project, "-n", "studies")
+    study.unlink()
+    plan = snakemake(project, "-n", "studies")
+    for path, content in kept.items():
+        path.write_bytes(content)
+    assert "Nothing to be done" in gathered.stdout + gathered.stderr
+    assert re.findall(r"^Job \d+: (.*)$", plan.stdout, re.M) == [
+        "Chunk 2-of-4 of the study design_plane",
+        "Gathering the study design_plane",
+    ]
 
 
 def test_a_figure_style_computes_nothing(flow):

@@ -32,7 +32,7 @@ def test_every_script_serves_the_paper_and_the_smoke_run(arguments, tmp_path):
 def test_each_stage_is_a_target():
     stages = "design free response branches optimum subharmonic migration release_scan".split()
     stages += "design_rules harmonics balance_map contact_model rigid_limit".split()
-    stages += "missed_contacts stable_steps verdicts accuracy".split()
+    stages += "missed_contacts stable_steps verdicts accuracy studies".split()
     found = jobs(snakemake(ROOT, *stages, "figures", "tables", "-n", "--forceall"))
     assert {*stages, "figures", "tables"} < found.keys()
 

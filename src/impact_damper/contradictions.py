@@ -1,7 +1,10 @@
 """Problems between values of the configuration that are each allowed by themselves."""
 
 import itertools
+import math
 import reprlib
+
+from impact_damper.variables.studies import AXES
 
 # Section in which a figure's data are found, by the figure's kind.
 SECTIONS = {
@@ -22,6 +25,7 @@ SECTIONS = {
     "verdicts": "verdicts",
     "balance_map": "balance_map",
     "accuracy": "scenes",
+    "studies": "studies",
 }
 
 # What a figure of the kind `schematic` may name instead.
@@ -43,6 +47,7 @@ WITH_OSCILLATOR = (
     "stable_steps",
     "verdicts",
     "scenes",
+    "studies",
 )
 
 # Ranges of the entries of a section, that ascend.
@@ -63,6 +68,7 @@ MOST_DRAWN = {
     "missed_contacts": 1,
     "verdicts": 1,
     "harmonics": 5,
+    "studies": 1,
 }
 
 # What may change over a map, and its bounds.
@@ -114,6 +120,8 @@ def contradictions(config):
     for name, entry in config["verdicts"].items():
         yield from _close_steps(["verdicts", name, "steps"], entry)
         yield from _wrong_verdicts(["verdicts", name], entry)
+    for name, study in config["studies"].items():
+        yield from _wrong_study(["studies", name], study, config["chunks"])
     for name, entry in config["balance_map"].items():
         yield from _wrong_map(["balance_map", name], entry)
     for name, curve in config["curves"].items():
@@ -214,6 +222,26 @@ def _wrong_scene(path, scene, batch):
         yield problem([*path, "accuracy", "quantity"], quantity, reason)
 
 
+def _wrong_study(path, study, chunks):
+    for key in AXES:
+        if isinstance(study[key], dict):
+            yield from _reversed([*path, key], study[key])
+    cells = cells_of(study)
+    if cells < chunks:
+        reason = f"must be at most {cells} (the cells of {dotted(path)})"
+        yield problem(["chunks"], chunks, reason)
+
+
+def cells_of(study):
+    """Combinations of the points of a study's axes."""
+    return math.prod(_points(study[key]) for key in AXES)
+
+
+def _points(axis):
+    """Points of an axis, which is a number or a range."""
+    return axis["points"] if isinstance(axis, dict) else 1
+
+
 def _wrong_map(path, entry):
     yield from _reversed([*path, "frequency_ratios"], entry["frequency_ratios"])
     yield from _reversed([*path, "values"], entry["values"])
@@ -247,6 +275,19 @@ def _wrong_data(path, figure, config):
         ):
             reason = f"must hold {kind} (what {'.'.join(path[:2])} draws)"
             yield problem(["curves", name, "stages"], known[name]["stages"], reason)
+        elif kind == "studies" and name in known:
+            yield from _not_drawable(["studies", name], known[name], path)
+
+
+def _not_drawable(path, study, figure):
+    for key in ("mass_ratio", "clearance"):
+        if not isinstance(study[key], dict):
+            reason = f"must be a range (an axis of the map of {'.'.join(figure[:2])})"
+            yield problem([*path, key], study[key], reason)
+    for key in ("frequency", "restitution"):
+        if _points(study[key]) > 3:
+            reason = f"must be at most 3 (panels of {'.'.join(figure[:2])} side by side)"
+            yield problem([*path, key, "points"], study[key]["points"], reason)
 
 
 def problem(path, value, reason):

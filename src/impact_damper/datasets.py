@@ -8,9 +8,12 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.variables import VARIABLES
-from impact_damper.whole_files import DELETE, BrokenFileError, check_length, whole
+from impact_damper.whole_files import DELETE, BrokenFileError, check_length, whole_netcdf
 
 SOURCE = "impact-damper"
+
+# Numbers of an open file that are read at once.
+PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
@@ -96,17 +99,17 @@ def save(data, path) -> None:
 
     It carries its stage and name, and the digest of its arrays, which `load` looks at.
     """
+    with whole_netcdf(path) as part:
+        write(data.assign_attrs(seal(data.variables, path)), part)
+
+
+def write(data, path) -> None:
+    """Write a dataset to a NetCDF file of this very name."""
     encoding = {name: {"_FillValue": None} for name in data.coords}
     encoding |= {
         name: {"_FillValue": None} for name in data.data_vars if data[name].dtype.kind in "iub"
     }
-    data = data.assign_attrs(id=_identity(path), sha256=_digest(data))
-    with whole(path) as part:
-        try:
-            data.to_netcdf(part, engine="netcdf4", encoding=encoding)
-        except RuntimeError as error:  # the NetCDF library's own
-            raise OSError(str(error)) from error
-        check_length(part)
+    data.to_netcdf(path, engine="netcdf4", encoding=encoding)
 
 
 def load(path) -> xr.Dataset:
@@ -126,11 +129,25 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} cannot be read ({error}): {DELETE}.") from error
     if data.attrs.get("source") != SOURCE:
         raise BrokenFileError(f"{path} was not made by this project: {DELETE}.")
-    if data.attrs.get("id") != _identity(path):
+    sealed = seal(data.variables, path)
+    if data.attrs.get("id") != sealed["id"]:
         raise BrokenFileError(f"{path} holds {data.attrs.get('id')}: {DELETE}.")
-    if data.attrs.get("sha256") != _digest(data):
+    if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written: {DELETE}.")
     return data
+
+
+def seal(variables, path) -> dict:
+    """Attributes by which `load` knows a file: its stage and name, and the digest of its arrays.
+
+    Parameters
+    ----------
+    variables : dict of xarray.Variable
+        By name; those of an open file are read piece by piece.
+    path : str or pathlib.Path
+        Name of the file.
+    """
+    return {"id": _identity(path), "sha256": _digest(variables)}
 
 
 def _identity(path):
@@ -139,15 +156,25 @@ def _identity(path):
     return f"{path.parent.name}/{path.stem}"
 
 
-def _digest(data):
+def _digest(variables):
     """Digest of all names and arrays."""
     digest = hashlib.sha256()
-    for name, variable in sorted(data.variables.items()):
-        values = np.asarray(variable)
-        if values.dtype.kind == "f":
-            values = np.where(np.isnan(values), np.nan, values)  # a file keeps no sign of NaN
+    for name, variable in sorted(variables.items()):
+        digest.update(f"{name} {variable.dims} {variable.shape}".encode())
         # Texts, and what is empty, may come back from a file as another type.
-        numbers = values.dtype.kind in "biuf"
-        content = values.tobytes() if numbers else "\0".join(map(str, values.ravel())).encode()
-        digest.update(f"{name} {variable.dims} {variable.shape}".encode() + content)
+        if variable.dtype.kind in "biuf":
+            for piece in _pieces(variable):
+                digest.update(piece.tobytes())
+        else:
+            digest.update("\0".join(map(str, np.asarray(variable).ravel())).encode())
     return digest.hexdigest()
+
+
+def _pieces(variable):
+    """Numbers of a variable, some rows at a time."""
+    count = variable.shape[0] if variable.ndim else 1
+    rows = max(1, PIECE * count // max(variable.size, 1))
+    for first in range(0, count, rows):
+        values = np.asarray(variable[first : first + rows] if variable.ndim else variable)
+        # a file keeps no sign of NaN
+        yield np.where(np.isnan(values), np.nan, values) if values.dtype.kind == "f" else values

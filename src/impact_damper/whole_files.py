@@ -37,11 +37,24 @@ def whole(path):
             left.unlink(missing_ok=True)
         yield part
         os.replace(part, path)
+    except BrokenFileError:
+        raise  # of another file, that was read for this one
     except OSError as error:
         raise OSError(f"{path} cannot be written: {_reason(path.parent, error)}") from error
     finally:
         with suppress(OSError):
             part.unlink()
+
+
+@contextmanager
+def whole_netcdf(path):
+    """`whole` for a NetCDF file, which is looked at before it gets its name."""
+    with whole(path) as part:
+        try:
+            yield part
+        except RuntimeError as error:  # the NetCDF library's own
+            raise OSError(str(error)) from error
+        check_length(part)
 
 
 def _reason(folder, error):

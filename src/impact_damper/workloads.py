@@ -5,10 +5,12 @@ Values that are each allowed can be too much together.
 
 import math
 
-from impact_damper.contradictions import WITH_OSCILLATOR, problem
+from impact_damper.contradictions import WITH_OSCILLATOR, cells_of, dotted, problem
 
 # Results that a job keeps in memory at once.
 MOST_RESULTS = 10**6
+# Cells that a study may have.
+MOST_CELLS = 10**8
 # What they are counted by, in the whole configuration and in the entries of a section.
 COUNTS = (
     ("points.free", "search.starts"),
@@ -41,6 +43,8 @@ def workloads(config):
     for section, keys in ENTRY_COUNTS.items():
         for name, entry in config[section].items():
             yield from _too_many([section, name], entry, keys)
+    for name, study in config["studies"].items():
+        yield from _too_many_cells(["studies", name], cells_of(study), config["chunks"])
     for path, entry, slowest in _dampers(config):
         yield from _too_stiff(path, entry, slowest, config["contact_stiffness"])
     radius = max(config["search"]["radius"], MIGRATION_RADIUS)
@@ -78,11 +82,23 @@ def _too_many(path, place, keys):
         yield problem([*path, *keys[largest].split(".")], counts[largest], reason)
 
 
+def _too_many_cells(path, cells, chunks):
+    if cells > MOST_CELLS:
+        reason = f"must be at most {MOST_CELLS} (combinations of the points of its four axes)"
+        yield f"{dotted(path)}: cells = {cells}: {reason}"
+    elif cells > chunks * MOST_RESULTS:
+        reason = f"must be at least {math.ceil(cells / MOST_RESULTS)} with the {cells} cells of "
+        reason += f"{dotted(path)} (a job keeps its results in memory, {MOST_RESULTS} at most)"
+        yield problem(["chunks"], chunks, reason)
+
+
 def _dampers(config):
     """Entries that have a damper: path, entry and its lowest forcing frequency."""
     for section in WITH_OSCILLATOR:
         for name, entry in config[section].items():
             span = config["oscillators"][entry["oscillator"]]["frequencies"]
+            if section == "studies":
+                entry = {key: _least(value) for key, value in entry.items()}
             if "mass_ratio" in entry or "mass_ratios" in entry:
                 yield [section, name], entry, _lowest(entry, span)
             for inner, scene in entry.get("damped", {}).items():
@@ -97,9 +113,12 @@ def _dampers(config):
 def _lowest(entry, span):
     """Lowest forcing frequency of an entry, or that of its oscillator."""
     given = entry.get("frequencies", entry.get("frequency", span))
-    if isinstance(given, dict):
-        return given["first"]
-    return min(given) if isinstance(given, list) else given
+    return min(given) if isinstance(given, list) else _least(given)
+
+
+def _least(given):
+    """What is given, or the least value of a range."""
+    return given["first"] if isinstance(given, dict) else given
 
 
 def _too_stiff(path, entry, slowest, common):

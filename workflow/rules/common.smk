@@ -2,6 +2,7 @@
 
 import ast
 import json
+import math
 import os
 import re
 from functools import cache
@@ -18,6 +19,7 @@ from impact_damper.configuration import (
     without_left_out,
 )
 from impact_damper.contradictions import SECTIONS
+from impact_damper.variables.studies import AXES
 
 ROOT = Path(workflow.basedir)
 PACKAGE = Path(find_spec("impact_damper").origin).parent
@@ -39,6 +41,7 @@ wildcard_constraints:
     limit="[A-Za-z0-9_]+",
     balance_map="[A-Za-z0-9_]+",
     scene="[A-Za-z0-9_]+",
+    study="[A-Za-z0-9_]+",
     table="[a-z_]+",
 
 

@@ -40,6 +40,7 @@ def caption_of(name, wildcards):
 # What captions say of an entry beside its oscillator and damper.
 SAID = {
     "design_rules": ["restitutions", "contact_stiffnesses", "frequencies"],
+    "studies": ["frequency", "restitution"],
     "balance_map": ["damping", "linear_frequency", "mass_ratio", "clearance", "restitution"],
 }
 
@@ -54,7 +55,8 @@ def said(kind, name):
     found = {key: entry[key] for key in SAID.get(kind, ["frequency"]) if key in entry}
     if "oscillator" in entry:
         found["oscillator"] = oscillator_of(entry["oscillator"])
-        found["damper"] = damper_of(entry) if "mass_ratio" in entry else None
+        if kind != "studies":
+            found["damper"] = damper_of(entry) if "mass_ratio" in entry else None
     if found.get("damper") and kind not in ("harmonics", "contact_model"):
         del found["damper"]["contact_stiffness"]
     return found

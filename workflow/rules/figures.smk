@@ -18,6 +18,7 @@ KINDS = {
     "verdicts": "Where methods fail",
     "balance_map": "Where methods fail",
     "accuracy": "Speed against accuracy",
+    "studies": "Optimum clearance",
 }
 
 

@@ -80,6 +80,28 @@ def balance_map_job(name):
     }
 
 
+def even(axis):
+    """Arguments of `numpy.linspace` for an axis of a study, which is a number or a range."""
+    if isinstance(axis, dict):
+        return [axis["first"], axis["last"], axis["points"]]
+    return [axis, axis, 1]
+
+
+def study_cells_job(name, chunk="1-of-1"):
+    study = config["studies"][name]
+    axes = {key: even(study[key]) for key in AXES}
+    number, chunks = map(int, chunk.split("-of-"))
+    cells = math.prod(points for _, _, points in axes.values())
+    return {
+        "oscillator": oscillator_of(study["oscillator"]),
+        "axes": axes,
+        "cells": [cells * (number - 1) // chunks, cells * number // chunks],
+        "contact_stiffness": config["contact_stiffness"],
+        "search": search("study_starts"),
+        "settling": settling(),
+    }
+
+
 def contact_model_job(name):
     model = config["contact_model"][name]
     return {

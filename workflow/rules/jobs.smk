@@ -27,6 +27,7 @@ STAGES = {
     "verdicts": "verdicts",
     "balance_map": "balance_map",
     "accuracy": "scenes",
+    "studies": "studies",
 }
 
 # Stages whose data a table holds.
@@ -102,8 +103,7 @@ def parts(job, stage):
     """
 
     def part(key, wildcards):
-        (name,) = wildcards
-        return {key: job(name)[key]}
+        return {key: job(*wildcards)[key]}
 
     return {key: partial(part, key) for key in chain(*map(job, names(stage)))}
 
