@@ -7,6 +7,7 @@ import json
 import re
 
 import pytest
+import yaml
 from netCDF4 import Dataset
 from running import ROOT, copy_of_project, snakemake
 
@@ -80,6 +81,20 @@ def test_what_differs_is_not_shared(name, old, new, shared):
         path.write_text(text)
 
 
+def test_an_entry_of_another_name_is_not_shared(shared):
+    """Its file says whose data it holds, and is told to be another's where it is not."""
+    _, second, cache = shared
+    path = second / "config/config.yaml"
+    text = path.read_text()
+    config = yaml.safe_load(text)
+    config["oscillators"]["again"] = config["oscillators"]["h215"]
+    path.write_text(yaml.safe_dump(config))
+    try:
+        assert run(second, cache, "results/free_design/again.nc") == [str(second)]
+    finally:
+        path.write_text(text)
+
+
 def test_without_the_option_nothing_is_shared(shared):
     _, second, _ = shared
     (second / DESIGN).unlink(missing_ok=True)
@@ -94,7 +109,7 @@ def test_scripts_of_shared_data_know_no_names_but_those_in_their_parameters():
     """The cache does not look at wildcards: what they decide would be taken for another entry."""
     rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
     found = re.findall(r"cache: SHARED\n.*?scripts/(\w+\.py)", rules, re.DOTALL)
-    assert len(found) >= 22
+    assert len(found) >= 24
     for script in found:
         lines = (ROOT / "workflow/scripts" / script).read_text().splitlines()
         used = [line for line in lines if "snakemake.wildcards" in line]

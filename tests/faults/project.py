@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 # Not the package: kernels are kept by the place of their sources, and would be compiled again.
-PARTS = ["Snakefile", "config", "profiles", "workflow"]
+PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow"]
 DATA = "results/optimum/h215_rm012.nc"
 TARGETS = [
     DATA,

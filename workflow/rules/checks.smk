@@ -47,7 +47,9 @@ def unwritable(folder):
     )
 
 
-check_results(Path(config["results"]))
+# Not once more in each job.
+if workflow.is_main_process:
+    check_results(Path(config["results"]))
 # What is there can still be looked at; Snakemake's own words for a run that would write come later.
 if unwritable(Path(config["results"])):
     logger.warning(unwritable(Path(config["results"])))

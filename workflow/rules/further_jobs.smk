@@ -164,7 +164,6 @@ def verdicts_job(name):
 def accuracy_job(name):
     scene = config["scenes"][name]
     return {
-        "name": name,
         "oscillator": oscillator_of(scene["oscillator"]),
         "damper": damper_of(scene) if "mass_ratio" in scene else None,
         **{key: scene[key] for key in ("frequency", "state", "periods", "motion", "accuracy")},

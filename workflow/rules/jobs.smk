@@ -99,13 +99,17 @@ def parts(job, stage):
     """Parameters of a stage's jobs, each with its name; `job` gives all of them for an entry.
 
     One by one, so that a dry run tells which of them changed; and with its name in its value, for
-    Snakemake compares the values as a set.
+    Snakemake compares the values as a set. The entry's name is one of them, since a file of data
+    holds it: another entry with the same values shall not take that file from a cache.
     """
+
+    def named(wildcards):
+        return {"name": "/".join(wildcards)}
 
     def part(key, wildcards):
         return {key: job(*wildcards)[key]}
 
-    return {key: partial(part, key) for key in chain(*map(job, names(stage)))}
+    return {"name": named} | {key: partial(part, key) for key in chain(*map(job, names(stage)))}
 
 
 def oscillator_of(name):
