@@ -157,8 +157,20 @@ def test_unknown_keys_are_rejected(section):
         (
             "studies/design_plane",
             PAPER["studies"]["design_plane"]
-            | {key: {"first": 0.5, "last": 1, "points": 10**3} for key in AXES},
-            "studies.design_plane: cells = 1000000000000: must be at most 100000000",
+            | {key: {"first": 0.5, "last": 1, "points": 10**5} for key in AXES[:2]},
+            "studies.design_plane: cells = 10000000000: must be at most 100000000",
+        ),
+        (
+            "studies/design_plane/mass_ratio/points",
+            10**5,
+            "chunks = 4: must be at least 5 with the 4100000 cells of studies.design_plane",
+        ),
+        ("studies/design_plane/clearance/first", 1e-5, "must be at least search.radius/1000"),
+        (
+            "studies/design_plane",
+            PAPER["studies"]["design_plane"]
+            | {"mass_ratio": {"first": 1e-6, "last": 1, "points": 2}, "frequency": 0.01},
+            "studies.design_plane.mass_ratio = 1e-06: with r1 = 2000 and W = 0.01 must be",
         ),
         (
             "studies/design_plane/frequency",

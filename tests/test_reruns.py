@@ -190,9 +190,7 @@ def test_each_source_reruns_what_depends_on_it(jobs, flow):
 
 
 VALUES = [
-    ("seed",),
     ("results",),
-    ("points", "harmonic_balance"),
     ("settling", "scene"),
     ("oscillators", "h107", "frequencies", "last"),
     ("curves", "figure_08", "clearance"),
@@ -215,7 +213,6 @@ FILES = [
     "src/impact_damper/kernel.py",
     "src/impact_damper/figures/style.py",
     "workflow/report/response.rst",
-    "workflow/resources/references.json",
 ]
 
 
