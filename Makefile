@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: reproduce smoke test benchmark lint format lock clean
+.PHONY: reproduce smoke slurm test same-bytes benchmark faults lint format lock clean
 
 reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
@@ -15,12 +15,25 @@ reproduce: $(READY)
 smoke: $(READY)
 	$(BIN)/snakemake --cores $(CORES) --configfile config/smoke.yaml
 
+# The smoke run on a Slurm that is set up for it alone; needs root and Slurm's packages.
+slurm: $(READY)
+	profiles/slurm/try.sh $(abspath $(BIN))/snakemake
+
 test: $(READY)
 	$(BIN)/python -m pytest
+
+# Two runs, on one core and two, are compared; the whole paper with CONFIG= and nothing after it.
+CONFIG ?= config/smoke.yaml
+same-bytes: $(READY)
+	PYTHONPATH=tests $(BIN)/python -m same_bytes $(CONFIG)
 
 # Into results/benchmarks/; the tests hold the reference.
 benchmark: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m benchmarks
+
+# Into results/faults/: what a run makes of kills, damaged files, full disks and the like.
+faults: $(READY)
+	PYTHONPATH=tests $(BIN)/python -m faults
 
 lint: $(READY)
 	$(BIN)/ruff format --check benchmarks src tests workflow

@@ -20,8 +20,10 @@ pathvars:
 report: "workflow/report/workflow.rst"
 
 
+include: "workflow/rules/checks.smk"
 include: "workflow/rules/jobs.smk"
 include: "workflow/rules/further_jobs.smk"
+include: "workflow/rules/figure_jobs.smk"
 include: "workflow/rules/kernels.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/free.smk"
@@ -40,8 +42,13 @@ include: "workflow/rules/stable_steps.smk"
 include: "workflow/rules/verdicts.smk"
 include: "workflow/rules/balance_map.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/studies.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
+
+
+onsuccess:
+    write_provenance()
 
 
 rule all:
@@ -64,5 +71,8 @@ rule all:
         rules.verdicts.input,
         rules.balance_map.input,
         rules.accuracy.input,
+        rules.studies.input,
         rules.figures.input,
         rules.tables.input,
+    message:
+        "Everything"

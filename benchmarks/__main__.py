@@ -4,7 +4,7 @@ import argparse
 import time
 from pathlib import Path
 
-from benchmarks import chart, costs, machine, ratios, scaling, scenes, stages, startup
+from benchmarks import chart, costs, machine, overhead, ratios, scaling, scenes, stages, startup
 from benchmarks.timing import one_core
 from impact_damper import table_files
 from impact_damper.figures.style import save
@@ -87,6 +87,9 @@ def main():
         if table.empty:
             print(f"  {RUN_FIRST.format(timings)}", flush=True)
         write("stages", table)
+        log = overhead.last_run(Path(".snakemake/log"))
+        if log and not table.empty:
+            write("overhead", overhead.table(log, timings))
     print(f"{into} made in {time.perf_counter() - begin:.0f} s")
 
 

@@ -3,22 +3,12 @@
 import os
 import platform
 from importlib.metadata import version
-from pathlib import Path
 
 import pandas as pd
 
+from impact_damper.provenance import processor
+
 PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "heyoka")
-
-
-def processor():
-    """The processor's name, with family and model where the system tells."""
-    info = Path("/proc/cpuinfo")
-    if not info.exists():
-        return platform.processor() or platform.machine()
-    lines = [line.split(":", 1) for line in info.read_text().splitlines() if ":" in line]
-    entries = {key.strip(): value.strip() for key, value in reversed(lines)}
-    name = entries.get("model name", platform.machine())
-    return f"{name}, family {entries.get('cpu family')}, model {entries.get('model')}"
 
 
 def table():

@@ -6,14 +6,18 @@ import pandas as pd
 COLUMNS = {"s": "seconds", "cpu_time": "cpu_seconds", "max_rss": "memory_mb"}
 
 
-def jobs(folder):
+def jobs(folder, since=0.0):
     """A row for each job under a folder of timings: stage, job and its measures.
+
+    Those that were written before a time, in seconds since the epoch, are left out.
 
     A stage is a folder there; a job whose file lies in none is a stage of its own. What Snakemake
     could not measure, in a job too short, is NaN.
     """
     rows = []
     for path in sorted(folder.rglob("*.tsv")):
+        if path.stat().st_mtime < since:
+            continue
         stage, *rest = path.relative_to(folder).with_suffix("").parts
         values = pd.read_csv(path, sep="\t").iloc[-1]
         measures = {

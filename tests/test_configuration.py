@@ -6,30 +6,33 @@ from pathlib import Path
 
 import pytest
 import yaml
+from broken import SMALL
 
 from impact_damper.configuration import (
     ConfigurationError,
     check_configuration,
-    check_unique_keys,
+    check_file,
+    read_schemas,
     without_left_out,
 )
 from impact_damper.contradictions import SCHEMATICS
 from impact_damper.figures import schematics
+from impact_damper.variables.studies import AXES
 
 ROOT = Path(__file__).parents[1]
-SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+SCHEMAS = read_schemas(ROOT / "workflow/schemas")
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
 
 
 def problems(config):
     with pytest.raises(ConfigurationError) as caught:
-        check_configuration(config, SCHEMA)
+        check_configuration(config, SCHEMAS)
     return str(caught.value).splitlines()
 
 
-def changed(path, value):
-    """The paper's configuration with one value set."""
-    config = copy.deepcopy(PAPER)
+def changed(path, value, config=PAPER):
+    """The paper's configuration, or another one, with one value set."""
+    config = copy.deepcopy(config)
     *parents, key = path.split("/")
     place = config
     for name in parents:
@@ -47,11 +50,11 @@ def every_leaf(config, path=()):
 
 
 # One of each kind: entries of a section have the same keys.
-LEAVES = {(path[0], path[-1]): "/".join(path) for path in every_leaf(PAPER)}.values()
+LEAVES = {(path[0], path[-1]): "/".join(path) for path in every_leaf(SMALL)}.values()
 
 
 def test_the_paper_is_accepted():
-    check_configuration(PAPER, SCHEMA)
+    check_configuration(PAPER, SCHEMAS)
 
 
 @pytest.mark.parametrize(
@@ -59,7 +62,7 @@ def test_the_paper_is_accepted():
     [
         ("contact_stiffness", 1.0e-3),
         ("contact_stiffness", 1.0e9),
-        ("curves/figure_05a/clearance", 1.0e-6),
+        ("curves/figure_05a/clearance", 0.002),
         ("curves/figure_05a/clearance", 1000),
         ("curves/figure_10/restitution", 0.3),
         ("curves/figure_05a/mass_ratio", 10),
@@ -68,19 +71,19 @@ def test_the_paper_is_accepted():
     ],
 )
 def test_valid_extremes_are_accepted(path, value):
-    check_configuration(changed(path, value), SCHEMA)
+    check_configuration(changed(path, value), SCHEMAS)
 
 
 @pytest.mark.parametrize("path", LEAVES)
 @pytest.mark.parametrize("value", [math.nan, -math.inf, None, {}, [[]], True])
 def test_no_leaf_takes_a_value_of_another_kind(path, value):
-    lines = problems(changed(path, value))
+    lines = problems(changed(path, value, SMALL))
     assert all(line.startswith(path.replace("/", ".")) for line in lines)
 
 
 @pytest.mark.parametrize("path", LEAVES)
 def test_every_leaf_is_needed(path):
-    config = copy.deepcopy(PAPER)
+    config = copy.deepcopy(SMALL)
     *parents, key = path.split("/")
     place = config
     for name in parents:
@@ -101,9 +104,9 @@ def test_unknown_keys_are_rejected(section):
 @pytest.mark.parametrize(
     ("path", "value", "allowed"),
     [
-        ("tolerance", 1.0e-9, "unknown key; known: balance_map, collisions, comparison"),
+        ("tolerance", 1.0e-9, "unknown key; known: balance_map, chunks, collisions"),
         ("seed", 0.5, "a whole number, at least 0"),
-        ("contact_stiffness", 0, "greater than 0"),
+        ("contact_stiffness", 0, "at least 1e-06"),
         ("contact_stiffness", "2000", "a finite number"),
         ("points/simulated", 10**9, "at most 100000"),
         ("points/simulated", 45.0, "a whole number"),
@@ -111,7 +114,7 @@ def test_unknown_keys_are_rejected(section):
         ("settling/scene", "quiet", "must be one of design"),
         ("scenes/chaos/accuracy/quantity", "state", "a chaotic motion is asked"),
         ("settling/limit", 200, "at least settling.patience = 300"),
-        ("oscillators/h215/damping", -0.1, "greater than 0"),
+        ("oscillators/h215/damping", -0.1, "at least 1e-09"),
         ("oscillators/h215/frequencies/first", 3, "less than last = 2.6"),
         ("optima/h215_rm012/clearances/last", 0.5, "less than last = 0.5"),
         ("release_scans/wide/frequencies/first", 2, "less than last = 2"),
@@ -127,7 +130,7 @@ def test_unknown_keys_are_rejected(section):
         ("contact_model/figure_10/oscillator", "h216", "one of h215, h150, h107, l100, l150"),
         ("rigid_limit/figure_10/stiffnesses/first", 1.0e6, "less than last = 1000000.0"),
         ("rigid_limit/figure_10/frequencies/last", 1, "less than last = 1"),
-        ("curves/figure_05a/mass_ratio", 0, "greater than 0"),
+        ("curves/figure_05a/mass_ratio", 0, "at least 1e-06"),
         ("curves/figure_05a/clearance", "Rule", "of the form rule"),
         ("curves/figure_05a/clearance", "rule", "a number with stages beside design"),
         ("curves/figure_05a/restitution", 1.2, "at most 1 (e, 1 for elastic contact"),
@@ -147,6 +150,34 @@ def test_unknown_keys_are_rejected(section):
         ("curves", {}, "with 1 or more entries"),
         ("figures/figure_05a/data", ["figure_5a"], "one of figure_03a"),
         ("balance_map/over_clearance/parameter", "frequency", "one of damping, mass_ratio"),
+        ("studies/design_plane/mass_ratio/first", 0.7, "less than last = 0.5"),
+        ("studies/design_plane/clearance/points", 10**9, "at most 100000"),
+        ("studies/design_plane/clearance", 2, "must be a range (an axis of the map of figures"),
+        ("studies/design_plane/restitution", 0.01, "at least 0.05"),
+        (
+            "studies/design_plane",
+            PAPER["studies"]["design_plane"]
+            | {key: {"first": 0.5, "last": 1, "points": 10**5} for key in AXES[:2]},
+            "studies.design_plane: cells = 10000000000: must be at most 100000000",
+        ),
+        (
+            "studies/design_plane/mass_ratio/points",
+            10**5,
+            "chunks = 4: must be at least 5 with the 4100000 cells of studies.design_plane",
+        ),
+        ("studies/design_plane/clearance/first", 1e-5, "must be at least search.radius/1000"),
+        (
+            "studies/design_plane",
+            PAPER["studies"]["design_plane"]
+            | {"mass_ratio": {"first": 1e-6, "last": 1, "points": 2}, "frequency": 0.01},
+            "studies.design_plane.mass_ratio = 1e-06: with r1 = 2000 and W = 0.01 must be",
+        ),
+        (
+            "studies/design_plane/frequency",
+            {"first": 1, "last": 2, "points": 10**5},
+            "points = 100000: must be at most 3 (panels of figures.design_plane",
+        ),
+        ("chunks", 1000, "must be at most 943 (the cells of studies.design_plane)"),
         ("balance_map/over_clearance/clearance", 2, "left out (it changes from row to row)"),
         ("balance_map/over_clearance/values", {"first": 2, "last": 1}, "less than last = 1"),
         ("balance_map/over_restitution/values/last", 1.5, "must be from 0.05 to 1"),
@@ -155,6 +186,24 @@ def test_unknown_keys_are_rejected(section):
         ("figures/figure_05a/kind", "curve", "one of schematic, free"),
         ("figures/figure_01/data", ["elastic"], "one of elastic_model"),
         ("figures/figure_06/data", ["h215_rm012"] * 2, "without repetition"),
+        ("comparison/taylor", [1.0e-6, 1.0e-3], "must decrease"),
+        ("comparison/merson", [1.0e-3, 1.0e-3], "must decrease"),
+        ("comparison/scipy_periods", 39, "at least twice batch = 20"),
+        ("scenes/chaos/periods", 39, "at least twice comparison.batch = 20"),
+        ("search/starts", 1, "at least 2 with curves.figure_05a.stages subharmonic"),
+        ("search/starts", 1000000, "makes 201000000: must be at most 1000000 in all"),
+        ("search/radius", 1000, "curves.figure_05c.clearance = 0.625: must be at least search.ra"),
+        ("points/map_values", 100000, "points.map_values = 100000: with points.map_frequencies"),
+        ("rigid_limit/figure_10/cells/stiffnesses", 100000, "at most 1000000 in all"),
+        ("missed_contacts/grazing/steps/last", 16, "11 whole numbers fit"),
+        ("verdicts/orbits/free/quiet", PAPER["verdicts"]["orbits"]["free"]["subharmonic"], "anoth"),
+        ("figures/verdicts/data", ["orbits", "more"], "must be 1 at most"),
+        ("figures/figure_01/data", ["elastic_model", "algorithm"], "must be 1 at most"),
+        ("curves/figure_03c_rule/mass_ratio", 1.0e-6, "at most 1000 (the clearance of the rule"),
+        ("rigid_limit/figure_10/mass_ratio", 1.0e-6, "so large that sqrt(r1 (1 + 1/rm))/W ="),
+        ("contact_stiffness", 1.0e-7, "at least 1e-06"),
+        (f"curves/{'a' * 65}", PAPER["curves"]["figure_10"], "a file name"),
+        ("cur\nves", 3, "'cur\\nves' = 3: unknown key"),
         ("results", "../results", "folder below the working directory"),
         ("results", "/results", "folder below the working directory"),
         ("results", "my results", "without spaces"),
@@ -169,7 +218,7 @@ def test_a_name_that_is_no_text_is_rejected():
     config = copy.deepcopy(PAPER)
     config["curves"][3] = config["curves"]["figure_10"]
     assert problems(config) == [
-        "curves.3: name must be text, of the form [A-Za-z0-9][A-Za-z0-9_]* "
+        "curves.3: name must be text, of the form [A-Za-z0-9][A-Za-z0-9_]{0,63} "
         "(a name becomes part of a file name)"
     ]
 
@@ -190,10 +239,11 @@ def test_each_problem_has_its_line():
     ]
 
 
-def test_repeated_keys_are_rejected_with_their_lines():
-    text = "curves:\n  a: {x: 1}\n  b: [{y: 1, y: 2}]\n  a: {x: 2}\n"
+def test_repeated_keys_are_rejected_with_their_lines(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text("curves:\n  a: {x: 1}\n  b: [{y: 1, y: 2}]\n  a: {x: 2}\n")
     with pytest.raises(ConfigurationError) as caught:
-        check_unique_keys(text, "mine.yaml")
+        check_file(path)
     assert sorted(str(caught.value).splitlines()) == [
         "mine.yaml, line 3: y stands twice: keep one",
         "mine.yaml, line 4: a stands twice: keep one",
@@ -202,7 +252,24 @@ def test_repeated_keys_are_rejected_with_their_lines():
 
 @pytest.mark.parametrize("name", ["config.yaml", "smoke.yaml"])
 def test_our_own_files_repeat_no_key(name):
-    check_unique_keys((ROOT / "config" / name).read_text(), name)
+    check_file(ROOT / "config" / name)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"seed: [1", b"a: 1\n---\nb: 2\n", b"seed: \xff\n", b"seed: \x00\n"],
+)
+def test_a_file_that_is_no_yaml_is_told_in_one_line(content, tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_bytes(content)
+    with pytest.raises(ConfigurationError, match="^mine.yaml: must be YAML in UTF-8.*$"):
+        check_file(path)
+
+
+def test_a_file_that_holds_itself_is_read_to_its_end(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text("curves: &a\n  x: *a\n  ? [a, b]\n  : 3\n")
+    check_file(path)
 
 
 def test_every_schematic_has_its_drawing():

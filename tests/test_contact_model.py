@@ -115,7 +115,7 @@ def test_tables_and_figure(model):
 
 
 def test_bad_arguments_are_named():
-    with pytest.raises(ValueError, match="loads: must be increasing"):
+    with pytest.raises(ValueError, match="loads = .*: must be increasing"):
         contact_model(PAPER, INELASTIC, [2.0], [0.5, 1.0], [1, 0], used=[0.5, 1.0])
     with pytest.raises(ValueError, match="count = 1: must be from 2"):
         spread_loads(10, 1)

@@ -12,6 +12,7 @@ from impact_damper import datasets
 from impact_damper.motions import simulate, steady_motion
 from impact_damper.response import collisions, frequency_response
 from impact_damper.variables import VARIABLES
+from impact_damper.whole_files import BrokenFileError
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +52,10 @@ def test_every_dataset_says_what_made_it(made):
 def test_every_dataset_survives_a_file(made, tmp_path):
     datasets.save(made, tmp_path / "data.nc")
     with xr.open_dataset(tmp_path / "data.nc") as again:
-        assert again.load().identical(made)
+        again.load()
+    assert again.attrs.pop("id") == f"{tmp_path.name}/data"
+    assert len(again.attrs.pop("sha256")) == 64
+    assert again.identical(made)
 
 
 def test_registry():
@@ -115,10 +119,67 @@ def test_nothing_is_left_of_a_failure(small, tmp_path, monkeypatch):
         assert len(list(tmp_path.iterdir())) == 2
         raise OSError("no space left")
 
-    monkeypatch.setattr(datasets.os, "replace", full)
+    monkeypatch.setattr("os.replace", full)
     with pytest.raises(OSError, match="no space left"):
         datasets.save(small.assign_attrs(title="Another"), path)
     with pytest.raises((TypeError, ValueError)):
         datasets.save(small.assign_attrs(title=object()), path)
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == ["small.nc"]
+
+
+def test_every_damage_is_told_or_harms_nothing(small, tmp_path):
+    """Bytes changed, lost or made zero, anywhere in the file."""
+    path = tmp_path / "small.nc"
+    extremes = [-np.nan, -0.0]  # of both NaN and zero, a file may keep the sign
+    small = small.assign(method=("motion", ["one", "another"]), displacement=("motion", extremes))
+    small = small.assign(walls=("event", np.array([], object)))
+    datasets.save(small, path)
+    whole, told = path.read_bytes(), set()
+    expected = datasets.load(path)
+    places = range(0, len(whole), 40)
+    damages = [whole[:k] for k in places]
+    damages += [whole[:k] + bytes([whole[k] ^ 0x55]) + whole[k + 1 :] for k in places]
+    damages += [whole[:k] + bytes(len(whole) - k) for k in places]
+    for damaged in damages:
+        path.write_bytes(damaged)
+        try:
+            assert datasets.load(path).identical(expected)
+        except BrokenFileError as error:
+            message = str(error)
+            assert message.startswith(str(path)) and "\n" not in message
+            assert message.endswith("delete it and run the same command again.")
+            told.add(message)
+    assert len(told) > len(places)
+
+
+def test_a_foreign_file_is_told(small, tmp_path):
+    datasets.save(small, tmp_path / "response/one.nc")
+    other = tmp_path / "response/other.nc"
+    other.write_bytes((tmp_path / "response/one.nc").read_bytes())
+    with pytest.raises(BrokenFileError, match=r"other\.nc holds response/one: delete it"):
+        datasets.load(other)
+    xr.Dataset({"a": 1}).to_netcdf(other, engine="netcdf4")
+    with pytest.raises(BrokenFileError, match=r"other\.nc was not made by this project: delete"):
+        datasets.load(other)
+    other.write_text("CDF")
+    with pytest.raises(BrokenFileError, match=r"other\.nc is not a NetCDF file of this project"):
+        datasets.load(other)
+    other.unlink()
+    with pytest.raises(FileNotFoundError):
+        datasets.load(other)
+
+
+def test_a_part_that_a_killed_job_left_is_removed(small, tmp_path):
+    path, other = tmp_path / "[a].nc", tmp_path / "[a].nc2.part-1"
+    for left in (tmp_path / "[a].nc.part-1", other):
+        left.write_bytes(b"half")
+    datasets.save(small, path)
+    assert set(tmp_path.iterdir()) == {path, other}
+
+
+def test_a_file_that_cannot_be_written_is_told(small, tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("no folder")
+    with pytest.raises(OSError, match=r"small\.nc cannot be written: .*run the same command again"):
+        datasets.save(small, blocked / "small.nc")

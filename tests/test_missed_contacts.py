@@ -169,7 +169,7 @@ def test_wrong_arguments_are_told():
         ({"implicit_passages": 3}, "implicit_passages = 3"),
         ({"steps": [8, 16]}, "as many as tolerances"),
         ({"tolerances": [0.0]}, "tolerance = 0"),
-        ({"depths": [0.2, 0.1]}, "depths: must be increasing"),
+        ({"depths": [0.2, 0.1]}, "depths = .*: must be increasing"),
     ):
         with pytest.raises(ValueError, match=words):
             missed.missed_contacts(PAPER, 2.0, **(given | changes))

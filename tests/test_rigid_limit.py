@@ -122,7 +122,7 @@ def test_no_quiet_motion_is_told():
 
 
 def test_bad_arguments_are_named():
-    with pytest.raises(ValueError, match="stiffnesses: must be increasing"):
+    with pytest.raises(ValueError, match="stiffnesses = .*: must be increasing"):
         rigid_limit(PAPER, DESIGN, 2.0, [1.9, 2.0], [1e4, 1e3])
     with pytest.raises(TypeError, match="must be a Damper"):
         rigid_limit(PAPER, None, 2.0, [1.9, 2.0], [1e3, 1e4])

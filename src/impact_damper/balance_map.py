@@ -16,6 +16,7 @@ from impact_damper import harmonic_balance as balance
 from impact_damper.balance_cells import HIGH, balance_cells
 from impact_damper.datasets import dataset, flag, is_settled
 from impact_damper.design import optimum_clearance
+from impact_damper.motions import check_settling
 from impact_damper.parameters import Damper, Oscillator, check_increasing, check_number, pack
 from impact_damper.quiet_orbit import is_symmetric_pair, quiet_orbits, straight_flight_end
 from impact_damper.recording import MOTION
@@ -71,7 +72,7 @@ def balance_map(
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
         [[pack(row.oscillator, row.damper, w) for w in row.frequencies] for row in rows]

@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from impact_damper import ensemble
 from impact_damper.contact_law import EXIT_RULES, contact, damping_ratio, tension
 from impact_damper.contact_scenes import CLOSE, FAIR, SIZES, extreme_motions, scene
 from impact_damper.datasets import dataset, flag
+from impact_damper.motions import check_settling
 from impact_damper.parameters import (
     check_count,
     check_damper,
@@ -78,7 +78,7 @@ def contact_model(
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     check_damper(damper)
     check_count("starts", starts, most=10**6)
     check_count("periods", periods, most=10**6)

@@ -1,13 +1,19 @@
 """Labelled datasets: built from the registry, written whole or not at all."""
 
+import hashlib
 import json
-import os
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from impact_damper.variables import VARIABLES
+from impact_damper.whole_files import DELETE, BrokenFileError, check_length, whole_netcdf
+
+SOURCE = "impact-damper"
+
+# Numbers of an open file that are read at once.
+PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
@@ -66,7 +72,7 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
         {
             "Conventions": "CF-1.11",
             "title": title,
-            "source": "impact-damper",
+            "source": SOURCE,
             "references": "Chatterjee, Mallik and Ghosh, J. Sound Vib. 187(3), 403-420, 1995",
             "parameters": json.dumps(parameters, sort_keys=True),
         },
@@ -89,21 +95,86 @@ def parameters_of(data) -> dict:
 
 
 def save(data, path) -> None:
-    """Write a dataset to NetCDF; the file appears only when it is whole."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.part-{os.getpid()}")
+    """Write a dataset to NetCDF; the file appears only when it is whole.
+
+    It carries its stage and name, and the digest of its arrays, which `load` looks at.
+    """
+    with whole_netcdf(path) as part:
+        write(data.assign_attrs(seal(data.variables, path)), part)
+
+
+def write(data, path) -> None:
+    """Write a dataset to a NetCDF file of this very name."""
     encoding = {name: {"_FillValue": None} for name in data.coords}
     encoding |= {
         name: {"_FillValue": None} for name in data.data_vars if data[name].dtype.kind in "iub"
     }
-    try:
-        data.to_netcdf(part, engine="netcdf4", encoding=encoding)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    data.to_netcdf(path, engine="netcdf4", encoding=encoding)
 
 
 def load(path) -> xr.Dataset:
-    """Read a dataset into memory and close the file, so that it can be overwritten."""
-    return xr.load_dataset(path, engine="netcdf4")
+    """Read a dataset into memory and close the file, so that it can be overwritten.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    BrokenFileError
+        If the file is not what `save` has written under this path.
+    """
+    check_length(path)
+    try:
+        data = xr.load_dataset(path, engine="netcdf4")
+    except (OSError, RuntimeError, ValueError) as error:
+        raise BrokenFileError(f"{path} cannot be read ({error}): {DELETE}.") from error
+    if data.attrs.get("source") != SOURCE:
+        raise BrokenFileError(f"{path} was not made by this project: {DELETE}.")
+    sealed = seal(data.variables, path)
+    if data.attrs.get("id") != sealed["id"]:
+        raise BrokenFileError(f"{path} holds {data.attrs.get('id')}: {DELETE}.")
+    if data.attrs.get("sha256") != sealed["sha256"]:
+        raise BrokenFileError(f"{path} holds other numbers than were written: {DELETE}.")
+    return data
+
+
+def seal(variables, path) -> dict:
+    """Attributes by which `load` knows a file: its stage and name, and the digest of its arrays.
+
+    Parameters
+    ----------
+    variables : dict of xarray.Variable
+        By name; those of an open file are read piece by piece.
+    path : str or pathlib.Path
+        Name of the file.
+    """
+    return {"id": _identity(path), "sha256": _digest(variables)}
+
+
+def _identity(path):
+    """Stage and name of a file of results, wherever their folder lies."""
+    path = Path(path).absolute()
+    return f"{path.parent.name}/{path.stem}"
+
+
+def _digest(variables):
+    """Digest of all names and arrays."""
+    digest = hashlib.sha256()
+    for name, variable in sorted(variables.items()):
+        digest.update(f"{name} {variable.dims} {variable.shape}".encode())
+        # Texts, and what is empty, may come back from a file as another type.
+        if variable.dtype.kind in "biuf":
+            for piece in _pieces(variable):
+                digest.update(piece.tobytes())
+        else:
+            digest.update("\0".join(map(str, np.asarray(variable).ravel())).encode())
+    return digest.hexdigest()
+
+
+def _pieces(variable):
+    """Numbers of a variable, some rows at a time."""
+    count = variable.shape[0] if variable.ndim else 1
+    rows = max(1, PIECE * count // max(variable.size, 1))
+    for first in range(0, count, rows):
+        values = np.asarray(variable[first : first + rows] if variable.ndim else variable)
+        # a file keeps no sign of NaN
+        yield np.where(np.isnan(values), np.nan, values) if values.dtype.kind == "f" else values

@@ -6,7 +6,13 @@ import numpy as np
 
 from impact_damper import harmonic_balance as balance
 from impact_damper.datasets import dataset, flag
-from impact_damper.parameters import check_frequencies, check_number, describe
+from impact_damper.parameters import (
+    MASS_RATIO_RANGE,
+    check_frequencies,
+    check_number,
+    check_oscillator,
+    describe,
+)
 from impact_damper.slow_flow import fixed_points, growth_rate, stability
 
 MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6  # six impacting ones seen at most
@@ -29,7 +35,8 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     TypeError, ValueError
         If the mass ratio is not a number or out of range.
     """
-    mass_ratio = check_number("mass_ratio", mass_ratio, above=0.0, most=10.0)
+    check_oscillator(oscillator)
+    mass_ratio = check_number("mass_ratio", mass_ratio, **MASS_RATIO_RANGE)
     return float(1 / (mass_ratio * balance.peak_frequency(oscillator) ** 2))
 
 
@@ -58,6 +65,7 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     ValueError
         If the damper is not elastic, or frequencies are not positive and increasing.
     """
+    check_oscillator(oscillator)
     frequencies = check_frequencies(frequencies)
     tables = [_free_table(oscillator, frequencies)]
     if damper is not None:
@@ -182,6 +190,8 @@ def suppression_band(oscillator, damper):
     ArithmeticError
         If (7) could not be resolved at a frequency.
     """
+    check_oscillator(oscillator)
+    balance.check_elastic(damper)
     peak = balance.peak_frequency(oscillator)
     resonance = 1 / (oscillator.damping * peak)
     folds = balance.free_folds(oscillator)

@@ -13,7 +13,7 @@ from impact_damper import ensemble
 from impact_damper.branches import follow_branch
 from impact_damper.datasets import dataset, flag, is_settled
 from impact_damper.harmonic_balance import peak_frequency
-from impact_damper.motions import random_states
+from impact_damper.motions import check_settling, random_states
 from impact_damper.parameters import check_damper, describe, pack
 from impact_damper.periodic import branches_dataset, family_of
 from impact_damper.shooting import find_orbit
@@ -48,7 +48,7 @@ def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settli
         If there is no damper, or an argument is out of range.
     """
     check_damper(damper)
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     peak = peak_frequency(oscillator)
     heavy = replace(oscillator, damping=min(max(HEAVY, 2 * oscillator.damping), 10.0))
     states = random_states(starts, radius, damper, seed)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from impact_damper.parameters import check_damper, check_frequency
+from impact_damper.parameters import check_damper, check_frequency, plain
 from impact_damper.roots import polynomial_roots, smooth_roots
 
 
@@ -95,7 +95,7 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
     ValueError
         If the contact is not elastic, or the frequency out of range.
     """
-    _check_elastic(damper)
+    check_elastic(damper)
     frequency = check_frequency(frequency)
     inertia = damper.mass_ratio * frequency**2
     detuning = oscillator.linear_frequency**2 - frequency**2
@@ -222,7 +222,7 @@ class _Balance:
     """(7) with (6e) as functions of the contact angle p; each term is multiplied by cos^3(p)."""
 
     def __init__(self, oscillator, damper, frequency):
-        _check_elastic(damper)
+        check_elastic(damper)
         self.clearance = damper.clearance
         self.detuning = oscillator.linear_frequency**2 - frequency**2
         self.drag = oscillator.damping * frequency
@@ -305,10 +305,10 @@ def _excess(angle):
     return 4.5 * excess + 6 * np.sin(ninth) ** 3 + 2 * np.sin(third) ** 3
 
 
-def _check_elastic(damper):
+def check_elastic(damper):
     check_damper(damper)
     if damper.restitution != 1:
         raise ValueError(
-            f"restitution = {damper.restitution:g}: must be 1, "
+            f"restitution = {plain(damper.restitution)}: must be 1, "
             "the harmonic balance of section 2 is for elastic contact"
         )

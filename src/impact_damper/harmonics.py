@@ -9,10 +9,18 @@ from impact_damper import fourier, harmonic_balance, harmonics_theory, hill
 from impact_damper.datasets import dataset, flag
 from impact_damper.motions import simulate
 from impact_damper.multiharmonic import Balance, solve
-from impact_damper.parameters import check_count, describe, pack
+from impact_damper.parameters import (
+    check_count,
+    check_counts,
+    check_increasing,
+    describe,
+    pack,
+    shown,
+)
 from impact_damper.shooting import find_orbit
 
 SAMPLES = 2**14
+HIGHEST = 2**14
 SAME = 1e-6
 # Errors below are rounding, and left out of the fits.
 ROUNDING = 1e-12
@@ -21,7 +29,7 @@ FINEST = 1e-14
 
 def ladder(highest) -> np.ndarray:
     """Odd numbers of harmonics up to `highest`: all to 15, then three to an octave."""
-    check_count("highest", highest, most=2**14)
+    check_count("highest", highest, most=HIGHEST)
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
@@ -60,11 +68,14 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     ArithmeticError
         If there is no single-term solution to begin from.
     """
-    harmonics = np.array(harmonics)
-    if len(harmonics) < 1 or np.any(np.diff(harmonics) <= 0):
-        raise ValueError(f"harmonics: must be increasing, and at least one; {harmonics} given")
-    if not set(cold) <= set(harmonics.tolist()):
-        raise ValueError(f"cold = {list(cold)}: must be among the harmonics {harmonics.tolist()}")
+    harmonics = check_counts("harmonics", harmonics, most=HIGHEST)
+    check_increasing("harmonics", harmonics)
+    if np.any(harmonics % 2 == 0):
+        given = shown(harmonics.tolist())
+        raise ValueError(f"harmonics = {given}: must be odd (the motion is symmetric)")
+    if not set(check_counts("cold", cold)) <= set(harmonics):
+        given = shown(harmonics.tolist())
+        raise ValueError(f"cold = {shown(cold)}: must be among the harmonics {given}")
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
     first = single_term(oscillator, damper, frequency)
     solutions = refine(balances, first)

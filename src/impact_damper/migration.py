@@ -11,7 +11,8 @@ import numpy as np
 
 from impact_damper import ensemble, recording, switching
 from impact_damper.datasets import dataset, flag
-from impact_damper.parameters import check_count, check_damper, describe
+from impact_damper.motions import MOST_SEED, check_settling
+from impact_damper.parameters import check_count, check_damper, describe, pack
 from impact_damper.releases import (
     DESTINATIONS,
     KINDS,
@@ -150,6 +151,7 @@ def _totals(logs):
 def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
     """The scene, and the parameters of the dataset, or an error that names a bad argument."""
     check_damper(damper)
+    pack(oscillator, damper, frequency)
     check_count("longest_hold", longest_hold, most=10**6)
     check_count("periods", periods, most=10**6)
     check_count("switchings", switchings, most=10**4)
@@ -204,7 +206,9 @@ def migrate(
     ValueError
         If the free oscillator has not both period-1 motions, or an argument is out of range.
     """
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
+    if not isinstance(seed, np.random.SeedSequence):
+        check_count("seed", seed, least=0, most=MOST_SEED)
     here, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )
@@ -296,10 +300,11 @@ def trials(
     ValueError
         If the free oscillator has not both period-1 motions, or an argument is out of range.
     """
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     check_count("trials", trials, most=10**6)
     check_count("releases", releases, most=10**6)
     check_count("lifetime", lifetime, least=100, most=10**7)
+    check_count("seed", seed, least=0, most=MOST_SEED)
     here, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )

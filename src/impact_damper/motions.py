@@ -4,10 +4,21 @@ import numpy as np
 
 from impact_damper import ensemble, recording
 from impact_damper.datasets import dataset, is_settled
-from impact_damper.parameters import check_count, check_number, describe, pack
+from impact_damper.parameters import (
+    check_count,
+    check_number,
+    check_numbers,
+    describe,
+    pack,
+    shown,
+)
 
 # Below this share of the first harmonic of Z1 another one is rounding and has no phase.
 PHASELESS = 1e-9
+# Beyond these a state moves so fast that a forcing period has no end.
+FARTHEST, FASTEST = 1e3, 1e6
+MOST_SEED = 2**63 - 1
+MOST_SAMPLES = 10**7
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 
 
@@ -18,21 +29,32 @@ def check_state(state, damper):
 
     Raises
     ------
-    ValueError
-        If the state is not four finite numbers, or two without a damper.
+    TypeError, ValueError
+        If the state is not four numbers, or two without a damper, or out of range.
     """
-    state = np.array(state, float)
+    values = check_numbers("state", state)
     allowed = "four finite numbers Z1, Z1', Z2, Z2'"
     if damper is None:
         allowed += ", or two without a damper"
-    if damper is None and state.shape == (2,):
-        state = np.concatenate([state, state])
-    if state.shape != (4,) or not np.isfinite(state).all():
+    if damper is None and values.shape == (2,):
+        values = np.concatenate([values, values])
+    if values.shape != (4,):
         raise ValueError(
-            f"state = {state.tolist()}: must be {allowed} "
+            f"state = {shown(state)}: must be {allowed} "
             "(the paper's figure 4 gives three; a state of this system has four)"
         )
-    return state
+    for i, (value, most) in enumerate(zip(values, [FARTHEST, FASTEST] * 2, strict=True)):
+        check_number(f"state[{i}]", value, least=-most, most=most)
+    return values
+
+
+def check_settling(settling) -> ensemble.Settling:
+    """Return how motions are run, the default for None, or raise TypeError."""
+    if settling is None:
+        return ensemble.Settling()
+    if not isinstance(settling, ensemble.Settling):
+        raise TypeError(f"settling = {shown(settling)}: must be a Settling")
+    return settling
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
@@ -65,7 +87,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
         most = 1e3 * damper.clearance
         check_number("radius", radius, above=0.0, most=most, why="hardly a draw is within the gap")
     for value in np.atleast_1d(seed):
-        check_count("seed", value, least=0, most=2**63 - 1)
+        check_count("seed", value, least=0, most=MOST_SEED)
     generator = np.random.default_rng(seed)
     size = 2 if damper is None else 4
     states = np.empty((0, size))
@@ -125,9 +147,11 @@ def simulate(
     p = pack(oscillator, damper, frequency)
     y = check_state(state, damper)
     check_number("periods", periods, above=0.0, most=1e6)
-    check_count("samples", samples, least=2, most=10**6)
+    most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
+    check_count("samples", samples, least=2, most=most, why=f"{MOST_SAMPLES} in all")
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)
-    start = check_number("start", start)
+    farthest = 1e6 * 2 * np.pi / p[0]
+    start = check_number("start", start, least=-farthest, most=farthest)
     length = periods * 2 * np.pi / p[0]
     times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
     states = np.empty((len(times), 4))
@@ -201,7 +225,7 @@ def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, 
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     p = pack(oscillator, damper, frequency)
     record = ensemble.settle(p[None], check_state(state, damper)[None], settling)[0]
     data = {name: ((), value) for name, value in tabulate(record).items()}
@@ -230,7 +254,7 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
     ArithmeticError
         If the motion does not settle.
     """
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
     if not is_settled(steady):
         raise ArithmeticError(

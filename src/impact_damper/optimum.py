@@ -13,20 +13,24 @@ from scipy.optimize import brentq, minimize_scalar
 from impact_damper import orbits, recording
 from impact_damper.datasets import dataset, flag
 from impact_damper.design import optimum_clearance
-from impact_damper.ensemble import Settling
-from impact_damper.motions import COMPONENTS, random_states
+from impact_damper.motions import COMPONENTS, MOST_SEED, check_settling, random_states
 from impact_damper.optimum_theory import analytical_table, excess_table
 from impact_damper.parameters import (
+    CLEARANCE_RANGE,
     Damper,
     check_count,
     check_frequency,
     check_increasing,
+    check_numbers,
+    check_starts,
     describe,
     pack,
+    shown,
 )
 from impact_damper.sweep import CLEARANCE, RESOLUTION, SAME, sweep
 
 NEAR_MINIMUM = 1.1
+SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
 
 
 def clearance_sweep(
@@ -75,16 +79,18 @@ def clearance_sweep(
     ValueError
         If clearances are not increasing, or a parameter is out of range.
     """
-    settling = settling or Settling()
-    check_count("starts", starts, most=10**6)
+    settling = check_settling(settling)
+    check_count("seed", seed, least=0, most=MOST_SEED)
     frequency = check_frequency(frequency)
-    if not isinstance(damper, dict) or "clearance" in damper:
+    if not isinstance(damper, dict) or not {"mass_ratio"} <= damper.keys() <= SWEPT_WITH:
         raise TypeError(
-            f"damper = {damper!r}: must be a dictionary of the arguments of Damper without the "
-            "clearance, which is swept"
+            f"damper = {shown(damper)}: must be a dictionary of the arguments of Damper without "
+            "the clearance, which is swept"
         )
-    dampers = [Damper(clearance=value, **damper) for value in np.atleast_1d(clearances)]
-    clearances = check_increasing("clearances", [each.clearance for each in dampers], "two")
+    clearances = check_numbers("clearances", clearances, **CLEARANCE_RANGE)
+    clearances = check_increasing("clearances", clearances, "two")
+    check_starts(starts, len(clearances))
+    dampers = [Damper(clearance=float(value), **damper) for value in clearances]
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
     states = np.array(
         [random_states(starts, radius, each, [seed, i]) for i, each in enumerate(dampers)]

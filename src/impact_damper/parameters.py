@@ -6,9 +6,33 @@ Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)).
 
 import math
 import numbers
+import reprlib
 from dataclasses import dataclass, fields
 
 import numpy as np
+
+# Bounds within which the kernels come to an end; what a configuration may hold agrees with them.
+FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "work goes by forcing periods"}
+DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
+MASS_RATIO_RANGE = {"least": 1e-6, "most": 10.0}
+CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
+STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
+# Natural frequency of the contact over that of the forcing: about as many steps a forcing period
+# does a contact take that is held shut.
+MOST_STIFF = 1e6
+# Runs whose records are kept in memory together.
+MOST_RUNS = 10**6
+
+
+def shown(value) -> str:
+    """A value in one short line."""
+    return " ".join(reprlib.repr(value).split())
+
+
+def plain(value) -> str:
+    """A number with six digits, or with all of them if it has more."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(float(value))
 
 
 def check_number(name, value, *, above=None, least=None, most=None, why=""):
@@ -22,8 +46,11 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
         If it is not finite or outside the bounds.
     """
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} = {value!r}: must be a number")
-    value = float(value)
+        raise TypeError(f"{name} = {shown(value)}: must be a number")
+    try:
+        value = float(value)
+    except OverflowError:
+        value = math.inf if value > 0 else -math.inf
     bounds = [
         (above, "greater than", lambda bound: value > bound),
         (least, "at least", lambda bound: value >= bound),
@@ -34,7 +61,7 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
     if not math.isfinite(value) or not holds:
         reason = f" ({why})" if why else ""
         raise ValueError(
-            f"{name} = {value:g}: must be {' and '.join(['finite', *allowed])}{reason}"
+            f"{name} = {plain(value)}: must be {' and '.join(['finite', *allowed])}{reason}"
         )
     return value
 
@@ -42,37 +69,78 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
 def check_count(name, value, *, least=1, most=10**9, why=""):
     """Return `value` as an int, or raise TypeError or ValueError naming what is allowed."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise TypeError(f"{name} = {value!r}: must be a whole number")
+        raise TypeError(f"{name} = {shown(value)}: must be a whole number")
     if not least <= value <= most:
         reason = f" ({why})" if why else ""
-        raise ValueError(f"{name} = {value}: must be from {least} to {most}{reason}")
+        raise ValueError(f"{name} = {shown(int(value))}: must be from {least} to {most}{reason}")
     return int(value)
 
 
+def check_numbers(name, values, **bounds):
+    """Return a number or a sequence of them as an array, or raise as `check_number` does.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Naming the place of the number that is wrong.
+    """
+    return np.array([check_number(f"{name}[{i}]", x, **bounds) for i, x in _numbered(values)])
+
+
+def check_counts(name, values, **bounds):
+    """As `check_numbers`, for whole numbers."""
+    return np.array([check_count(f"{name}[{i}]", x, **bounds) for i, x in _numbered(values)], int)
+
+
+def _numbered(values):
+    return enumerate(values if isinstance(values, (list, tuple)) else np.atleast_1d(values))
+
+
 def check_frequency(value):
-    """Return the forcing frequency W, or raise if it is not a positive number."""
-    return check_number("frequency", value, above=0.0, most=1e3, why="the forcing is periodic")
+    """Return the forcing frequency W, or raise if it is out of range."""
+    return check_number("frequency", value, **FREQUENCY_RANGE)
 
 
 def check_increasing(name, values, least="one"):
     """Return numbers as an array, or raise ValueError unless they increase; `least` one or two."""
-    values = np.array(values, float)
-    if len(values) < {"one": 1, "two": 2}[least] or np.any(np.diff(values) <= 0):
-        raise ValueError(f"{name}: must be increasing, and at least {least}; {values} given")
-    return values
+    numbers = check_numbers(name, values)
+    if len(numbers) < {"one": 1, "two": 2}[least] or np.any(np.diff(numbers) <= 0):
+        given = shown(numbers.tolist())
+        raise ValueError(f"{name} = {given}: must be increasing, and at least {least}")
+    return numbers
 
 
 def check_frequencies(values, least="one"):
     """Return increasing forcing frequencies as an array, or raise as `check_frequency` does."""
     return check_increasing(
-        "frequencies", [check_frequency(w) for w in np.atleast_1d(values)], least
+        "frequencies", check_numbers("frequencies", values, **FREQUENCY_RANGE), least
     )
+
+
+def check_starts(starts, points, least=1):
+    """Raise unless `starts` is a number of runs that can be kept in memory at so many points."""
+    most = max(least, MOST_RUNS // points)
+    check_count("starts", starts, least=least, most=most, why=f"at {points} points: memory")
+
+
+def check_span(name, span, **bounds) -> tuple:
+    """Return least and greatest value of a range above 0, or raise TypeError or ValueError."""
+    ends = check_numbers(name, span, **bounds)
+    if ends.shape != (2,) or not 0 < ends[0] < ends[1]:
+        raise ValueError(f"{name} = {shown(span)}: must be least and greatest value, above 0")
+    return float(ends[0]), float(ends[1])
+
+
+def check_oscillator(oscillator):
+    """Raise TypeError if `oscillator` is not an Oscillator."""
+    if not isinstance(oscillator, Oscillator):
+        raise TypeError(f"oscillator = {shown(oscillator)}: must be an Oscillator")
 
 
 def check_damper(damper):
     """Raise TypeError if `damper` is not a Damper, where None would have no meaning."""
     if not isinstance(damper, Damper):
-        raise TypeError(f"damper = {damper!r}: must be a Damper")
+        raise TypeError(f"damper = {shown(damper)}: must be a Damper")
 
 
 @dataclass(frozen=True)
@@ -96,7 +164,7 @@ class Oscillator:
     linear_frequency: float = 0.0
 
     def __post_init__(self):
-        check_number("damping", self.damping, above=0.0, most=10.0, why="motions must settle")
+        check_number("damping", self.damping, **DAMPING_RANGE)
         check_number("linear_frequency", self.linear_frequency, least=0.0, most=100.0)
 
 
@@ -122,8 +190,8 @@ class Damper:
     contact_stiffness: float = 2000.0
 
     def __post_init__(self):
-        check_number("mass_ratio", self.mass_ratio, above=0.0, most=10.0)
-        check_number("clearance", self.clearance, above=0.0, most=1e3)
+        check_number("mass_ratio", self.mass_ratio, **MASS_RATIO_RANGE)
+        check_number("clearance", self.clearance, **CLEARANCE_RANGE)
         check_number(
             "restitution",
             self.restitution,
@@ -131,7 +199,7 @@ class Damper:
             most=1.0,
             why="below, the dashpot nears critical damping",
         )
-        check_number("contact_stiffness", self.contact_stiffness, above=0.0, most=1e9)
+        check_number("contact_stiffness", self.contact_stiffness, **STIFFNESS_RANGE)
 
     @property
     def contact_damping(self) -> float:
@@ -158,15 +226,21 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     TypeError
         If an argument is not of its type.
     ValueError
-        If the frequency is out of range.
+        If the frequency is out of range, or the contact too fast for it.
     """
     frequency = check_frequency(frequency)
-    if not isinstance(oscillator, Oscillator):
-        raise TypeError(f"oscillator = {oscillator!r}: must be an Oscillator")
+    check_oscillator(oscillator)
     stiffness = oscillator.linear_frequency**2
     if damper is None:
         return np.array([frequency, oscillator.damping, stiffness, np.inf, 0.0, 0.0, 0.0])
     check_damper(damper)
+    natural = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
+    if natural > MOST_STIFF * frequency:
+        raise ValueError(
+            f"contact_stiffness = {damper.contact_stiffness:g}: with mass_ratio = "
+            f"{damper.mass_ratio:g} and frequency = {frequency:g}: must be so small that the "
+            f"contact is at most {MOST_STIFF:g} times as fast as the forcing (steps of a contact)"
+        )
     return np.array(
         [
             frequency,

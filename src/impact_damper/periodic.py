@@ -6,12 +6,23 @@ Orbits may be stable or not, of any period, and touch the walls in any sequence.
 from dataclasses import replace
 
 import numpy as np
+import xarray as xr
 
 from impact_damper.branches import SAME, follow_branch
 from impact_damper.continuation import Problem
 from impact_damper.datasets import dataset, flag
 from impact_damper.motions import COMPONENTS, check_state, phase_of
-from impact_damper.parameters import Damper, Oscillator, check_count, check_number, describe, pack
+from impact_damper.parameters import (
+    FREQUENCY_RANGE,
+    Damper,
+    Oscillator,
+    check_count,
+    check_number,
+    check_span,
+    describe,
+    pack,
+    shown,
+)
 from impact_damper.shooting import STROBE, find_orbit
 
 NEARBY = 0.02
@@ -134,9 +145,14 @@ def complete_branches(oscillator, damper, frequencies, motions):
         without contacts belong to the free oscillator and are left out where there is a damper.
     """
 
+    frequencies = check_span("frequencies", frequencies, **FREQUENCY_RANGE)
+    if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
+        raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
+
     def family(value):
         return pack(oscillator, damper, value)
 
+    family(frequencies[0])
     branches, seeds, lost = [], 0, 0
     for period, frequency, _, state in sorted(_seeds(motions, damper), key=lambda s: s[:3]):
         seeds += 1
@@ -154,7 +170,7 @@ def complete_branches(oscillator, damper, frequencies, motions):
 def _found(oscillator, damper, frequency, state, period, phase):
     """The orbit near a state, or an error that says what is wrong or that there is none."""
     check_count("period", period, most=1000)
-    check_number("phase", phase)
+    check_number("phase", phase, least=-1e6, most=1e6)
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, check_state(state, damper), period, phase)
     if not orbit.converged:
@@ -173,19 +189,26 @@ def family_of(oscillator, damper, frequency, parameter, span):
     ValueError
         If there is no such parameter, or its value lies outside the span.
     """
-    if parameter not in PARAMETERS:
-        raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(PARAMETERS)}")
+    pack(oscillator, damper, frequency)
+    if not isinstance(parameter, str) or parameter not in PARAMETERS:
+        allowed = ", ".join(PARAMETERS)
+        raise ValueError(f"parameter = {shown(parameter)}: must be one of {allowed}")
     owner = PARAMETERS[parameter]
     if owner is Damper and damper is None:
         raise ValueError(f"parameter = {parameter!r}: there is no damper to change")
     given = {None: None, Oscillator: oscillator, Damper: damper}[owner]
     value = frequency if owner is None else getattr(given, parameter)
-    least, most = (float(check_number("span", bound)) for bound in span)
-    if not 0 < least <= value <= most:
-        raise ValueError(f"span = {span}: must hold {parameter} = {value:g}, above 0")
-    if parameter in LINEAR:
-        return _pack_by(oscillator, damper, frequency, parameter), value, (least, most)
+    least, most = check_span("span", span)
+    if not least <= value <= most:
+        raise ValueError(f"span = {shown(span)}: must hold {parameter} = {value:g}")
     pack_at = _pack_by(oscillator, damper, frequency, parameter)
+    try:
+        for bound in (least, most):
+            pack_at(bound)
+    except ValueError as error:
+        raise ValueError(f"span = {shown(span)}: {error}") from None
+    if parameter in LINEAR:
+        return pack_at, value, (least, most)
     return (lambda x: pack_at(np.exp(x))), np.log(value), (np.log(least), np.log(most))
 
 

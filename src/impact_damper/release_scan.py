@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from impact_damper import ensemble, recording
+from impact_damper import recording
 from impact_damper.datasets import dataset, flag
+from impact_damper.motions import check_settling
 from impact_damper.parameters import check_count, describe
 from impact_damper.releases import DESTINATIONS, release_data, scene, watch
 from impact_damper.response import frequency_response
@@ -76,7 +77,7 @@ def release_scan(
     ValueError
         If the free oscillator has not both motions at a frequency, or an argument is out of range.
     """
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     check_count("releases", releases, most=10**6)
     check_count("lifetime", lifetime, least=2 * LEAD, most=10**7)
     scenes = [scene(oscillator, damper, frequency, settling) for frequency in frequencies]

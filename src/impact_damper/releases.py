@@ -15,7 +15,7 @@ from impact_damper import ensemble, orbits, recording, switching
 from impact_damper.datasets import is_settled
 from impact_damper.harmonic_balance import free_solutions, impacting_solutions
 from impact_damper.motions import random_states
-from impact_damper.parameters import pack
+from impact_damper.parameters import FREQUENCY_RANGE, pack
 from impact_damper.survival import LEAD, escape_rate, survival, wilson
 from impact_damper.sweep import FREQUENCY, RESOLUTION, Catalogue
 from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION
@@ -73,8 +73,10 @@ def scene(oscillator, damper, frequency, settling) -> Scene:
         If the free oscillator does not have both period-1 motions at this frequency.
     """
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
-    goal = _free_motion(oscillator, frequency, 1.1 * frequency, 0, settling)
-    resonance = _free_motion(oscillator, frequency, 0.9 * frequency, -1, settling)
+    above = min(1.1 * frequency, FREQUENCY_RANGE["most"])
+    below = max(0.9 * frequency, FREQUENCY_RANGE["least"])
+    goal = _free_motion(oscillator, frequency, above, 0, settling)
+    resonance = _free_motion(oscillator, frequency, below, -1, settling)
     known = np.array(
         [
             np.nan if record is None else record["maximum_displacement"]

@@ -4,12 +4,12 @@ import numpy as np
 
 from impact_damper import recording
 from impact_damper.datasets import dataset
-from impact_damper.ensemble import Settling
-from impact_damper.motions import COMPONENTS, random_states
+from impact_damper.motions import COMPONENTS, MOST_SEED, check_settling, random_states
 from impact_damper.parameters import (
     check_count,
     check_frequencies,
     check_number,
+    check_starts,
     describe,
     pack,
 )
@@ -60,9 +60,10 @@ def frequency_response(
     ValueError
         If frequencies are not increasing, or a parameter is out of range.
     """
-    settling = settling or Settling()
-    check_count("starts", starts, most=10**6)
+    settling = check_settling(settling)
     frequencies = check_frequencies(frequencies)
+    check_starts(starts, len(frequencies))
+    check_count("seed", seed, least=0, most=MOST_SEED)
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
     states = np.array(
         [random_states(starts, radius, damper, [seed, i]) for i in range(len(frequencies))]

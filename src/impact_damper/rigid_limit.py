@@ -10,10 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper import ensemble, orbits, recording
+from impact_damper import orbits, recording
 from impact_damper.contact_scenes import extreme_motions
 from impact_damper.datasets import dataset, flag
 from impact_damper.flood import flood, march, point_of
+from impact_damper.motions import check_settling
 from impact_damper.parameters import (
     check_count,
     check_damper,
@@ -97,7 +98,7 @@ def rigid_limit(
     frequency = check_frequency(frequency)
     frequencies = check_frequencies(frequencies, "two")
     stiffnesses = check_increasing("stiffnesses", stiffnesses, "two")
-    settling = settling or ensemble.Settling()
+    settling = check_settling(settling)
     axes = frequencies, np.log(stiffnesses)
 
     def soft(point, guess):

@@ -10,9 +10,15 @@ import numpy as np
 
 from impact_damper import orbits, recording
 from impact_damper.datasets import dataset, flag
-from impact_damper.ensemble import Settling
-from impact_damper.motions import COMPONENTS, random_states
-from impact_damper.parameters import check_count, check_damper, check_frequencies, describe, pack
+from impact_damper.motions import COMPONENTS, MOST_SEED, check_settling, random_states
+from impact_damper.parameters import (
+    check_count,
+    check_damper,
+    check_frequencies,
+    check_starts,
+    describe,
+    pack,
+)
 from impact_damper.sweep import FREQUENCY, RESOLUTION, SAME, sweep
 
 SEARCHED = 81
@@ -76,10 +82,11 @@ def subharmonic_suppression(
     ValueError
         If frequencies are not increasing, or a parameter is out of range.
     """
-    settling = settling or Settling()
-    check_count("starts", starts, least=2, most=10**6)
+    settling = check_settling(settling)
     check_damper(damper)
     frequencies = check_frequencies(frequencies, "two")
+    check_starts(starts, max(SEARCHED, len(frequencies)), least=2)
+    check_count("seed", seed, least=0, most=MOST_SEED)
     free = free_subharmonic(
         oscillator,
         frequencies[0],
@@ -164,7 +171,7 @@ def free_subharmonic(
         [random_states(starts, radius, None, [seed, i]) for i in range(len(frequencies))]
     )
     data = sweep(
-        parameters, FREQUENCY, "frequency", states, settling or Settling(), workers=workers
+        parameters, FREQUENCY, "frequency", states, check_settling(settling), workers=workers
     )
     chosen = _is_subharmonic(data) & (data["period"][1] == 3) & (data["asymmetry"][1] < SAME)
     branches, counts = np.unique(data["branch"][1][chosen], return_counts=True)

@@ -1,10 +1,10 @@
 """Tables written as CSV and as Markdown."""
 
 import numbers
-import os
-from pathlib import Path
 
 import numpy as np
+
+from impact_damper.whole_files import whole
 
 DIGITS = 6
 
@@ -31,14 +31,8 @@ def plain(frame) -> str:
 
 
 def _write(path, content):
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.part-{os.getpid()}")
-    try:
+    with whole(path) as part:
         part.write_text(content)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 def _rounded(value):

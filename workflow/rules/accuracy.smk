@@ -14,11 +14,12 @@ rule scene_accuracy:
         "<logs>/accuracy/{scene}.log",
     benchmark:
         "<benchmarks>/accuracy/{scene}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=accuracy_job,
+        **parts(accuracy_job, "accuracy"),
     message:
         "Errors of methods against counted work, {wildcards.scene}"
     script:

@@ -13,12 +13,13 @@ rule harmonic_balance_map:
         "<logs>/balance_map/{balance_map}.log",
     benchmark:
         "<benchmarks>/balance_map/{balance_map}.tsv"
+    cache: SHARED
     priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=balance_map_job,
+        **parts(balance_map_job, "balance_map"),
     message:
         "Harmonic balance against the true motions, the map {wildcards.balance_map}"
     script:

@@ -15,11 +15,12 @@ rule free_branches:
         "<logs>/free_branches/{oscillator}.log",
     benchmark:
         "<benchmarks>/free_branches/{oscillator}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=free_branches_job,
+        **parts(free_branches_job, "free_branches"),
     message:
         "Branches of orbits of the free oscillator {wildcards.oscillator}"
     script:
@@ -37,11 +38,12 @@ rule damped_branches:
         "<logs>/branches/{curve}.log",
     benchmark:
         "<benchmarks>/branches/{curve}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=branches_job,
+        **parts(branches_job, "branches"),
     message:
         "Branches of orbits with the damper, for the curve {wildcards.curve}"
     script:

@@ -2,21 +2,24 @@
 
 import ast
 import json
+import math
 import os
+import re
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-import yaml
 from snakemake.exceptions import WorkflowError
 
 from impact_damper.configuration import (
     ConfigurationError,
     check_configuration,
-    check_unique_keys,
+    check_file,
+    read_schemas,
     without_left_out,
 )
 from impact_damper.contradictions import SECTIONS
+from impact_damper.variables.studies import AXES
 
 ROOT = Path(workflow.basedir)
 PACKAGE = Path(find_spec("impact_damper").origin).parent
@@ -38,17 +41,18 @@ wildcard_constraints:
     limit="[A-Za-z0-9_]+",
     balance_map="[A-Za-z0-9_]+",
     scene="[A-Za-z0-9_]+",
+    study="[A-Za-z0-9_]+",
     table="[a-z_]+",
 
 
 def checked(config):
     """The configuration with its keys in order, or an error that lists what is wrong with it."""
     config = without_left_out(config)
-    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+    schemas = read_schemas(ROOT / "workflow/schemas")
     try:
         for path in workflow.configfiles:
-            check_unique_keys(Path(path).read_text(), Path(path).name)
-        check_configuration(config, schema)
+            check_file(path)
+        check_configuration(config, schemas)
     except ConfigurationError as error:
         raise WorkflowError(f"The configuration cannot be run.\n{error}") from None
     # Snakemake compares parameters as text, in which the order of keys would count.
@@ -58,9 +62,30 @@ def checked(config):
 config = checked(config)
 
 
+SHARED = workflow.workflow_settings.cache is not None
+
+
+def untimed(path):
+    """Leaves a rule as it is."""
+    return lambda rule: rule
+
+
+# Snakemake refuses to share what it times, for data that come from another workflow cost nothing
+# here: with `--cache` the directive `benchmark` does nothing.
+if SHARED:
+    workflow.benchmark = untimed
+
+
+@cache
 def local(path):
     """Path as seen from the working directory, so that a checkout can move."""
     return os.path.relpath(path)
+
+
+# An import from the package. To parse nothing else spares a dry run half a second.
+IMPORT = re.compile(
+    rf"^ *((?:from|import) {PACKAGE.name}\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))", re.MULTILINE
+)
 
 
 @cache
@@ -70,15 +95,17 @@ def imports(path):
     A package's `__init__` counts only where a name is taken from it: it runs in any
     case, but decides nothing.
     """
+    statements = ast.parse("\n".join(IMPORT.findall(path.read_text()))).body
     names = []
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in statements:
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
+        else:
             names += [f"{node.module}.{alias.name}" for alias in node.names]
-    return {module_file(name) for name in names if name.split(".")[0] == PACKAGE.name}
+    return {module_file(name) for name in names}
 
 
+@cache
 def module_file(name):
     """File of the module that `impact_damper.a.b` is, or that it is taken from."""
     path = PACKAGE.joinpath(*name.split(".")[1:])
@@ -91,9 +118,22 @@ def module_file(name):
 
 @cache
 def code(script, *others):
-    """A script, other files, and all modules they import: inputs, so that their contents count."""
+    """What a job runs: inputs, so that their contents count.
+
+    These are a script, other files and all modules they import, and the versions of all packages.
+    """
     found, new = set(), {ROOT / "workflow/scripts" / script, *others}
     while new:
         found |= new
         new = set().union(*map(imports, new)) - found
-    return sorted(map(local, found))
+    return sorted(map(local, found | {ROOT / "requirements.lock"}))
+
+
+def write_provenance():
+    """Write down what the results were made with; this alone may differ from run to run."""
+    from impact_damper.provenance import provenance
+
+    path = Path(config["results"]) / "provenance.json"
+    part = path.with_name(f"{path.name}.part-{os.getpid()}")
+    part.write_text(json.dumps(provenance(config, ROOT), indent=2) + "\n")
+    os.replace(part, path)

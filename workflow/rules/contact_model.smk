@@ -13,11 +13,12 @@ rule contact_map:
         "<logs>/contact_model/{contact}.log",
     benchmark:
         "<benchmarks>/contact_model/{contact}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=contact_model_job,
+        **parts(contact_model_job, "contact_model"),
     message:
         "Contact model and contacts of motions, {wildcards.contact}"
     script:

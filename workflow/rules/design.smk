@@ -14,11 +14,12 @@ rule free_harmonic_balance:
         "<logs>/free_design/{oscillator}.log",
     benchmark:
         "<benchmarks>/free_design/{oscillator}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=free_design_job,
+        **parts(free_design_job, "free_design"),
     message:
         "Harmonic balance of the free oscillator {wildcards.oscillator}"
     script:
@@ -34,11 +35,12 @@ rule harmonic_balance:
         "<logs>/design/{curve}.log",
     benchmark:
         "<benchmarks>/design/{curve}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=design_job,
+        **parts(design_job, "design"),
     message:
         "Harmonic balance and suppression band of the curve {wildcards.curve}"
     script:
@@ -55,11 +57,12 @@ rule design_orbit:
         "<logs>/design_orbit/{curve}.log",
     benchmark:
         "<benchmarks>/design_orbit/{curve}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=design_orbit_job,
+        **parts(design_orbit_job, "design_orbit"),
     message:
         "True quiet orbit at the design point of the curve {wildcards.curve}"
     script:

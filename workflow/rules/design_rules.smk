@@ -13,11 +13,12 @@ rule optima_against_rules:
         "<logs>/design_rules/{grid}.log",
     benchmark:
         "<benchmarks>/design_rules/{grid}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=design_rules_job,
+        **parts(design_rules_job, "design_rules"),
     message:
         "Rules for the clearance against the optimum of the motion, on the grid {wildcards.grid}"
     script:

@@ -18,6 +18,7 @@ KINDS = {
     "verdicts": "Where methods fail",
     "balance_map": "Where methods fail",
     "accuracy": "Speed against accuracy",
+    "studies": "Optimum clearance",
 }
 
 
@@ -45,7 +46,7 @@ rule captions:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        jobs=[figure_entry(name) for name in config["figures"]],
+        *[partial(caption_of, name) for name in config["figures"]],
     message:
         "Captions of the figures"
     script:
@@ -73,7 +74,8 @@ rule draw_schematic:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=figure_job,
+        data=figure_entries,
+        job=figure_caption,
     message:
         "Drawing {wildcards.figure}"
     script:
@@ -106,7 +108,9 @@ for kind, category in KINDS.items():
             "../envs/impact-damper.yaml"
         threads: 1
         params:
-            job=figure_job,
+            kind=figure_kind,
+            data=figure_entries,
+            job=figure_caption,
             module=figure_module,
         message:
             "Drawing {wildcards.figure}"

@@ -13,12 +13,13 @@ rule free_response:
         "<logs>/free/{oscillator}.log",
     benchmark:
         "<benchmarks>/free/{oscillator}.tsv"
+    cache: SHARED
     priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=free_job,
+        **parts(free_job, "free"),
     message:
         "Motions of the free oscillator {wildcards.oscillator} over frequency"
     script:

@@ -1,8 +1,8 @@
 """Jobs of the stages beyond the paper: exact orbits, harmonics, rules, and where methods fail."""
 
 
-def design_orbit_job(wildcards):
-    curve = config["curves"][wildcards.curve]
+def design_orbit_job(name):
+    curve = config["curves"][name]
     return {
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
@@ -17,15 +17,15 @@ def span_of(oscillator):
     return [span["first"], span["last"]]
 
 
-def free_branches_job(wildcards):
+def free_branches_job(name):
     return {
-        "oscillator": oscillator_of(wildcards.oscillator),
-        "frequencies": span_of(wildcards.oscillator),
+        "oscillator": oscillator_of(name),
+        "frequencies": span_of(name),
     }
 
 
-def branches_job(wildcards):
-    curve = config["curves"][wildcards.curve]
+def branches_job(name):
+    curve = config["curves"][name]
     return {
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
@@ -44,8 +44,8 @@ def branch_motions(wildcards):
     ]
 
 
-def harmonics_job(wildcards):
-    scene = config["harmonics"][wildcards.harmonics]
+def harmonics_job(name):
+    scene = config["harmonics"][name]
     return {
         "oscillator": oscillator_of(scene["oscillator"]),
         "damper": damper_of(scene) if "mass_ratio" in scene else None,
@@ -55,8 +55,8 @@ def harmonics_job(wildcards):
     }
 
 
-def design_rules_job(wildcards):
-    grids = config["design_rules"][wildcards.grid]
+def design_rules_job(name):
+    grids = config["design_rules"][name]
     return {
         "oscillator": oscillator_of(grids["oscillator"]),
         "grid": [
@@ -66,8 +66,8 @@ def design_rules_job(wildcards):
     }
 
 
-def balance_map_job(wildcards):
-    entry = config["balance_map"][wildcards.balance_map]
+def balance_map_job(name):
+    entry = config["balance_map"][name]
     fixed = {key: entry[key] for key in ("damping", "linear_frequency") if key in entry}
     # the function follows rule (19) where it is given no clearance
     fixed |= {key: value for key, value in damper_of(entry).items() if value != "rule"}
@@ -80,8 +80,30 @@ def balance_map_job(wildcards):
     }
 
 
-def contact_model_job(wildcards):
-    model = config["contact_model"][wildcards.contact]
+def even(axis):
+    """Arguments of `numpy.linspace` for an axis of a study, which is a number or a range."""
+    if isinstance(axis, dict):
+        return [axis["first"], axis["last"], axis["points"]]
+    return [axis, axis, 1]
+
+
+def study_cells_job(name, chunk="1-of-1"):
+    study = config["studies"][name]
+    axes = {key: even(study[key]) for key in AXES}
+    number, chunks = map(int, chunk.split("-of-"))
+    cells = math.prod(points for _, _, points in axes.values())
+    return {
+        "oscillator": oscillator_of(study["oscillator"]),
+        "axes": axes,
+        "cells": [cells * (number - 1) // chunks, cells * number // chunks],
+        "contact_stiffness": config["contact_stiffness"],
+        "search": search("study_starts"),
+        "settling": settling(),
+    }
+
+
+def contact_model_job(name):
+    model = config["contact_model"][name]
     return {
         "oscillator": oscillator_of(model["oscillator"]),
         "damper": damper_of(model),
@@ -98,8 +120,8 @@ def contact_model_job(wildcards):
     }
 
 
-def rigid_limit_job(wildcards):
-    limit = config["rigid_limit"][wildcards.limit]
+def rigid_limit_job(name):
+    limit = config["rigid_limit"][name]
     ends = [limit["stiffnesses"]["first"], limit["stiffnesses"]["last"]]
     frequencies = [limit["frequencies"]["first"], limit["frequencies"]["last"]]
     return {
@@ -114,13 +136,13 @@ def rigid_limit_job(wildcards):
     }
 
 
-def missed_contacts_job(wildcards):
-    given = config["missed_contacts"][wildcards.passage]
+def missed_contacts_job(name):
+    given = config["missed_contacts"][name]
     return given | {"oscillator": oscillator_of(given["oscillator"]), "seed": config["seed"]}
 
 
-def stable_steps_job(wildcards):
-    given = config["stable_steps"][wildcards.stepping]
+def stable_steps_job(name):
+    given = config["stable_steps"][name]
     return {
         "oscillator": oscillator_of(given["oscillator"]),
         "damper": damper_of(given),
@@ -131,16 +153,16 @@ def stable_steps_job(wildcards):
     }
 
 
-def verdicts_job(wildcards):
-    given = config["verdicts"][wildcards.judged]
+def verdicts_job(name):
+    given = config["verdicts"][name]
     return given | {
         "oscillator": oscillator_of(given["oscillator"]),
         "contact_stiffness": config["contact_stiffness"],
     }
 
 
-def accuracy_job(wildcards):
-    scene = config["scenes"][wildcards.scene]
+def accuracy_job(name):
+    scene = config["scenes"][name]
     return {
         "oscillator": oscillator_of(scene["oscillator"]),
         "damper": damper_of(scene) if "mass_ratio" in scene else None,

@@ -13,11 +13,12 @@ rule harmonic_convergence:
         "<logs>/harmonics/{harmonics}.log",
     benchmark:
         "<benchmarks>/harmonics/{harmonics}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=harmonics_job,
+        **parts(harmonics_job, "harmonics"),
     message:
         "Harmonic balance with many harmonics against the exact orbit, for {wildcards.harmonics}"
     script:

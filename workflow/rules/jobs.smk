@@ -1,5 +1,8 @@
 """What each job needs: its parameters, in one dictionary that holds no others, and its data."""
 
+from functools import partial
+from itertools import chain
+
 # Section of the configuration whose entries a stage computes, each into a file of its name.
 STAGES = {
     "free_design": "oscillators",
@@ -24,6 +27,7 @@ STAGES = {
     "verdicts": "verdicts",
     "balance_map": "balance_map",
     "accuracy": "scenes",
+    "studies": "studies",
 }
 
 # Stages whose data a table holds.
@@ -91,6 +95,23 @@ def data(stage, chosen=None):
     return expand(f"<results>/{stage}/{{name}}.nc", name=names(stage) if chosen is None else chosen)
 
 
+def parts(job, stage):
+    """Parameters of a stage's jobs, each with its name; `job` gives all of them for an entry.
+
+    One by one, so that a dry run tells which of them changed; and with its name in its value, for
+    Snakemake compares the values as a set. The entry's name is one of them, since a file of data
+    holds it: another entry with the same values shall not take that file from a cache.
+    """
+
+    def named(wildcards):
+        return {"name": "/".join(wildcards)}
+
+    def part(key, wildcards):
+        return {key: job(*wildcards)[key]}
+
+    return {"name": named} | {key: partial(part, key) for key in chain(*map(job, names(stage)))}
+
+
 def oscillator_of(name):
     entry = config["oscillators"][name]
     return {key: entry[key] for key in ("damping", "linear_frequency")}
@@ -122,15 +143,15 @@ def settling():
     return given | {"tolerance": config["scenes"][config["settling"]["scene"]]["tolerance"]}
 
 
-def free_design_job(wildcards):
+def free_design_job(name):
     return {
-        "oscillator": oscillator_of(wildcards.oscillator),
-        "frequencies": frequencies_of(wildcards.oscillator, "harmonic_balance"),
+        "oscillator": oscillator_of(name),
+        "frequencies": frequencies_of(name, "harmonic_balance"),
     }
 
 
-def design_job(wildcards):
-    curve = config["curves"][wildcards.curve]
+def design_job(name):
+    curve = config["curves"][name]
     return {
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
@@ -138,17 +159,17 @@ def design_job(wildcards):
     }
 
 
-def free_job(wildcards):
+def free_job(name):
     return {
-        "oscillator": oscillator_of(wildcards.oscillator),
-        "frequencies": frequencies_of(wildcards.oscillator, "free"),
+        "oscillator": oscillator_of(name),
+        "frequencies": frequencies_of(name, "free"),
         "search": search("starts"),
         "settling": settling(),
     }
 
 
-def response_job(wildcards):
-    curve = config["curves"][wildcards.curve]
+def response_job(name):
+    curve = config["curves"][name]
     return {
         "oscillator": oscillator_of(curve["oscillator"]),
         "damper": damper_of(curve),
@@ -158,8 +179,8 @@ def response_job(wildcards):
     }
 
 
-def motion_job(wildcards):
-    motion = config["motions"][wildcards.motion]
+def motion_job(name):
+    motion = config["motions"][name]
     return {
         "oscillator": oscillator_of(motion["oscillator"]),
         "damper": damper_of(motion),
@@ -168,8 +189,8 @@ def motion_job(wildcards):
     }
 
 
-def collisions_job(wildcards):
-    motion = config["collisions"][wildcards.motion]
+def collisions_job(name):
+    motion = config["collisions"][name]
     return {
         "oscillator": oscillator_of(motion["oscillator"]),
         "damper": damper_of(motion),
@@ -179,8 +200,8 @@ def collisions_job(wildcards):
     }
 
 
-def optimum_job(wildcards):
-    optimum = config["optima"][wildcards.optimum]
+def optimum_job(name):
+    optimum = config["optima"][name]
     return {
         "oscillator": oscillator_of(optimum["oscillator"]),
         "damper": damper_of(optimum),
@@ -191,8 +212,8 @@ def optimum_job(wildcards):
     }
 
 
-def migration_job(wildcards):
-    run = config["migration"][wildcards.run]
+def migration_job(name):
+    run = config["migration"][name]
     return {
         "oscillator": oscillator_of(run["oscillator"]),
         "damper": damper_of(run),
@@ -203,8 +224,8 @@ def migration_job(wildcards):
     }
 
 
-def release_scan_job(wildcards):
-    scan = config["release_scans"][wildcards.scan]
+def release_scan_job(name):
+    scan = config["release_scans"][name]
     return {
         "oscillator": oscillator_of(scan["oscillator"]),
         "damper": damper_of(scan),
@@ -214,79 +235,6 @@ def release_scan_job(wildcards):
         "lifetime": scan["lifetime"],
         "settling": settling(),
     }
-
-
-def figures(*kinds):
-    """Names of the figures of some kinds."""
-    return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
-
-
-def one_of(choices):
-    """Pattern of a wildcard that takes one of some values, or none if there are none."""
-    return "|".join(choices) or "(?!)"
-
-
-def figure_job(wildcards):
-    return figure_entry(wildcards.figure)
-
-
-def figure_entry(name):
-    """A figure's entry, with the parameters of what it draws in place of the names alone."""
-    figure = config["figures"][name]
-    return figure | {"data": {name: drawn(figure["kind"], name) for name in figure["data"]}}
-
-
-def drawn(kind, name):
-    """Parameters of what a figure draws; a schematic has none."""
-    if kind == "schematic":
-        return {}
-    if kind == "free":
-        return {"oscillator": oscillator_of(name)}
-    entry = config[SECTIONS[kind]][name]
-    if "oscillator" not in entry:
-        return entry
-    parts = {
-        "oscillator": oscillator_of(entry["oscillator"]),
-        "damper": damper_of(entry) if "mass_ratio" in entry else None,
-    }
-    # A section that one stage has to itself is drawn with all that it holds.
-    keys = entry if SECTIONS[kind] == kind else [key for key in ("frequency",) if key in entry]
-    return {key: entry[key] for key in keys} | parts
-
-
-def figure_module(wildcards):
-    """Full name of the module that draws a figure; it is called as the kind, but for two."""
-    kind = config["figures"][wildcards.figure]["kind"]
-    others = {"release": "migration", "branches": "orbits"}
-    return f"impact_damper.figures.{others.get(kind, kind)}"
-
-
-def figure_code(wildcards):
-    """Sources of the drawing script and of the module that draws a figure."""
-    return code("draw.py", module_file(figure_module(wildcards)))
-
-
-def figure_data(wildcards):
-    """Files that a figure draws, by stage."""
-    figure = config["figures"][wildcards.figure]
-    kind, chosen = figure["kind"], figure["data"]
-    if kind == "free":
-        return {"free_branches": data("free_branches", chosen)}
-    if kind in ("response", "branches"):
-        oscillators = sorted({config["curves"][name]["oscillator"] for name in chosen})
-        stages = ["branches"] if kind == "branches" else ["design", "response", "subharmonic"]
-        return {"free_branches": data("free_branches", oscillators)} | {
-            stage: data(stage, [name for name in chosen if name in names(stage)])
-            for stage in dict.fromkeys([*stages, "branches"])
-        }
-    stage = "migration" if kind == "release" else kind
-    return {stage: data(stage, chosen)}
-
-
-def caption_template(name):
-    """Template of a figure's caption."""
-    kind = config["figures"][name]["kind"]
-    return local(ROOT / "workflow/report" / f"{kind}.rst")
 
 
 def table_module(wildcards):

@@ -13,12 +13,13 @@ rule migration_trials:
         "<logs>/migration/{run}.log",
     benchmark:
         "<benchmarks>/migration/{run}.tsv"
+    cache: SHARED
     priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=migration_job,
+        **parts(migration_job, "migration"),
     message:
         "Migration control, the case {wildcards.run}"
     script:

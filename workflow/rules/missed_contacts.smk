@@ -13,12 +13,13 @@ rule grazing_passages:
         "<logs>/missed_contacts/{passage}.log",
     benchmark:
         "<benchmarks>/missed_contacts/{passage}.tsv"
+    cache: SHARED
     priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=missed_contacts_job,
+        **parts(missed_contacts_job, "missed_contacts"),
     message:
         "Contacts near grazing that integrators miss, {wildcards.passage}"
     script:

@@ -13,11 +13,12 @@ rule clearance_sweep:
         "<logs>/optimum/{optimum}.log",
     benchmark:
         "<benchmarks>/optimum/{optimum}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=optimum_job,
+        **parts(optimum_job, "optimum"),
     message:
         "Largest displacement against clearance, and its optimum, for {wildcards.optimum}"
     script:

@@ -13,11 +13,12 @@ rule release_destinations:
         "<logs>/release_scan/{scan}.log",
     benchmark:
         "<benchmarks>/release_scan/{scan}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=release_scan_job,
+        **parts(release_scan_job, "release_scan"),
     message:
         "Where releases lead over frequency, the scan {wildcards.scan}"
     script:

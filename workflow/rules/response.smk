@@ -15,12 +15,13 @@ rule frequency_response:
         "<logs>/response/{curve}.log",
     benchmark:
         "<benchmarks>/response/{curve}.tsv"
+    cache: SHARED
     priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=response_job,
+        **parts(response_job, "response"),
     message:
         "Motions with the damper over frequency, of the curve {wildcards.curve}"
     script:
@@ -37,11 +38,12 @@ rule steady_motion:
         "<logs>/motion/{motion}.log",
     benchmark:
         "<benchmarks>/motion/{motion}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=motion_job,
+        **parts(motion_job, "motion"),
     message:
         "Steady motion {wildcards.motion}"
     script:
@@ -58,11 +60,12 @@ rule collisions:
         "<logs>/collisions/{motion}.log",
     benchmark:
         "<benchmarks>/collisions/{motion}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=collisions_job,
+        **parts(collisions_job, "collisions"),
     message:
         "Starts that lead to collisions, {wildcards.motion}"
     script:

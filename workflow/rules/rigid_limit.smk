@@ -13,11 +13,12 @@ rule rigid_error:
         "<logs>/rigid_limit/{limit}.log",
     benchmark:
         "<benchmarks>/rigid_limit/{limit}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=rigid_limit_job,
+        **parts(rigid_limit_job, "rigid_limit"),
     message:
         "Rigid impacts against compliant contact, {wildcards.limit}"
     script:

@@ -13,11 +13,12 @@ rule fixed_step_runs:
         "<logs>/stable_steps/{stepping}.log",
     benchmark:
         "<benchmarks>/stable_steps/{stepping}.tsv"
+    cache: SHARED
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=stable_steps_job,
+        **parts(stable_steps_job, "stable_steps"),
     message:
         "Largest stable steps of fixed-step methods, {wildcards.stepping}"
     script:

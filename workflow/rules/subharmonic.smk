@@ -13,12 +13,13 @@ rule subharmonic_suppression:
         "<logs>/subharmonic/{curve}.log",
     benchmark:
         "<benchmarks>/subharmonic/{curve}.tsv"
+    cache: SHARED
     priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=response_job,
+        **parts(response_job, "subharmonic"),
     message:
         "What the damper makes of the one-third subharmonic, for the curve {wildcards.curve}"
     script:

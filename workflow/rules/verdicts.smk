@@ -13,12 +13,13 @@ rule method_verdicts:
         "<logs>/verdicts/{judged}.log",
     benchmark:
         "<benchmarks>/verdicts/{judged}.tsv"
+    cache: SHARED
     priority: 1
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
     params:
-        job=verdicts_job,
+        **parts(verdicts_job, "verdicts"),
     message:
         "Verdicts of integrators by tolerance, {wildcards.judged}"
     script:

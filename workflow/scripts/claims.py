@@ -1,13 +1,13 @@
 """The claims table: every claim of the paper, the number that decides it, and the verdict."""
 
-import sys
 from pathlib import Path
 
 from impact_damper.claims.verdicts import claims, document
 from impact_damper.datasets import load
+from impact_damper.job import begin
 from impact_damper.table_files import save
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
+begin(snakemake.log[0])
 datasets = {
     stage: {Path(path).stem: load(path) for path in paths}
     for stage, paths in snakemake.input.items()

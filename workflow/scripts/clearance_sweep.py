@@ -1,16 +1,17 @@
 """Largest displacement against clearance, and its optimum (figures 6, 7 and 11)."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
+from impact_damper.job import begin
 from impact_damper.optimum import clearance_sweep
 from impact_damper.parameters import Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 sweep = clearance_sweep(
     Oscillator(**job["oscillator"]),
     job["damper"],

@@ -1,13 +1,14 @@
 """Whether random starts in the literal ball lead to collisions (section 3, claim 8)."""
 
-import sys
+from collections import ChainMap
 
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.response import collisions
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 shares = collisions(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

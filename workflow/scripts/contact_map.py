@@ -1,16 +1,17 @@
 """The contact model over restitution and load, and contacts of motions in it."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.contact_model import contact_model, spread_loads
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 model = contact_model(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

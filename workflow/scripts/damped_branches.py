@@ -1,13 +1,14 @@
 """Every branch of periodic orbits with a damper, stable or not (figures 5, 8 and 10)."""
 
-import sys
+from collections import ChainMap
 
 from impact_damper.datasets import load, save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.periodic import complete_branches
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 branches = complete_branches(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

@@ -1,15 +1,16 @@
 """What becomes of the quiet motion with fixed steps, over stiffness and step."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.stable_steps import stable_steps
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 stiffnesses, scaled = job["stiffnesses"], job["scaled_steps"]
 found = stable_steps(
     Oscillator(**job["oscillator"]),

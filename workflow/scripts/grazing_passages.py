@@ -1,15 +1,16 @@
 """Contacts near grazing that integrators miss, counted over random passages."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.missed_contacts import missed_contacts
 from impact_damper.parameters import Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 depths, tolerances, steps = job["depths"], job["tolerances"], job["steps"]
 steps = np.geomspace(steps["first"], steps["last"], tolerances["points"])
 found = missed_contacts(

@@ -1,16 +1,17 @@
 """Harmonic-balance response and suppression band of a damper (section 2, figures 3, 5 and 8)."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 import xarray as xr
 
 from impact_damper.datasets import save
 from impact_damper.design import harmonic_balance_response, optimum_clearance, suppression_band
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])
 given = job["damper"]
 if given["clearance"] == "rule":

@@ -1,15 +1,16 @@
 """Where harmonic balance fails, over frequency and another parameter."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.balance_map import balance_map
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
+from impact_damper.job import begin
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 found = balance_map(
     job["parameter"],
     np.linspace(*job["values"]),

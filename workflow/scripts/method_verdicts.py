@@ -1,15 +1,16 @@
 """Verdicts of integrators by tolerance, against the truth."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.verdicts import make_scene, verdicts
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])
 scenes = {}
 for name, given in (job["damped"] | job["free"]).items():

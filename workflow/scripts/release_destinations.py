@@ -1,16 +1,17 @@
 """Where releases of the damper lead over frequency (section 5, figure 14)."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.release_scan import release_scan
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 scan = release_scan(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

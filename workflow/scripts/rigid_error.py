@@ -1,16 +1,17 @@
 """Rigid impacts against compliant contact over frequency and contact stiffness."""
 
-import sys
+from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.rigid_limit import rigid_limit
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 limit = rigid_limit(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

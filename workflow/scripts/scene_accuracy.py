@@ -1,22 +1,24 @@
 """Errors of methods against counted work, on one scene."""
 
 import json
-import sys
+from collections import ChainMap
 from pathlib import Path
 
 from impact_damper.accuracy import Scene, error_against_work
 from impact_damper.datasets import save
+from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = dict(snakemake.params.job)
+begin(snakemake.log[0])
+job = dict(ChainMap(*snakemake.params))
 settings, damper = job.pop("settings"), job.pop("damper")
-name = snakemake.wildcards.scene
 scene = Scene(
-    name, Oscillator(**job.pop("oscillator")), None if damper is None else Damper(**damper), **job
+    oscillator=Oscillator(**job.pop("oscillator")),
+    damper=None if damper is None else Damper(**damper),
+    **job,
 )
 references = json.loads(Path(snakemake.input.references).read_text())
 save(
-    error_against_work(scene, settings, references.get(name)),
+    error_against_work(scene, settings, references.get(scene.name)),
     snakemake.output[0],
 )

@@ -1,14 +1,15 @@
 """A steady motion over its period (figure 4)."""
 
-import sys
+from collections import ChainMap
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
+from impact_damper.job import begin
 from impact_damper.motions import steady_orbit
 from impact_damper.parameters import Damper, Oscillator
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", buffering=1)
-job = snakemake.params.job
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
 motion = steady_orbit(
     Oscillator(**job["oscillator"]),
     Damper(**job["damper"]),

@@ -2,11 +2,10 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path
-from matplotlib.transforms import Affine2D
 
 from impact_damper.datasets import flag, parameters_of
+from impact_damper.figures.maps import hatch as hatch_cells
+from impact_damper.figures.maps import span
 from impact_damper.figures.style import (
     BLACK,
     BLUE,
@@ -85,8 +84,8 @@ def draw_balance_map(*, balance_map):
         axes.set_xlabel(axis_label(data["frequency_ratio"]))
     quiet.set(
         ylabel=PARAMETERS[parameters_of(data)["parameter"]],
-        xlim=_span(data["frequency_ratio"].values),
-        ylim=_span(data["map_value"].values),
+        xlim=span(data["frequency_ratio"].values),
+        ylim=span(data["map_value"].values),
     )
     letter_panels([quiet, high])
     for axes, words, side in (
@@ -95,11 +94,6 @@ def draw_balance_map(*, balance_map):
     ):
         drawn.legend(*axes.get_legend_handles_labels(), title=words, loc=f"outside lower {side}")
     return drawn
-
-
-def _span(centres):
-    """Outer edges of the first and the last cell."""
-    return centres[0] - np.diff(centres)[0] / 2, centres[-1] + np.diff(centres)[-1] / 2
 
 
 def _draw_classes(axes, data, name, classes):
@@ -113,21 +107,8 @@ def _draw_classes(axes, data, name, classes):
             axes.pcolormesh(*grid, cells, cmap=ListedColormap([color]), rasterized=True)
             look = {"hatch": hatch, "edgecolor": GREY}
             if hatch:
-                _hatch(axes, *grid, here, **look)
+                hatch_cells(axes, *grid, here, linewidth=0, **look)
             axes.fill([], [], facecolor=color, label=label, linewidth=0.4, **look)
-
-
-def _hatch(axes, x, y, here, **look):
-    """Hatching over cells as one path; cell by cell it would take longer than all the rest."""
-    x, y = (np.linspace(*_span(centres), len(centres) + 1) for centres in (x, y))
-    cells = [
-        Path.unit_rectangle().transformed(
-            Affine2D.from_values(x[j + 1] - x[j], 0, 0, y[i + 1] - y[i], x[j], y[i])
-        )
-        for i, j in zip(*np.nonzero(here), strict=True)
-    ]
-    whole = Path.make_compound_path(*cells)
-    axes.add_patch(PathPatch(whole, facecolor="none", linewidth=0, rasterized=True, **look))
 
 
 def _draw_edge(axes, verdict):

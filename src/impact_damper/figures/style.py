@@ -4,14 +4,14 @@ The palette is that of Okabe and Ito, which colour-blind readers can tell apart.
 Roles that meet in one figure differ in marker or line as well, for grey print.
 """
 
-import os
 import re
 import string
-from pathlib import Path
 
 import matplotlib.style
 from cycler import cycler
 from matplotlib.figure import Figure
+
+from impact_damper.whole_files import whole
 
 BLACK, GREY, PALE, WHITE = "#000000", "#6E6E6E", "#E9E9E9", "#FFFFFF"
 ORANGE, SKY, GREEN = "#E69F00", "#56B4E9", "#009E73"
@@ -222,16 +222,10 @@ def save(figure, path) -> None:
     ones show the same picture. With the engine taken off, and not replaced by "none",
     matplotlib does not draw all of it once more before it writes a file.
     """
-    Path(path).parent.mkdir(parents=True, exist_ok=True)
     with style():
         if figure.get_layout_engine() is not None:
             figure.get_layout_engine().execute(figure)
         figure.set_layout_engine(None)
         for kind, metadata in {"pdf": {"CreationDate": None}, "png": {"Software": None}}.items():
-            whole = Path(f"{path}.{kind}")
-            part = Path(f"{whole}.part-{os.getpid()}")
-            try:
+            with whole(f"{path}.{kind}") as part:
                 figure.savefig(part, format=kind, metadata=metadata)
-                os.replace(part, whole)
-            finally:
-                part.unlink(missing_ok=True)

@@ -14,6 +14,7 @@ from impact_damper.variables import (
     migration,
     motions,
     orbits,
+    studies,
     subharmonic,
 )
 from impact_damper.variables.variable import Variable
@@ -30,6 +31,7 @@ MODULES = (
     integrators,
     balance_map,
     accuracy,
+    studies,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

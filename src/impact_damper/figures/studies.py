@@ -1,0 +1,62 @@
+"""Maps of the largest displacement over mass ratio and clearance."""
+
+from itertools import product
+
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from impact_damper.datasets import parameters_of
+from impact_damper.figures.maps import hatch, mesh, span
+from impact_damper.figures.style import BLACK, ROLES, axis_label, figure, legend, style
+
+# Of the hatching: cells in which not all starts settled.
+UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
+
+
+@style()
+def draw_studies(*, studies):
+    """A panel for each pair of a frequency, along a row, and a restitution.
+
+    Parameters
+    ----------
+    studies : list of xarray.Dataset
+        One, of `gather_chunks`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    (data,) = studies
+    pairs = list(product(data["restitution"].values, data["frequency"].values))
+    rows, columns = data.sizes["restitution"], data.sizes["frequency"]
+    drawn = figure("single" if columns == 1 else "double", 3.6 * rows)
+    panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    sizes = data["largest_displacement"].values
+    sizes = sizes[np.isfinite(sizes)]
+    norm = LogNorm(sizes.min(), sizes.max())
+    for axes, (e, w) in zip(panels.flat, pairs, strict=True):
+        shown = _draw(axes, data.sel(frequency=w, restitution=e), norm)
+        if len(pairs) > 1:
+            axes.set_title(rf"$\Omega = {w:g}$, $e = {e:g}$")
+    for axes in panels[:, 0]:
+        axes.set_ylabel(axis_label(data["clearance"]))
+    for axes in panels[-1]:
+        axes.set_xlabel(axis_label(data["mass_ratio"]))
+    drawn.colorbar(shown, ax=panels, label="Largest displacement that starts lead to")
+    legend(drawn, 1 if columns == 1 else 3)
+    return drawn
+
+
+def _draw(axes, data, norm):
+    grid = data["mass_ratio"].values, data["clearance"].values
+    shown = mesh(axes, *grid, data["largest_displacement"].values.T, norm)
+    settled = data["outcome_count"].sel(counted_outcome=["settled", "non_colliding"])
+    part = settled.sum("counted_outcome").values.T < parameters_of(data)["starts"]
+    if part.any():
+        hatch(axes, *grid, part, **UNSETTLED)
+    axes.fill([], [], facecolor="none", label="not all starts settled", **UNSETTLED)
+    axes.plot(grid[0], data["rule_clearance"], color=BLACK, label=r"$r_m \Omega^2 d_0 = 1$")
+    best = ROLES["optimum"] | {"label": "least at this mass ratio"}
+    axes.plot(grid[0], data["best_clearance"], **best)
+    axes.set_ylim(*span(grid[1]))
+    return shown

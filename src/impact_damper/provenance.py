@@ -1,0 +1,77 @@
+"""Where results come from: versions, commit, configuration and machine."""
+
+import hashlib
+import json
+import os
+import platform
+import re
+import subprocess
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+
+def provenance(configuration, root) -> dict:
+    """What results depend on, and what they were made with.
+
+    Parameters
+    ----------
+    configuration : dict
+        The merged configuration of the run; its digest does not depend on the order of keys.
+    root : path-like
+        Folder of the project, with its lock file.
+
+    Returns
+    -------
+    dict
+        `configuration` and `lock` as SHA-256 digests; the `commit`, and whether tracked files were
+        `modified` since, or None outside of a repository; `versions` of Python and of all installed
+        packages that the lock file names; and the `machine`.
+    """
+    root = Path(root)
+    lock = (root / "requirements.lock").read_bytes()
+    text = json.dumps(configuration, sort_keys=True)
+    commit = _git(root, "rev-parse", "HEAD")
+    changes = _git(root, "status", "--porcelain", "--untracked-files=no")
+    return {
+        "configuration": hashlib.sha256(text.encode()).hexdigest(),
+        "lock": hashlib.sha256(lock).hexdigest(),
+        "commit": commit,
+        "modified": None if changes is None else bool(changes),
+        "versions": {"python": platform.python_version()} | _versions(lock.decode()),
+        "machine": {
+            "processor": processor(),
+            "cores": os.cpu_count(),
+            "system": platform.platform(),
+        },
+    }
+
+
+def processor() -> str:
+    """The processor's name, with family and model where the system tells."""
+    info = Path("/proc/cpuinfo")
+    if not info.exists():
+        return platform.processor() or platform.machine()
+    lines = [line.split(":", 1) for line in info.read_text().splitlines() if ":" in line]
+    entries = {key.strip(): value.strip() for key, value in reversed(lines)}
+    name = entries.get("model name", platform.machine())
+    return f"{name}, family {entries.get('cpu family')}, model {entries.get('model')}"
+
+
+def _versions(lock):
+    """Installed versions of the packages in a lock file."""
+    found = {}
+    for name in ["impact-damper", *re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)]:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def _git(root, *arguments):
+    """What git says, or None where there is no git or no repository."""
+    command = ["git", "-C", str(root), *arguments]
+    try:
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return None

@@ -1,0 +1,1 @@
+"""Trials of what may go wrong with a run: `make faults`."""

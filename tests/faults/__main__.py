@@ -1,0 +1,104 @@
+"""All trials, or those of some kinds, and a table of what came of each."""
+
+import argparse
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from impact_damper import table_files
+
+from . import damages, disks, kills, times
+from .disks import CannotMount
+from .project import Fault, Project, end_all, expect
+
+KINDS = {
+    trials.__name__: trials for part in (kills, damages, disks, times) for trials in part.TRIALS
+}
+
+
+class Context:
+    """What all trials share: a folder, an undisturbed run, and random draws of their own."""
+
+    def __init__(self, folder, given):
+        self.folder, self.seed, self.moments = folder, given.seed, given.moments
+        self._whole = Project(folder / "undisturbed")
+        code, told = self._whole.run()  # compiles, where nothing is compiled yet
+        expect(code == 0, told)
+        self.undisturbed = self._whole.outputs()
+        begin = time.monotonic()
+        again = self.fresh("timed")
+        expect(again.run()[0] == 0, "the undisturbed run fails")
+        self.seconds = time.monotonic() - begin
+        again.expect_same(self.undisturbed)
+
+    def fresh(self, name):
+        """A project that has not run."""
+        return Project(self.folder / name)
+
+    def finished(self, name):
+        """A project after its run."""
+        return Project(self.folder / name, like=self._whole)
+
+    def clear(self):
+        """Remove all projects but the undisturbed one."""
+        for left in self.folder.iterdir():
+            if left != self._whole.folder:
+                shutil.rmtree(left, ignore_errors=True)
+
+    def random(self, name):
+        return np.random.default_rng([self.seed, zlib.crc32(name.encode())])
+
+
+def tried(trial):
+    """How a trial ended, and what is to be said of it."""
+    try:
+        return "as it should", trial()
+    except CannotMount as reason:
+        return "skipped", str(reason)
+    except Fault as fault:
+        return "FAILED", " ".join(str(fault).split())
+
+
+def try_all(given):
+    """A row for each trial, printed as it ends."""
+    rows = []
+    with tempfile.TemporaryDirectory(prefix="faults-") as folder:
+        try:
+            context = Context(Path(folder), given)
+            print(f"undisturbed in {context.seconds:.0f} s", flush=True)
+            for kind in given.kinds or KINDS:
+                for name, trial in KINDS[kind](context):
+                    ended, said = tried(trial)
+                    rows.append({"fault": name, "outcome": ended, "what it takes": said})
+                    print(f"{ended:12s} | {name} | {said}", flush=True)
+                    context.clear()
+        finally:
+            end_all()
+    return rows
+
+
+def main():
+    reader = argparse.ArgumentParser(prog="python -m faults", description=__doc__)
+    reader.add_argument("kinds", nargs="*", help=f"of {', '.join(KINDS)}; all if none")
+    reader.add_argument("--moments", type=int, default=20, help="kills of each kind")
+    reader.add_argument("--seed", type=int, default=1995, help="of all random moments and places")
+    reader.add_argument("--table", type=Path, default=Path("results/faults/trials"))
+    given = reader.parse_args()
+    if unknown := set(given.kinds) - set(KINDS):
+        reader.error(f"unknown: {', '.join(sorted(unknown))}; known: {', '.join(KINDS)}")
+    # As after Ctrl-C, runs under way end and mounts are taken down.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    rows = try_all(given)
+    table = given.table
+    table_files.save(pd.DataFrame(rows), table.with_suffix(".csv"), table.with_suffix(".md"))
+    sys.exit(any(row["outcome"] == "FAILED" for row in rows))
+
+
+main()

@@ -1,0 +1,91 @@
+"""Files in the folder of results that no run has left like this."""
+
+import os
+
+import xarray as xr
+
+from .project import DATA, DELETE, expect
+
+OTHER = "results/design/figure_05a.nc"
+
+
+def _cut(path, random):
+    os.truncate(path, int(random.integers(1, path.stat().st_size)))
+
+
+def _emptied(path, random):
+    path.write_bytes(b"")
+
+
+def _zeroed(path, random):
+    content = path.read_bytes()
+    kept = int(random.integers(len(content) // 2, len(content) - 8000))
+    path.write_bytes(content[:kept] + bytes(len(content) - kept))
+
+
+def _text(path, random):
+    path.write_text("time,displacement\n0,1\n")
+
+
+def _other_netcdf(path, random):
+    xr.Dataset({"temperature": ("time", [1.0, 2.0])}).to_netcdf(path, engine="netcdf4")
+
+
+def _other_result(path, random):
+    path.write_bytes((path.parents[2] / OTHER).read_bytes())
+
+
+DAMAGES = {
+    "cut off": _cut,
+    "empty": _emptied,
+    "its end made zero": _zeroed,
+    "a text": _text,
+    "a NetCDF file of another program": _other_netcdf,
+    "the result of another job": _other_result,
+}
+
+
+def damaged(context):
+    for name, damage in DAMAGES.items():
+        yield f"a NetCDF file in `results/`: {name}", _trial(context, name, damage, False)
+    for name in ("cut off", "empty"):
+        yield (
+            f"a NetCDF file in `results/`: {name}, with its old date",
+            _trial(context, f"old {name}", DAMAGES[name], True),
+        )
+
+
+def _trial(context, name, damage, old):
+    def trial():
+        project = context.finished(name.replace(" ", "-"))
+        path = project.folder / DATA
+        stat = path.stat()
+        damage(path, context.random(name))
+        if old:
+            os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+        code, told = project.run()
+        expect(code, "nothing is told")
+        lines = [line for line in told.splitlines() if DATA in line and DELETE in line]
+        expect(lines, f"it is not told what to do: {told[-500:]}")
+        expect("Traceback" not in told, "a traceback is shown")
+        path.unlink()
+        # what was made of the file is made again, a table and a figure
+        project.recover(context.undisturbed, lost=2)
+        return "told: delete it; run again"
+
+    return trial
+
+
+def stale_parts(context):
+    def trial():
+        project = context.finished("parts")
+        path = project.folder / DATA
+        path.with_name(f"{path.name}.part-1").write_bytes(path.read_bytes()[:1000])
+        path.unlink()
+        project.recover(context.undisturbed, lost=2)
+        return "run again"
+
+    yield "a part that a killed job has left", trial
+
+
+TRIALS = [damaged, stale_parts]

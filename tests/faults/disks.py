@@ -1,0 +1,97 @@
+"""A full disk, and a folder that cannot be written to; both take the right to mount."""
+
+import subprocess
+from contextlib import contextmanager
+from functools import partial
+
+from .project import DATA, expect
+
+FIGURE = ["results/figures/figure_06.png", "results/figures/figure_06.pdf"]
+FULL = "No space left on device"
+KILOBYTES = (8, 40, 80, 120, 160, 200)
+
+
+class CannotMount(Exception):
+    """The reason why a trial is skipped."""
+
+
+def _mount(*arguments):
+    try:
+        done = subprocess.run(["mount", *map(str, arguments)], capture_output=True, text=True)
+    except FileNotFoundError as error:
+        raise CannotMount("there is no `mount` here") from error
+    if done.returncode:
+        raise CannotMount(done.stderr.strip())
+
+
+@contextmanager
+def _mounted(folder, *arguments):
+    folder.mkdir(parents=True, exist_ok=True)
+    _mount(*arguments, folder)
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", "--lazy", str(folder)], check=True)
+
+
+def full_disk(context):
+    for kilobytes in KILOBYTES:
+        yield (
+            f"a full disk under `results/`, of {kilobytes} kB",
+            _full(context, kilobytes, whole=False),
+        )
+    # a copy of the project takes some two megabytes
+    yield "a full disk under all of the project", _full(context, 200, whole=True)
+
+
+def _full(context, kilobytes, whole):
+    def trial():
+        folder = context.folder / f"full-{kilobytes}-{whole}"
+        disk = folder if whole else folder / "results"
+        with _mounted(disk, "-t", "tmpfs", "-o", "size=1g", "tmpfs"):
+            project = context.fresh(folder.name)
+            # as much room as is said, beside what the project itself takes
+            used = subprocess.run(["df", "--output=used", disk], capture_output=True, text=True)
+            size = int(used.stdout.split()[-1]) + kilobytes
+            _mount("-o", f"remount,size={size}k", disk)
+            code, told = project.run()
+            expect(code, "the run says that all is well")
+            expect(FULL in told, f"it is not told that the disk is full: {told[-500:]}")
+            project.expect_only_whole(context.undisturbed)
+            _mount("-o", "remount,size=1g", disk)
+            return f"told: {FULL.lower()}; room made, {project.recover(context.undisturbed)}"
+
+    return trial
+
+
+def read_only(context):
+    def trial(missing):
+        project = context.finished("read-only")
+        for path in missing:
+            (project.folder / path).unlink()
+        results = project.folder / "results"
+        with _mounted(results, "--bind", results):
+            _mount("-o", "remount,ro,bind", results)
+            code, told = project.run()
+        expect(code, "the run says that all is well")
+        expect("make it writable" in told, f"it is not told what to do: {told[-500:]}")
+        expect("Traceback" not in told, "a traceback is shown")
+        project.recover(context.undisturbed)
+        return "told: make it writable; run again"
+
+    def finished():
+        project = context.finished("read-only-finished")
+        results = project.folder / "results"
+        with _mounted(results, "--bind", results):
+            _mount("-o", "remount,ro,bind", results)
+            project.expect_same(context.undisturbed)
+            code, told = project.run()
+        expect(code == 0, f"a run with nothing to do fails: {told[-500:]}")
+        return "nothing to do"
+
+    yield "a read-only `results/`, data missing", partial(trial, [DATA])
+    yield "a read-only `results/`, a figure missing", partial(trial, FIGURE)
+    yield "a read-only `results/`, all finished", finished
+
+
+TRIALS = [full_disk, read_only]

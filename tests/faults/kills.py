@@ -1,0 +1,128 @@
+"""`kill -9` of Snakemake and of a job, and Ctrl-C, at random moments."""
+
+import os
+import signal
+import time
+
+import psutil
+
+from .project import DATA, Project, expect
+
+WAIT = 0.02  # seconds between two looks
+
+
+def moments(context, name):
+    """Random moments of a run, in seconds after its start."""
+    spread = context.random(name).uniform(0.0, context.seconds, context.moments)
+    return sorted(float(moment) for moment in spread)
+
+
+def job_of(process):
+    """A job of a run, or None if none runs or the run has ended."""
+    try:
+        children = psutil.Process(process.pid).children(recursive=True)
+        jobs = [child for child in children if ".snakemake/scripts" in " ".join(child.cmdline())]
+    except psutil.Error:
+        return None
+    return jobs[0] if jobs else None
+
+
+def wait_for_end_of_orphans(folder):
+    """Jobs end with their run, so that this does not wait until they have computed."""
+    end = time.monotonic() + 10
+    while time.monotonic() < end:
+        if not any(_within(folder, process) for process in psutil.process_iter(["cmdline"])):
+            return
+        time.sleep(WAIT)
+    expect(False, "jobs go on though their run was killed")
+
+
+def _within(folder, process):
+    line = " ".join(process.info["cmdline"] or [])
+    return f"{folder}/.snakemake/scripts" in line
+
+
+def kill_snakemake(context):
+    for number, moment in enumerate(moments(context, "snakemake")):
+        yield f"`kill -9` of Snakemake after {moment:.1f} s", _killed(context, number, moment)
+
+
+def _killed(context, number, moment):
+    def trial():
+        project = context.fresh(f"snakemake-{number}")
+        process = project.start()
+        time.sleep(moment)
+        process.kill()
+        process.communicate()
+        wait_for_end_of_orphans(project.folder)
+        return project.recover(context.undisturbed)
+
+    return trial
+
+
+def kill_job(context):
+    for number, moment in enumerate(moments(context, "job")):
+        yield f"`kill -9` of a job after {moment:.1f} s", _job_killed(context, number, moment)
+
+
+def _job_killed(context, number, moment):
+    def trial():
+        project = context.fresh(f"job-{number}")
+        process = project.start()
+        time.sleep(moment)
+        while process.poll() is None and not (job := job_of(process)):
+            time.sleep(WAIT)
+        if process.poll() is None and job.is_running():
+            job.kill()
+        process.communicate()
+        return project.recover(context.undisturbed)
+
+    return trial
+
+
+def interrupt(context):
+    for number, moment in enumerate(moments(context, "interrupt")[:: max(context.moments // 4, 1)]):
+        yield f"Ctrl-C after {moment:.1f} s", _interrupted(context, number, moment)
+
+
+def _interrupted(context, number, moment):
+    def trial():
+        project = context.fresh(f"interrupt-{number}")
+        process = project.start()
+        time.sleep(moment)
+        os.killpg(process.pid, signal.SIGINT)
+        process.communicate()
+        wait_for_end_of_orphans(project.folder)
+        took = project.recover(context.undisturbed)
+        return took
+
+    return trial
+
+
+def edit_after_kill(context):
+    """A job of a killed run must not write over what a run of an edited configuration makes."""
+
+    def trial():
+        def edit(project):
+            project.edit("config/small.yaml", "clearances: 3", "clearances: 4")
+
+        undisturbed = Project(context.folder / "edited")
+        edit(undisturbed)
+        expect(undisturbed.run()[0] == 0, "the edited configuration does not run")
+        project = context.fresh("edit-after-kill")
+        process = project.start()
+        while not (project.folder / DATA.replace("/", "/logs/", 1)).with_suffix(".log").exists():
+            expect(process.poll() is None, "the run ended before its job began")
+            time.sleep(WAIT)
+        process.kill()
+        edit(project)
+        project.run("--unlock")
+        expect(project.run()[0] == 0, "the edited configuration does not run after a kill")
+        process.communicate()
+        project.expect_same(undisturbed.outputs())
+        return "--unlock, run again"
+
+    yield "`kill -9` of Snakemake, then an edit at once", trial
+
+
+TRIALS = [kill_snakemake, kill_job, interrupt, edit_after_kill]

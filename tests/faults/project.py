@@ -1,0 +1,158 @@
+"""A small copy of the project, runs of it, and whether it came to what an undisturbed run makes."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+# Not the package: kernels are kept by the place of their sources, and would be compiled again.
+PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow"]
+DATA = "results/optimum/h215_rm012.nc"
+TARGETS = [
+    DATA,
+    "results/design/figure_05a.nc",
+    "results/tables/optima.csv",
+    "results/figures/figure_06.png",
+]
+CONFIGURATIONS = ["config/smoke.yaml", "config/small.yaml"]
+CORES = 2
+KINDS = {".nc", ".csv", ".md", ".png", ".pdf"}
+LOCKED = "cannot be locked"
+DELETE = "delete it and run the same command again"
+STARTED = []  # runs, so that none outlives the trials
+
+
+def end_all():
+    """End every run that goes on."""
+    for process in STARTED:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+
+
+class Fault(AssertionError):
+    """What a trial has found wrong."""
+
+
+def expect(holds, what):
+    if not holds:
+        raise Fault(what)
+
+
+class Project:
+    """A copy of the project in a folder of its own.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Made if there is none; a copy of `like` if that is given, with its results.
+    like : Project
+        Where to copy from, in place of this project.
+    """
+
+    def __init__(self, folder, like=None):
+        self.folder = folder
+        if like:
+            shutil.copytree(like.folder, folder, dirs_exist_ok=True)
+            return
+        folder.mkdir(parents=True, exist_ok=True)
+        for part in PARTS:
+            copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
+            copy(ROOT / part, folder / part)
+        shutil.copy(Path(__file__).with_name("small.yaml"), folder / CONFIGURATIONS[-1])
+
+    def start(self, *arguments, targets=TARGETS):
+        """The documented command, as a process at the head of a group of its own."""
+        command = [sys.executable, "-m", "snakemake", "--cores", str(CORES), *targets]
+        process = subprocess.Popen(
+            [*command, "--configfile", *CONFIGURATIONS, *arguments],
+            cwd=self.folder,
+            env=os.environ | {"PYTHONPATH": str(ROOT / "src")},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        STARTED.append(process)
+        return process
+
+    def run(self, *arguments, **options):
+        """Exit code of the documented command, and what it told."""
+        process = self.start(*arguments, **options)
+        told, _ = process.communicate()
+        return process.returncode, told
+
+    def planned(self):
+        """What a dry run would do, in the words of its messages."""
+        code, told = self.run("-n")
+        expect(code == 0, f"a dry run fails: {told[-500:]}")
+        return re.findall(r"^Job \d+: (.*)$", told, re.M)
+
+    def outputs(self):
+        """Contents of all outputs that are to be the same at every run, by path."""
+        found = sorted((self.folder / "results").rglob("*"))
+        return {
+            str(path.relative_to(self.folder)): path.read_bytes()
+            for path in found
+            if path.suffix in KINDS
+        }
+
+    def written(self):
+        """When each output was written, and into which file on the disk."""
+        return {
+            path: (stat.st_ino, stat.st_mtime_ns)
+            for path in self.outputs()
+            for stat in [(self.folder / path).stat()]
+        }
+
+    def expect_only_whole(self, undisturbed):
+        """No file has a name that it does not deserve."""
+        for path, content in self.outputs().items():
+            expect(content == undisturbed.get(path), f"{path} is taken for whole and is not")
+
+    def recover(self, undisturbed, lost=CORES):
+        """Run the documented command again, and look at what comes of it.
+
+        Returns what it took: "run again" or "--unlock, run again".
+        """
+        self.expect_only_whole(undisturbed)
+        before, took = self.written(), "run again"
+        code, told = self.run()
+        if code and LOCKED in told:
+            expect("--unlock" in told, "a lock is told without the way out")
+            took = "--unlock, run again"
+            self.run("--unlock")
+            code, told = self.run()
+        expect(code == 0, f"the run does not recover: {told[-800:]}")
+        after = self.written()
+        # the first second of 1970 is what the check of dates leaves
+        again = {
+            Path(path).with_suffix("")
+            for path in before
+            if before[path] != after[path] and after[path][1] > 10**9
+        }
+        expect(len(again) <= lost, f"finished, and made again: {sorted(map(str, again))}")
+        self.expect_same(undisturbed)
+        return took
+
+    def expect_same(self, undisturbed):
+        """The bytes of an undisturbed run, nothing beside them, nothing left to do."""
+        found = self.outputs()
+        differing = sorted(
+            path for path in found.keys() | undisturbed if found.get(path) != undisturbed.get(path)
+        )
+        expect(not differing, f"other bytes than undisturbed: {differing}")
+        left = [path.name for path in (self.folder / "results").rglob("*.part-*")]
+        expect(not left, f"left behind: {left}")
+        expect(not self.planned(), "another run would do it all again")
+
+    def edit(self, name, old, new):
+        """Replace a text that stands in a file."""
+        path = self.folder / name
+        text = path.read_text()
+        expect(old in text, f"{old} does not stand in {name}")
+        path.write_text(text.replace(old, new, 1))

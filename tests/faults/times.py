@@ -1,0 +1,88 @@
+"""Two runs at once, and a clock that was set back.
+
+The clock of a machine cannot be set for a trial, so the dates of files are: after a clock was set
+back by a day, what was written before is dated a day ahead.
+"""
+
+import os
+import time
+
+from .project import DATA, LOCKED, expect
+
+DAY = 86400
+
+
+def two_runs(context):
+    def trial():
+        project = context.fresh("two-runs")
+        both = [project.start()]
+        time.sleep(0.25 * context.seconds)
+        both.append(project.start())
+        told = [process.communicate()[0] for process in both]
+        codes = [process.returncode for process in both]
+        expect(codes[0] == 0, f"the first run is disturbed: {told[0][-500:]}")
+        expect(codes[1] and LOCKED in told[1], f"the second is not refused: {told[1][-500:]}")
+        project.expect_same(context.undisturbed)
+        return "the first ends well, the second is refused"
+
+    def apart():
+        project = context.fresh("two-targets")
+        both = [
+            project.start(targets=["results/design/figure_05a.nc"]),
+            project.start(targets=["results/tables/optima.csv"]),
+        ]
+        told = [process.communicate()[0] for process in both]
+        expect(not any(process.returncode for process in both), str(told)[-500:])
+        return project.recover(context.undisturbed, lost=0)
+
+    yield "two runs at once", trial
+    yield "two runs at once, of different targets", apart
+
+
+def _ahead(paths):
+    for path in paths:
+        if path.is_file():
+            os.utime(path, (time.time() + DAY,) * 2)
+
+
+def clock_set_back(context):
+    def finished():
+        project = context.finished("clock")
+        _ahead((project.folder / "results").rglob("*"))
+        return project.recover(context.undisturbed, lost=0)
+
+    def halfway():
+        project = context.finished("clock-halfway")
+        _ahead((project.folder / "results").rglob("*"))
+        for path in (project.folder / "results").rglob("*"):
+            if path.suffix in (".csv", ".md", ".png", ".pdf"):
+                path.unlink()
+        return project.recover(context.undisturbed, lost=0)
+
+    def sources():
+        project = context.finished("clock-sources")
+        for part in ("workflow", "config"):
+            _ahead((project.folder / part).rglob("*"))
+        return project.recover(context.undisturbed, lost=0)
+
+    def edited():
+        project = context.finished("clock-edited")
+        _ahead((project.folder / "results").rglob("*"))
+        script = project.folder / "workflow/scripts/clearance_sweep.py"
+        script.write_text(script.read_text() + "# A word.\n")
+        plan = project.planned()
+        expect(any("clearance" in line for line in plan), f"an edit is passed over: {plan}")
+        before = project.written()[DATA]
+        code, told = project.run()
+        expect(code == 0, told[-500:])
+        expect(project.written()[DATA] != before, "an edit is passed over")
+        project.expect_same(context.undisturbed)
+        return "the edit is seen, run again"
+
+    yield "clock set back after a run", finished
+    yield "clock set back between data and figures", halfway
+    yield "sources dated in the future", sources
+    yield "clock set back, then a script edited", edited
+
+
+TRIALS = [two_runs, clock_set_back]

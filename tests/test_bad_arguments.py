@@ -1,0 +1,168 @@
+"""A bad argument of a public function raises at once, and names itself and what is allowed."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import impact_damper as idm
+
+OSCILLATOR = idm.Oscillator(0.215)
+DAMPER = idm.Damper(0.12, 2.0)
+STATE = (0.006, 0.187, 0.002, -2.408)
+
+no_numbers = st.sampled_from([None, "2", "", b"2", True, 1j, [2.0], {}, {1}, np.array([1.0, 2.0])])
+not_finite = st.sampled_from([math.nan, math.inf, -math.inf, np.float32("nan"), 10**400])
+negative = st.floats(-1e300, -1e-300) | st.integers(-(10**30), -1)
+huge = st.floats(1e10, 1e300) | st.integers(10**10, 10**40)
+no_counts = no_numbers | not_finite | negative | st.sampled_from([0.5, 2.0, 10**19])
+count = no_counts | st.just(0)
+positive = no_numbers | not_finite | negative | huge | st.sampled_from([0, 0.0, -0.0])
+no_sequences = st.sampled_from(
+    [None, "12", {}, 1j, ["1", "2"], [[1.0], [2.0]], [[1.0], [2.0, 3.0]], [True, 2], [None]]
+)
+no_increase = st.sampled_from([[], [2.0, 1.0], [1.0, 1.0], [1, 2, 2], np.array([3.0, 2.0])])
+bad_items = st.sampled_from([[math.nan, 1.0], [1.0, math.inf], [0.0, 1.0], [-1, 1], [1.0, 1e300]])
+increasing = no_sequences | no_increase | bad_items
+state = st.sampled_from(
+    [None, "1234", 1.0, (1, 2, 3), (1, 2, 3, 4, 5), ("1", 0, 0, 0), (math.nan, 0, 0, 0)]
+    + [(0, 0, 0, math.inf), np.zeros((2, 2)), (1e9, 0, 0, 0), (0, 1e9, 0, 0), (True, 0, 0, 0), {}]
+)
+no_oscillator = st.sampled_from([None, 0.215, "h215", {}, DAMPER, idm.Oscillator])
+no_damper = st.sampled_from([0.12, "rm", {}, (0.12, 2.0), OSCILLATOR, idm.Damper, False, 0])
+no_settling = st.sampled_from([0, 300, "", "long", {}, False, idm.Settling, (1e-9, 300)])
+seed = no_numbers | not_finite | negative | st.sampled_from([1.5, 2**64])
+span = st.sampled_from(
+    [None, 1.0, "12", (1.0,), (1, 2, 3), (2.2, 2.0), (2.5, 2.9), (0, 3), (-1, 3)]
+)
+span |= st.sampled_from([(math.nan, 3.0), (1.0, math.inf), ("1", "3"), (1.0, 1e9), (1e-9, 3.0)])
+
+motion = {"oscillator": no_oscillator, "damper": no_damper, "frequency": positive}
+search = {"starts": count, "radius": positive, "seed": seed, "workers": count}
+search |= {"settling": no_settling, "oscillator": no_oscillator}
+GOOD = {"oscillator": OSCILLATOR, "damper": DAMPER}
+MOVING = GOOD | {"frequency": 2.0, "state": STATE}
+
+# Each function with arguments that it takes, and what is bad in their place.
+FUNCTIONS = {
+    "Oscillator": ({"damping": 0.2}, {"damping": positive, "linear_frequency": negative | huge}),
+    "Damper": (
+        {"mass_ratio": 0.1, "clearance": 1.0},
+        {
+            name: positive
+            for name in ("mass_ratio", "clearance", "restitution", "contact_stiffness")
+        },
+    ),
+    "Settling": (
+        {},
+        {"tolerance": positive, "patience": count, "limit": count, "watched": count},
+    ),
+    "simulate": (
+        MOVING,
+        motion
+        | {"state": state, "periods": positive, "samples": count}
+        | {"start": no_numbers | not_finite | huge, "tolerance": positive},
+    ),
+    "steady_motion": (MOVING, motion | {"state": state, "settling": no_settling}),
+    "frequency_response": (
+        GOOD | {"frequencies": [2.0], "starts": 1},
+        search | {"damper": no_damper, "frequencies": increasing},
+    ),
+    "harmonic_balance_response": (
+        GOOD | {"frequencies": [2.0]},
+        {"oscillator": no_oscillator, "damper": no_damper, "frequencies": increasing},
+    ),
+    "suppression_band": (
+        GOOD,
+        {"oscillator": no_oscillator, "damper": no_damper | st.none()},
+    ),
+    "optimum_clearance": (
+        {"oscillator": OSCILLATOR, "mass_ratio": 0.1},
+        {"oscillator": no_oscillator, "mass_ratio": positive},
+    ),
+    "clearance_sweep": (
+        {"oscillator": OSCILLATOR, "damper": {"mass_ratio": 0.12}, "frequency": 2.0}
+        | {"clearances": [1.9, 2.0], "starts": 1},
+        search
+        | {"frequency": positive, "clearances": increasing | st.just([2.0])}
+        | {"damper": no_damper | st.sampled_from([None, DAMPER, {"mass": 0.1}, {"clearance": 1}])},
+    ),
+    "subharmonic_suppression": (
+        GOOD | {"frequencies": [1.8, 2.0], "starts": 2},
+        search
+        | {"starts": count | st.just(1), "damper": no_damper | st.none()}
+        | {"frequencies": increasing | st.just([2.0])},
+    ),
+    "migrate": (
+        GOOD | {"frequency": 1.95},
+        motion
+        | {"damper": no_damper | st.none(), "seed": seed, "settling": no_settling}
+        | {name: count for name in ("longest_hold", "periods", "switchings")},
+    ),
+    "periodic_orbit": (
+        MOVING,
+        motion | {"state": state, "period": count, "phase": no_numbers | not_finite | huge},
+    ),
+    "orbit_branch": (
+        MOVING | {"span": (1.9, 2.1)},
+        motion
+        | {"state": state, "period": count, "span": span}
+        | {"parameter": st.sampled_from([None, "", "gap", 3, ["frequency"], "tolerance"])},
+    ),
+    "complete_branches": (
+        GOOD | {"frequencies": (1.9, 2.1), "motions": []},
+        {"oscillator": no_oscillator, "damper": no_damper}
+        | {"frequencies": span.filter(lambda ends: ends != (2.5, 2.9))}
+        | {"motions": st.sampled_from([None, 3, "motions", [1], [DAMPER], {}])},
+    ),
+    "harmonic_convergence": (
+        GOOD | {"frequency": 2.0, "harmonics": [1, 3]},
+        motion
+        | {"harmonics": increasing | st.sampled_from([[2, 4], [1.5, 3], [0, 1], [1, 10**6]])}
+        | {"cold": no_sequences | st.sampled_from([[5], [-1], [math.nan]])},
+    ),
+}
+
+
+def test_every_public_name_is_tried():
+    assert set(FUNCTIONS) == set(idm.__all__)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_bad_argument_names_itself(name):
+    good, bad = FUNCTIONS[name]
+
+    @settings(
+        derandomize=True,
+        deadline=None,
+        database=None,
+        max_examples=40 * len(bad),
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(st.sampled_from(sorted(bad)).flatmap(lambda k: st.tuples(st.just(k), bad[k])))
+    def tried(case):
+        key, value = case
+        with pytest.raises((TypeError, ValueError)) as raised:
+            getattr(idm, name)(**good | {key: value})
+        told = str(raised.value)
+        assert told.startswith((f"{key} = ", f"{key}[")), told
+        assert ": must " in told and told.isprintable() and len(told) < 300, told
+
+    tried()
+
+
+def test_an_inelastic_damper_has_no_harmonic_balance():
+    dull = idm.Damper(0.12, 2.0, 0.9)
+    for call in (
+        lambda: idm.suppression_band(OSCILLATOR, dull),
+        lambda: idm.harmonic_balance_response(OSCILLATOR, dull, [2.0]),
+    ):
+        with pytest.raises(ValueError, match="restitution = 0.9: must be 1"):
+            call()
+
+
+def test_a_contact_too_fast_for_the_forcing_is_told():
+    with pytest.raises(ValueError, match="contact_stiffness = 1e.09: with mass_ratio = 1e-06 and"):
+        idm.simulate(OSCILLATOR, idm.Damper(1e-6, 1.0, 1.0, 1e9), 2.0)

@@ -1,0 +1,25 @@
+"""A chunk of a study over mass ratio, clearance, frequency and restitution."""
+
+from collections import ChainMap
+
+import numpy as np
+
+from impact_damper.datasets import save
+from impact_damper.ensemble import Settling
+from impact_damper.job import begin
+from impact_damper.parameters import Oscillator
+from impact_damper.studies import study_chunk
+
+begin(snakemake.log[0])
+job = ChainMap(*snakemake.params)
+chunk = study_chunk(
+    Oscillator(**job["oscillator"]),
+    {name: np.linspace(*ends) for name, ends in job["axes"].items()},
+    job["cells"],
+    contact_stiffness=job["contact_stiffness"],
+    **job["search"],
+    settling=Settling(**job["settling"]),
+    workers=snakemake.threads,
+    progress=snakemake.wildcards.study,
+)
+save(chunk, snakemake.output[0])
