@@ -91,24 +91,20 @@ def _end_event(record, multiplier, beyond):
 
 def _follow(here, there, index, settling, links, ends):
     """Follow every motion of one catalogue to the next value, noting links and ends."""
-    for i, record in enumerate(list(here.records)):
-        p, y = here.p.copy(), record["state"].copy()
-        # As every other caller gives it: kernels are compiled anew for an integer of two bytes.
-        period = int(record["period"])
-        multiplier = complex(np.nan)
-        if is_settled(record):
-            multiplier = orbits.follow(
-                p, y, period, index, there.p[index], RESOLUTION, orbits.POLISH_TOLERANCE
-            )
-        arrived = p[index] == there.p[index]
-        beyond = ensemble.settle(there.p[None], y[None], settling, from_strobe=True)[0]
+    followed = [_carried(record, here.p, there.p[index], index) for record in here.records]
+    states = np.array([y for _, y, _ in followed]).reshape(-1, 4)
+    rows = np.tile(there.p, (len(states), 1))
+    settled = ensemble.settle(rows, states, settling, from_strobe=True)
+    for i, (record, beyond) in enumerate(zip(list(here.records), settled, strict=True)):
+        p, y, multiplier = followed[i]
         j = there.add(beyond, "followed")
         if not is_settled(record):
             continue
-        if arrived and is_settled(beyond) and beyond["period"] == period:
+        arrived = p[index] == there.p[index]
+        if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
             links.append((here.numbers[i], there.numbers[j]))
             continue
-        last = recording.measured(p, y, period, settling.tolerance)
+        last = recording.measured(p, y, int(record["period"]), settling.tolerance)
         ends.append(
             {
                 "end_value": p[index],
@@ -122,6 +118,16 @@ def _follow(here, there, index, settling, links, ends):
                 "end_multiplier_imaginary": multiplier.imag,
             }
         )
+
+
+def _carried(record, p, target, index):
+    """Parameters, state and multiplier of a motion followed as far as its orbit goes."""
+    p, y, multiplier = p.copy(), record["state"].copy(), complex(np.nan)
+    if is_settled(record):
+        # As every other caller gives it: kernels are compiled anew for an integer of two bytes.
+        period = int(record["period"])
+        multiplier = orbits.follow(p, y, period, index, target, RESOLUTION, orbits.POLISH_TOLERANCE)
+    return p, y, multiplier
 
 
 def _branches(catalogues, links):
