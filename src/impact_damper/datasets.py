@@ -134,6 +134,8 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} holds {data.attrs.get('id')}: {DELETE}.")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written: {DELETE}.")
+    # They are of the file: what is made of the data is to have its own.
+    data.attrs = {name: value for name, value in data.attrs.items() if name not in sealed}
     return data
 
 

@@ -31,7 +31,7 @@ def gather_chunks(paths, path) -> None:
         If a chunk is not what a run has written, does not go on where the one before it ended, or
         is not of the same study.
     """
-    chunk = _unsealed(paths[0])
+    chunk = load(paths[0])
     axes = {name: chunk[name].values for name in AXES}
     shape = tuple(len(values) for values in axes.values())
     others = {"counted_outcome": chunk["counted_outcome"].values}
@@ -43,7 +43,7 @@ def gather_chunks(paths, path) -> None:
                 _define(file, name, (*AXES, *chunk[name].dims[1:]), chunk[name].dtype)
             done = 0
             for each in paths:
-                chunk = _unsealed(each)
+                chunk = load(each)
                 _check_next(chunk, each, done, head)
                 done += _place(file, chunk, done, shape)
             if done != math.prod(shape):
@@ -54,13 +54,6 @@ def gather_chunks(paths, path) -> None:
             sealed = seal(data.variables, path)
         with netCDF4.Dataset(part, "a") as file:
             file.setncatts(sealed)
-
-
-def _unsealed(path):
-    """A chunk without the attributes that tell it from others of its study."""
-    chunk = load(path)
-    chunk.attrs = {key: value for key, value in chunk.attrs.items() if key not in ("id", "sha256")}
-    return chunk
 
 
 def _place(file, chunk, first, shape):

@@ -164,6 +164,8 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     exponent per unit time; y is taken onto the orbit if there is one.
     """
     k = seen.strobes
+    if k == limit:
+        return True
     period = 2.0 * math.pi / p[0]
     for i in range(4):
         ring[k % RING, i] = y[i]
@@ -200,7 +202,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
             out.outcome = CHAOTIC
             return True
     seen.strobes += 1
-    return seen.strobes == limit
+    return False
 
 
 @kernel
