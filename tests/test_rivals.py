@@ -11,6 +11,7 @@ from sampling import sample
 from impact_damper import orbits
 from impact_damper.parameters import Damper, Oscillator, pack
 from impact_damper.rivals import fixed_step, merson, scipy_methods
+from impact_damper.sweep import CLEARANCE
 
 ORDERS = {"heun": 2, "verlet": 2, "runge_kutta_4": 4, "merson": 4}
 START = np.array([0.7, -0.3, 0.5, 0.2])
@@ -70,8 +71,8 @@ def test_linear_stability_limit_of_the_contact(method):
     The primary's own spring is cubic and does not count for small motions.
     """
     stiffness, mass_ratio = 1e6, 0.25
-    damper = Damper(mass_ratio, 1e-12, contact_stiffness=stiffness)
-    p = pack(Oscillator(1e-9), damper, 2.0)
+    p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)
+    p[CLEARANCE] = 1e-12
     contact = math.sqrt(stiffness * (1 + 1 / mass_ratio))
     limit = fixed_step.STABILITY_LIMIT[method]
 
