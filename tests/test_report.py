@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import jinja2
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[1]
 TEMPLATES = sorted((ROOT / "workflow/report").glob("*.rst"))
@@ -23,3 +24,9 @@ def test_every_table_has_a_caption():
     for table in set(tables) - {"claims"}:
         wildcards = SimpleNamespace(table=table)
         assert template.render(snakemake=SimpleNamespace(wildcards=wildcards)).endswith(".")
+
+
+def test_no_remark_holds_what_the_report_takes_for_markup():
+    """Between bars reStructuredText wants the name of a text to put there."""
+    figures = yaml.safe_load((ROOT / "config/config.yaml").read_text())["figures"]
+    assert not [name for name, figure in figures.items() if "|" in figure.get("remark", "")]
