@@ -85,12 +85,18 @@ def study_chunk(
     found = np.empty(last - first, CELL)
 
     def work(part):
-        for k in range(part.start, part.stop):
-            p, damper = system(np.unravel_index(first + k, shape))
-            states = random_states(starts, radius, damper, [seed, first + k])
-            found[k] = _condensed(ensemble.settle(np.tile(p, (starts, 1)), states, settling))
+        rows, states = [], []
+        for cell in range(first + part.start, first + part.stop):
+            p, damper = system(np.unravel_index(cell, shape))
+            rows.append(np.tile(p, (starts, 1)))
+            states.append(random_states(starts, radius, damper, [seed, cell]))
+        runs = ensemble.settle(np.concatenate(rows), np.concatenate(states), settling)
+        for k, of_cell in enumerate(np.split(runs, len(rows)), part.start):
+            found[k] = _condensed(of_cell)
 
-    ensemble.run_chunks(work, last - first, workers, progress, size=1)
+    # as many cells at a time as fill the lanes, for the same memory whatever the chunk
+    together = max(1, ensemble.CHUNK // starts)
+    ensemble.run_chunks(work, last - first, workers, progress, size=together)
     data = {
         name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names
     }
