@@ -6,7 +6,7 @@ import os
 import sys
 from functools import cache
 
-from impact_damper import step
+from impact_damper import events, step
 from impact_damper.accelerate import CACHE_DIRECTORY
 from impact_damper.series import SERIES, SINGLE, Writer
 
@@ -16,7 +16,7 @@ CONTACT_ORDER = 22
 
 @cache
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """The functions of `step`, compiled for a number of lanes and the orders of the series.
+    """The functions of `events` and `step` for a number of lanes and the orders of the series.
 
     Their source is written to a module beside the compiled kernels, whose directory is named
     by the digest of all sources.
@@ -35,7 +35,7 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
 
 
 def _source(writer):
-    """Constants, the series, and the step."""
+    """Constants, the series, the search for events, and the step."""
     constants = {
         "LANES": writer.lanes,
         "TANGENTS": writer.tangents,
@@ -46,4 +46,4 @@ def _source(writer):
     }
     constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
-    return lines + "\n" + writer.source() + "\n\n" + inspect.getsource(step)
+    return "\n\n".join([lines, writer.source(), *map(inspect.getsource, (events, step))])
