@@ -8,6 +8,7 @@ import pytest
 from conftest import DESIGN, INELASTIC, PAPER
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
 from sampling import sample
 
@@ -72,11 +73,10 @@ def found(lanes, phase, series_given, length, **numbers):
     a = np.zeros((module.SIZE // lanes, lanes))
     rows = {name: getattr(module, name) // lanes for name in [*SINGLE, *SERIES]}
     lane = lanes // 3
-    for name, c in series_given.items():
-        for i in range(lanes):
-            # The others have the same beginning, but not the same bends.
-            bends = np.array(c[2:]) * (1.0 if i == lane else 1.0 + 0.1 * i)
-            a[rows[name] : rows[name] + len(c), i] = [*c[:2], *bends]
+    for i in range(lanes):
+        # The others have the same beginning, but not the same bends.
+        for name, c in series_given(1.0 if i == lane else 1.0 + 0.1 * i).items():
+            a[rows[name] : rows[name] + len(c), i] = c
     for name, number in (numbers | {"LENGTH": length}).items():
         a[rows[name]] = number
     flat = a.ravel()
@@ -87,22 +87,30 @@ def found(lanes, phase, series_given, length, **numbers):
 
 def first_contact(lanes, c, offset, drift, clearance, length):
     """Time and side of the first contact; Z2 is the polynomial plus offset + drift t."""
+
+    def series_given(bend):
+        x = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
+        return {"X": x.coef, "V": x.deriv().coef, "G": x.deriv(2).coef}
+
     c = [*c, *[0.0] * (3 - len(c))]
     state = {"Y0": c[0], "Y1": c[1], "Y2": c[0] + offset, "Y3": c[1] + drift}
-    t, met, wall = found(lanes, "flight", {"X": c}, length, CLEARANCE=clearance, **state)
+    t, met, wall = found(lanes, "flight", series_given, length, CLEARANCE=clearance, **state)
     return t, int(wall) if met else 0
 
 
 def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
     """Time of the first release, and whether there is one; the penetration is the polynomial.
 
-    Z1 is made such that equation (21) holds: q'' = Z1'' - (r1 q + D q')/rm.
+    What does not come from the wall is such that q'' = g - (1 + 1/rm) (r1 q + D q').
     """
+
+    def series_given(bend):
+        q = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
+        g = q.deriv(2) + (1 + inverse_mass) * (stiffness * q + dashpot * q.deriv())
+        return {"Q": q.coef, "W": q.deriv().coef, "G": g.coef}
+
     c = [*c, *[0.0] * (3 - len(c))]
-    q = np.polynomial.Polynomial(c)
-    x = (q.deriv(2) + inverse_mass * (stiffness * q + dashpot * q.deriv())).integ(2)
     numbers = {"CONTACT": stiffness, "DASHPOT": dashpot, "INVERSE_MASS": inverse_mass}
-    series_given = {"X": x.coef, "Q": c}
     t, met, _ = found(lanes, "contact", series_given, length, SIDE=side, **numbers)
     return t, met
 
@@ -143,7 +151,7 @@ def test_first_contact_of_grazing_polynomials(lanes, c, exponent, beyond):
     """The wall stands next to the largest |Z2|: a double root, nearly."""
     c = [0.0, *(a / 64 for a in c)]
     t = np.linspace(0, 1, 10001)
-    largest = np.max(np.abs(np.polynomial.Polynomial(c)(t)))
+    largest = np.max(np.abs(Polynomial(c)(t)))
     if largest < 0.1:
         return
     check_contact(lanes, c, 0.0, 0.0, largest * (1 + (1 if beyond else -1) * 10.0**-exponent), 1.0)
@@ -241,7 +249,7 @@ def contact_series(p, state, t):
     y = np.array(state, float)
     y[2] += p[3]
     kernel.step(p, y, np.empty((0, 4)), 1, t, 1e-9, 1e-9, work)
-    return work[0][kernel.X : kernel.Q], work[0][kernel.Q :]
+    return work[0][kernel.X :], work[0][kernel.Q :]
 
 
 def test_order_of_contact_series():

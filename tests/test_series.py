@@ -56,7 +56,14 @@ def state_series(lanes, p, state, phase):
     module, a = filled(lanes, p, state, phase)
     order = ORDERS[phase]
     x = Polynomial(row(module, a, module.X, order + 1))
-    q = Polynomial(row(module, a, module.Q, order + 1)) if phase == "contact" else None
+    assert_allclose(row(module, a, module.V, order), x.deriv().coef, rtol=1e-15)
+    terms, q = [x.deriv(2)], None
+    if phase == "contact":
+        q = Polynomial(row(module, a, module.Q, order + 1))
+        assert_allclose(row(module, a, module.W, order), q.deriv().coef, rtol=1e-15)
+        terms.append(contact_force(p, q))
+    g = Polynomial(row(module, a, module.G, order - 1))
+    vanishes(sum(terms, -g), order, size(*terms)[: order - 1])
     return x, q, row(module, a, module.S, order - 1)
 
 
@@ -113,7 +120,7 @@ def test_tangents_solve_the_variational_equations(lanes, p, phase):
     d = d.ravel()
     getattr(module, f"{phase}_tangent_series")(a, d)
     first, second = (
-        Polynomial(d[columns * place + lane :: columns][: order + 1]) for place in (4, 4 + LENGTH)
+        Polynomial(d[columns * place + lane :: columns][: order + 1]) for place in (4, 4 + 2 * LENGTH)
     )
     force = contact_force(p, second) if phase == "contact" else Polynomial([0.0])
     terms = [first.deriv(2), p[1] * first.deriv(), p[2] * first, 3 * x**2 * first, force]

@@ -14,7 +14,9 @@ from pathlib import Path
 
 import numba
 import platformdirs
+from numba import types
 from numba.core.codegen import get_host_cpu_features
+from numba.extending import intrinsic
 
 
 def source_digest() -> str:
@@ -53,3 +55,17 @@ kernel = partial(numba.njit, cache=True, nogil=True, fastmath={"contract"}, erro
 
 # For a function with few callers: compiled as part of them and not by itself as well.
 inlined = partial(kernel, inline="always")
+
+
+@intrinsic
+def pointer(typing, array):
+    """Pointer to the numbers of an array, which its caller keeps alive.
+
+    Each call that passes an array counts references to it, twice and by locked instructions: more
+    than some of the kernels take. Pointers are not counted.
+    """
+
+    def generate(context, builder, signature, arguments):
+        return context.make_array(signature.args[0])(context, builder, arguments[0]).data
+
+    return types.CPointer(array.dtype)(array), generate

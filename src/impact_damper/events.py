@@ -20,6 +20,9 @@ ROUNDING = 2.0**-50
 # the share of its natural frequency by which its phase may turn faster, so that a step turns
 # the phase by less than three quarters of a turn, and half a turn: past one release at most.
 DEEPER, BACK, TURNING = 0.55, 0.4, 0.25
+# A search ends with a move whose square, beside that of the time in which the gap bends, is below
+# this share of the tolerance: what is left out of the speed.
+LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED = 0.0, 1.0, 2.0, 3.0, 4.0
 TINY = 1e-300
 FAR = 1e200
@@ -57,21 +60,27 @@ def march(t, f, closing, ahead, length, fine):
 
 
 @kernel
-def close_in(t, f, slope, curve, natural, low, high, length, fine):
+def swing(move, natural):
+    """Arctangent of natural * move, over `natural`, nearly."""
+    u = (natural * move) ** 2
+    return move * (15.0 + 4.0 * u) / (15.0 + 9.0 * u)
+
+
+@kernel
+def close_in(t, f, slope, curve, natural, low, high, length, fine, tolerance):
     """Next move and mode between `low` and `high`, where a gap is positive and where not.
 
     There is one root between them; or at most one, if `high` is FAR, before the end.
 
     A step of third order, of the arctangent of the gap where that swings at a natural
-    frequency. It is the last where what it leaves out is rounding.
+    frequency. It is the last where what it leaves out is far below the tolerance.
     """
-    move = -f / slope
-    u = (natural * move) ** 2
     bend = (curve + natural * natural * f) / slope
-    move *= (15.0 + 4.0 * u) / (15.0 + 9.0 * u) * (1.0 - 0.5 * bend * move)
+    move = -f / slope
+    move = swing(move, natural) * (1.0 - 0.5 * bend * move)
     inside = low < t + move and t + move < high
     rate = max(max(natural, 2.0 / length), abs(bend))
-    last = inside and (rate * move) ** 2 <= 4.0 * ROUNDING
+    last = inside and (rate * move) ** 2 <= max(LAST_MOVE * tolerance, ROUNDING)
     if abs(f) <= fine:
         return 0.0, MET
     if f > 0.0 and not t < length:
@@ -122,7 +131,7 @@ def search_contact(a):
         # Where the gap would close by the first terms of its series.
         gap = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
         speed = abs(a[Y3 + i])
-        bend = 2.0 * a[WALL + i] * a[X + 2 * LANES + i]
+        bend = a[WALL + i] * a[G + i]
         guess = 2.0 * gap / (speed + math.sqrt(max(speed * speed + 2.0 * bend * gap, 0.0)))
         length = a[LENGTH + i]
         a[LOW + i] = 0.0
@@ -163,7 +172,9 @@ def search_contact(a):
                 low = t if f > 0.0 else low
                 high = high if f > 0.0 else t
                 curve = -wall * a[CURVE + i]
-                move, mode = close_in(t, f, -wall * w, curve, 0.0, low, high, length, fine)
+                move, mode = close_in(
+                    t, f, -wall * w, curve, 0.0, low, high, length, fine, a[TOLERANCE + i]
+                )
                 t += move
             elif mode == ENDING:
                 mode = MISSED
@@ -195,7 +206,7 @@ def find_release(a):
     for i in range(LANES):
         wall = a[SIDE + i]
         q = wall * a[Q + i]
-        w = wall * a[Q + LANES + i]
+        w = wall * a[W + i]
         length = a[LENGTH + i]
         mobility = 1.0 + a[INVERSE_MASS + i]
         natural = math.sqrt(a[CONTACT + i] * mobility)
@@ -210,8 +221,14 @@ def find_release(a):
         a[LOW + i] = 0.0
         a[HIGH + i] = FAR
         a[MODE + i] = BRACKET if certain else MARCH
+        # From the wall half a period of the contact, and what the mean of g adds to it, with Z1'
+        # as the contact changes it; back to the wall, as without g.
         half = math.pi / math.sqrt(max(natural * natural - 0.25 * loss * loss, TINY))
-        a[T + i] = (half if half < length and q == 0.0 else length) if certain else 0.0
+        mean = wall * (a[G + i] + 0.5 * half * a[G + LANES + i]) + a[DAMPING + i] * w / mobility
+        left = fast_exp2(-0.5 * loss * half / math.log(2.0))
+        begun = half + (1.0 + left) * mean / (left * w * natural * natural + TINY)
+        guess = begun if q == 0.0 else swing(-q / w, natural)
+        a[T + i] = (guess if 0.0 < guess < length else length) if certain else 0.0
     running = 1
     while running > 0:
         contact_curve_q(a)
@@ -235,7 +252,9 @@ def find_release(a):
             elif mode == BRACKET:
                 low = t if f > 0.0 else low
                 high = high if f > 0.0 else t
-                move, mode = close_in(t, f, slope, curve, a[NATURAL + i], low, high, length, fine)
+                move, mode = close_in(
+                    t, f, slope, curve, a[NATURAL + i], low, high, length, fine, a[TOLERANCE + i]
+                )
                 t += move
             elif mode == ENDING:
                 mode = MISSED

@@ -7,7 +7,7 @@ flight, +1). Tangents are carried along if there are any.
 import numpy as np
 
 from impact_damper import widths
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import kernel, pointer
 
 _ONE = widths.instance(1)
 flight_step, contact_step = _ONE.flight_step, _ONE.contact_step
@@ -41,9 +41,8 @@ def polynomial(c, order, t):
 
 
 @kernel
-def load(p, y, tangents, side, tolerance, work):
+def load(p, y, tangents, side, tolerance, a, d):
     """Put a trajectory and its tangents into the workspace."""
-    a, d = work
     for i in range(7):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -57,9 +56,8 @@ def load(p, y, tangents, side, tolerance, work):
 
 
 @kernel
-def unload(y, tangents, work):
+def unload(y, tangents, a, d):
     """Take the state and the tangents out of the workspace."""
-    a, d = work
     for i in range(4):
         y[i] = a[STATE + i]
     for i in range(len(tangents)):
@@ -68,18 +66,17 @@ def unload(y, tangents, work):
 
 
 @kernel
-def step_loaded(tangents, t, longest, work):
-    """`step` of a trajectory that stays in the workspace."""
-    a, d = work
+def step_loaded(count, t, longest, a, d):
+    """`step` of a trajectory that stays in the workspace, and of so many tangents."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
         flight_step(a)
-        if len(tangents) > 0:
+        if count > 0:
             flight_tangents(a, d)
     else:
         contact_step(a)
-        if len(tangents) > 0:
+        if count > 0:
             contact_tangents(a, d)
     return a[LENGTH], np.int64(a[SIDE])
 
@@ -111,9 +108,10 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     side : int
         Wall in contact after the step.
     """
-    load(p, y, tangents, side, tolerance, work)
-    length, side = step_loaded(tangents, t, longest, work)
-    unload(y, tangents, work)
+    a, d = pointer(work[0]), pointer(work[1])
+    load(p, y, tangents, side, tolerance, a, d)
+    length, side = step_loaded(len(tangents), t, longest, a, d)
+    unload(y, tangents, a, d)
     return length, side
 
 
@@ -132,14 +130,15 @@ def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate from t to end. Returns the side after it, contacts begun and time in contact."""
     contacts = 0
     touching = 0.0
-    load(p, y, tangents, side, tolerance, work)
+    a, d = pointer(work[0]), pointer(work[1])
+    load(p, y, tangents, side, tolerance, a, d)
     while t < end:
         before = side
-        length, side = step_loaded(tangents, t, end - t, work)
+        length, side = step_loaded(len(tangents), t, end - t, a, d)
         t = end if length >= end - t else t + length
         if before == 0 and side != 0:
             contacts += 1
         if before != 0:
             touching += length
-    unload(y, tangents, work)
+    unload(y, tangents, a, d)
     return side, contacts, touching

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper import widths
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import kernel, pointer
 
 LANES = 16
 # Trajectories in a pool: enough for a full step to be found nearly always.
@@ -175,17 +175,18 @@ def advance_some(pool, chosen, arrived):
         How many have arrived.
     """
     ended = 0
+    a, d = pointer(pool.a), pointer(pool.d)
     while ended == 0:
         count, kind = choose(pool, chosen)
         gather(pool, chosen, kind)
         if kind & 1 == FLIGHT:
-            flight_step(pool.a)
+            flight_step(a)
             if kind >= FLIGHT_WITH_TANGENT:
-                flight_tangents(pool.a, pool.d)
+                flight_tangents(a, d)
         else:
-            contact_step(pool.a)
+            contact_step(a)
             if kind >= FLIGHT_WITH_TANGENT:
-                contact_tangents(pool.a, pool.d)
+                contact_tangents(a, d)
         ended = scatter(pool, chosen, count, kind, arrived)
     return ended
 

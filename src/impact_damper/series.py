@@ -3,13 +3,14 @@
 Between events the motion is analytic, and the coefficients of its Taylor series
 follow from those before them. With s = x^2 and the drive e = cos(W T),
 
-    x[k+2] = (e[k] - h (k+1) x[k+1] - omega_l^2 x[k] - (s x)[k] - f[k]) / ((k+1)(k+2))
-    q[k+2] = x[k+2] - f[k] / (rm (k+1)(k+2))
-    f[k]   = r1 q[k] + D (k+1) q[k+1]
+    g[k] = e[k] - omega_l^2 x[k] - (s x)[k] - h v[k]
+    v[k+1] = (g[k] - r1 q[k] - D w[k]) / (k+1)                    x[k+1] = v[k] / (k+1)
+    w[k+1] = (g[k] - (1 + 1/rm) (r1 q[k] + D w[k])) / (k+1)       q[k+1] = w[k] / (k+1)
 
 for Z1 = x and the signed penetration q = Z2 -+ d0 during contact, equations (3), (4)
-and (20) to (24); in flight f = 0 and q differs from x in its first two terms only.
-The variational equations are the same with e = 0 and 3 (s dx)[k] for the cube.
+and (20) to (24); g is what of the acceleration does not come from the wall. In flight there
+is no q, and Z2 differs from x by its offset and drift only. The variational equations are
+the same with e = 0 and 3 (s dx)[k] for the cube.
 
 `source` writes these as straight-line Python on scalars in a loop over lanes, which are
 trajectories side by side. With one lane it compiles to scalar code, about three times as
@@ -19,9 +20,9 @@ All numbers of a step stand in one flat array, `lanes` to a row; `rows` says in 
 
 from itertools import chain
 
-# What a step is given, what it finds, and what it needs on its way. X, Q and S below are
-# the series of Z1, of the penetration and of Z1^2; D are those of a tangent, in an array
-# of their own.
+# What a step is given, what it finds, and what it needs on its way. Then the series: of Z1 and
+# its rate, of the penetration and its rate, of g and of Z1^2. Those of a tangent, in an array of
+# their own, are of the first four.
 PARAMETERS = "FREQUENCY DAMPING STIFFNESS CLEARANCE CONTACT INVERSE_MASS DASHPOT".split()
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
@@ -30,23 +31,21 @@ SCRATCH = (
     "END_VALUE END_SLOPE"
 ).split()
 SINGLE = PARAMETERS + STATE + STEP + SCRATCH
-SERIES = ["X", "Q", "S"]
-DERIVATIVES = ["value", "slope", "curve"]
+SERIES = "X V Q W G S".split()
+TANGENT_SERIES = "DX DV DQ DW".split()
 
 
 def rows(flight_order, contact_order):
     """Numbers of the rows by name; `ROWS` and `TANGENT_ROWS` are how many there are."""
     length = max(flight_order, contact_order) + 1
-    count = len(SINGLE)
-    return {name: number for number, name in enumerate(SINGLE)} | {
-        "X": count,
-        "Q": count + length,
-        "S": count + 2 * length,
-        "ROWS": count + 3 * length,
-        "DX": 4,
-        "DQ": 4 + length,
-        "TANGENT_ROWS": 4 + 2 * length,
+    single = {name: number for number, name in enumerate(SINGLE)}
+    series = {name: len(SINGLE) + length * j for j, name in enumerate(SERIES)}
+    tangent = {name: len(STATE) + length * j for j, name in enumerate(TANGENT_SERIES)}
+    ends = {
+        "ROWS": len(SINGLE) + length * len(SERIES),
+        "TANGENT_ROWS": len(STATE) + length * len(TANGENT_SERIES),
     }
+    return single | series | tangent | ends
 
 
 class Writer:
@@ -78,169 +77,162 @@ class Writer:
         return f"@kernel\ndef {name}({arguments}):\n    for i in range({lanes}):\n{body}\n"
 
     def series(self, phase):
-        """Fill the series of a step: X and S, and Q in contact."""
+        """Fill the series of a step: all of them in contact; X, V, G and S in flight."""
         order = self.orders[phase]
         lines = [
-            f"h = {self.at('DAMPING')}",
-            f"wl = {self.at('STIFFNESS')}",
             f"ww = {self.at('FREQUENCY')} * {self.at('FREQUENCY')}",
             f"e0 = {self.at('COSINE')}",
             f"e1 = -{self.at('FREQUENCY')} * {self.at('SINE')}",
             f"x0 = {self.at('Y0')}",
-            f"x1 = {self.at('Y1')}",
+            f"v0 = {self.at('Y1')}",
             "twice = 2.0 * x0",
+            "s0 = x0 * x0",
+            f"stiffness = {self.at('STIFFNESS')} + s0",
+            "linear = stiffness + 2.0 * s0",
+            *self._given(phase),
         ]
         if phase == "contact":
-            lines += self._contact_given()
             lines += [
                 f"q0 = {self.at('Y2')} - {self.at('SIDE')} * {self.at('CLEARANCE')}",
-                f"q1 = {self.at('Y3')}",
+                f"w0 = {self.at('Y3')}",
             ]
+        lines += ["x1 = v0"] + (["q1 = w0"] if phase == "contact" else [])
         lines += chain.from_iterable(_order(k, phase, tangent=False) for k in range(order - 1))
-        lines += [f"{self.at('X', k)} = x{k}" for k in range(order + 1)]
-        lines += [f"{self.at('S', k)} = s{k}" for k in range(order - 1)]
-        if phase == "contact":
-            lines += [f"{self.at('Q', k)} = q{k}" for k in range(order + 1)]
+        for name, last in self._written(phase):
+            lines += [f"{self.at(name, k)} = {name.lower()}{k}" for k in range(last + 1)]
         return self.function(f"{phase}_series", lines)
 
     def tangent_series(self, phase):
-        """Fill the series of a tangent over a step: DX, and DQ in contact."""
+        """Fill the series of a tangent over a step."""
         order = self.orders[phase]
         lines = [
-            f"h = {self.at('DAMPING')}",
-            f"wl = {self.at('STIFFNESS')}",
-            *(f"s{k} = {self.at('S', k)}" for k in range(order - 1)),
-            f"x0 = {self.at_tangent('', 0)}",
-            f"x1 = {self.at_tangent('', 1)}",
+            *(f"s{k} = 3.0 * {self.at('S', k)}" for k in range(order - 1)),
+            f"linear = {self.at('STIFFNESS')} + s0",
+            *self._given(phase),
         ]
-        if phase == "contact":
-            lines += self._contact_given()
-            lines += [f"q0 = {self.at_tangent('', 2)}", f"q1 = {self.at_tangent('', 3)}"]
+        names = "xvqw" if phase == "contact" else "xv"
+        lines += [f"{name}0 = {self.at_tangent('', j)}" for j, name in enumerate(names)]
+        lines += ["x1 = v0"] + (["q1 = w0"] if phase == "contact" else [])
         lines += chain.from_iterable(_order(k, phase, tangent=True) for k in range(order - 1))
-        lines += [f"{self.at_tangent('DX', k)} = x{k}" for k in range(order + 1)]
-        if phase == "contact":
-            lines += [f"{self.at_tangent('DQ', k)} = q{k}" for k in range(order + 1)]
+        for name, last in self._written(phase):
+            if name.lower() in names:
+                lines += [
+                    f"{self.at_tangent(f'D{name}', k)} = {name.lower()}{k}" for k in range(last + 1)
+                ]
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
-    def _contact_given(self):
-        return [
-            f"r1 = {self.at('CONTACT')}",
-            f"dash = {self.at('DASHPOT')}",
-            f"c = 1.0 + {self.at('INVERSE_MASS')}",
-        ]
+    def _given(self, phase):
+        """Factors of the recurrence."""
+        lines = [f"h = {self.at('DAMPING')}"]
+        if phase == "contact":
+            lines += [
+                f"r1 = {self.at('CONTACT')}",
+                f"dash = {self.at('DASHPOT')}",
+                f"both = 1.0 + {self.at('INVERSE_MASS')}",
+            ]
+        return lines
 
-    def value(self, phase, row, derivatives):
-        """VALUE and SLOPE of the series of a row at T, and CURVE if two derivatives are wanted."""
+    def _written(self, phase):
+        """The series that a step fills, and their orders."""
         order = self.orders[phase]
-        coefficients = [self.at(row, k) for k in range(order + 1)]
-        lines = [f"t = {self.at('T')}", *_horner(coefficients, derivatives)]
-        lines += [f"{self.at(name.upper())} = {name}" for name in DERIVATIVES[: derivatives + 1]]
-        return self.function(f"{phase}_{DERIVATIVES[derivatives]}_{row.lower()}", lines)
+        orders = {"X": order, "V": order - 1, "G": order - 2, "S": order - 2}
+        return (orders | ({"Q": order, "W": order - 1} if phase == "contact" else {})).items()
+
+    def values(self, phase, name, results):
+        """Sums of series at T; `results` gives the row of each sum, and its series."""
+        lines = [f"t = {self.at('T')}", *_powers()]
+        orders = dict(self._written(phase))
+        for result, row in results.items():
+            coefficients = [self.at(row, k) for k in range(orders[row] + 1)]
+            lines += _sum(coefficients, self.at(result))
+        if name == "curve_q":
+            force = (
+                f"{self.at('CONTACT')} * {self.at('VALUE')} "
+                f"+ {self.at('DASHPOT')} * {self.at('SLOPE')}"
+            )
+            lines += [f"{self.at('CURVE')} -= (1.0 + {self.at('INVERSE_MASS')}) * ({force})"]
+        return self.function(f"{phase}_{name}", lines)
 
     def tangent_value(self, phase):
         """The tangent at T."""
-        lines = [f"t = {self.at('T')}"]
-        order = self.orders[phase]
-        for place, row in ((0, "DX"), (2, "DQ"))[: 2 if phase == "contact" else 1]:
-            lines += _horner([self.at_tangent(row, k) for k in range(order + 1)], 1)
-            lines += [f"{self.at_tangent('', place)} = value"]
-            lines += [f"{self.at_tangent('', place + 1)} = slope"]
+        lines = [f"t = {self.at('T')}", *_powers()]
+        for name, order in self._written(phase):
+            if f"D{name}" in TANGENT_SERIES:
+                coefficients = [self.at_tangent(f"D{name}", k) for k in range(order + 1)]
+                lines += _sum(coefficients, self.at_tangent("", "XVQW".index(name)))
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def bound(self, phase):
-        """BOUND on |Z1''| in flight, on |Z1'' + f| in contact, over the LENGTH of the step.
-
-        In contact f = rm (Z1'' - Q'') leaves of Z1'' what does not come from the wall.
-        """
-        lines = [f"t = {self.at('LENGTH')}"]
-        if phase == "contact":
-            lines += [f"m = 1.0 / {self.at('INVERSE_MASS')}"]
-        terms = []
-        for k in range(2, self.orders[phase] + 1):
-            size = self.at("X", k)
-            if phase == "contact":
-                size = f"{size} + m * ({size} - {self.at('Q', k)})"
-            terms.append(f"{float(k * (k - 1))} * abs({size})")
-        lines += _horner(terms, 0)
-        lines += [f"{self.at('BOUND')} = value"]
+        """BOUND on |g| over the LENGTH of the step, which in flight is a bound on |Z1''|."""
+        order = self.orders[phase]
+        lines = [f"t = {self.at('LENGTH')}", *_powers()]
+        lines += _sum([f"abs({self.at('G', k)})" for k in range(order - 1)], self.at("BOUND"))
         return self.function(f"{phase}_bound", lines)
 
     def source(self):
         """The module."""
+        x = {"VALUE": "X", "SLOPE": "V"}
+        q = {"VALUE": "Q", "SLOPE": "W"}
         functions = [
             *(self.series(phase) for phase in self.orders),
             *(self.tangent_series(phase) for phase in self.orders),
             *(self.tangent_value(phase) for phase in self.orders),
             *(self.bound(phase) for phase in self.orders),
-            self.value("flight", "X", 1),
-            self.value("flight", "X", 2),
-            self.value("contact", "X", 1),
-            self.value("contact", "Q", 2),
+            self.values("flight", "slope_x", x),
+            self.values("flight", "curve_x", x | {"CURVE": "G"}),
+            self.values("contact", "slope_x", x),
+            self.values("contact", "curve_q", q | {"CURVE": "G"}),
         ]
         return "from impact_damper.accelerate import kernel\n\n\n" + "\n\n".join(functions)
 
 
 def _order(k, phase, tangent):
-    """The lines that give x[k+2], and in contact q[k+2], from what came before.
+    """The lines that give v[k+1] and x[k+2], and in contact w[k+1] and q[k+2].
 
-    Sums end with the terms that wait longest for their factors: what is known is added up by
-    then, and one multiplication and addition leads from x[k+1] to x[k+2].
+    Sums end with the terms that wait longest for their factors. Of s[k] the part p[k] with x[k]
+    left out comes first; x[k] is then multiplied once, by `linear` = omega_l^2 + 3 x[0]^2.
     """
-    scale = 1.0 / ((k + 1) * (k + 2))
-    ratio = 1.0 / (k + 2)
-    if not tangent:
-        yield f"s{k} = {_square(k)}"
-        if k > 1:
-            yield f"e{k} = {-1.0 / (k * (k - 1))!r} * ww * e{k - 2}"
-    known = f"{-scale!r} * wl * x{k}" if tangent else f"{scale!r} * (e{k} - wl * x{k})"
-    known = f"({known} - {3 * scale if tangent else scale!r} * ({_cube(k)}))"
-    damping = f"- ({ratio!r} * h) * x{k + 1}"
-    if phase == "flight":
-        yield f"x{k + 2} = {known} {damping}"
-        return
-    yield f"known = {known}"
-    for name, mobility in (("x", ""), ("q", "c * ")):
-        spring = f"- ({scale!r} * {mobility}r1) * q{k}"
-        dashpot = f"- ({ratio!r} * {mobility}dash) * q{k + 1}"
-        yield f"{name}{k + 2} = ((known {spring}) {damping}) {dashpot}"
+    last = f"s{k} * x0"
+    if not tangent and k > 0:
+        known = _square_but_ends(k)
+        yield f"p{k} = {known}" if known else ""
+        yield f"s{k} = p{k} + twice * x{k}" if known else f"s{k} = twice * x{k}"
+        last = f"p{k} * x0" if known else ""
+    if not tangent and k > 1:
+        yield f"e{k} = {-1.0 / (k * (k - 1))!r} * ww * e{k - 2}"
+    terms = [f"s{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: max(j, k - j))]
+    terms += [last] if k > 0 and last else []
+    terms += [f"linear * x{k}" if k > 0 or tangent else "stiffness * x0", f"h * v{k}"]
+    yield f"g{k} = {'' if tangent else f'e{k}'} - {' - '.join(terms)}"
+    force = ""
+    if phase == "contact":
+        force = f" - f{k}"
+        yield f"f{k} = dash * w{k} + r1 * q{k}"
+        yield f"w{k + 1} = {1 / (k + 1)!r} * (g{k} - both * f{k})"
+        yield f"q{k + 2} = {1 / (k + 2)!r} * w{k + 1}"
+    yield f"v{k + 1} = {1 / (k + 1)!r} * (g{k}{force})"
+    yield f"x{k + 2} = {1 / (k + 2)!r} * v{k + 1}"
 
 
-def _square(k):
-    """Coefficient k of x^2, each product of two different factors taken once."""
-    if k == 0:
-        return "x0 * x0"
+def _square_but_ends(k):
+    """Coefficient k of x^2 without 2 x[0] x[k], each product taken once; or nothing."""
     terms = [f"x{j} * x{k - j}" for j in reversed(range(1, (k + 1) // 2))]
     middle = f"x{k // 2} * x{k // 2}" if k % 2 == 0 else ""
     doubled = f"2.0 * ({' + '.join(terms)})" if terms else ""
-    known = " + ".join(part for part in (middle, doubled) if part)
-    return f"({known}) + twice * x{k}" if known else f"twice * x{k}"
+    return " + ".join(part for part in (middle, doubled) if part)
 
 
-def _cube(k):
-    """Coefficient k of x^3."""
-    if k == 0:
-        return "s0 * x0"
-    terms = sorted(range(1, k), key=lambda j: max(j, k - j))
-    known = " + ".join(f"s{j} * x{k - j}" for j in terms)
-    last = f"s0 * x{k}"
-    return f"(({known}) + {last}) + s{k} * x0" if known else f"{last} + s{k} * x0"
+def _powers():
+    """Powers of t for `_sum`."""
+    yield "t2 = t * t"
+    yield "t4 = t2 * t2"
 
 
-def _horner(c, derivatives):
-    """Lines that give `value`, `slope` and `curve` of a polynomial in t, by Horner's rule.
-
-    Even and odd powers are taken apart, and added up side by side.
-    """
-    yield "u = t * t"
-    for name, part in (("even", c[::2]), ("odd", c[1::2])):
-        for level in range(derivatives + 1):
-            yield f"{name}{level} = {part[-1] if level == 0 else '0.0'}"
+def _sum(c, result):
+    """Lines that add up a series at t: every fourth power apart, side by side, then together."""
+    for j in range(4):
+        part = c[j::4]
+        yield f"part{j} = {part[-1]}"
         for term in part[-2::-1]:
-            for level in range(derivatives, 0, -1):
-                yield f"{name}{level} = {name}{level} * u + {name}{level - 1}"
-            yield f"{name}0 = {name}0 * u + {term}"
-    yield "value = even0 + t * odd0"
-    if derivatives > 0:
-        yield "slope = odd0 + 2.0 * (t * even1 + u * odd1)"
-    if derivatives > 1:
-        yield "curve = (2.0 * even1 + 6.0 * (t * odd1)) + 8.0 * u * (even2 + t * odd2)"
+            yield f"part{j} = part{j} * t4 + {term}"
+    yield f"{result} = (part0 + t * part1) + t2 * (part2 + t * part3)"

@@ -81,14 +81,14 @@ def forcing(a):
 def limit_length(a, series, order):
     """Shorten LENGTH so that the last two terms of a series stay below the tolerance.
 
-    Those of the slope do as well. Roots are taken by division of the bits, within a few per cent.
+    Roots are taken by division of the bits, within a few per cent.
     """
     for i in range(LANES):
         allowed = bits(SAFETY * a[TOLERANCE + i] * a[SCALE + i])
-        last = allowed - bits(order * abs(a[series + order * LANES + i]))
-        before = allowed - bits((order - 1.0) * abs(a[series + (order - 1) * LANES + i]))
-        last = (last >> 28) * ((1 << 28) // (order - 1))
-        before = (before >> 28) * ((1 << 28) // (order - 2))
+        last = allowed - bits(abs(a[series + order * LANES + i]))
+        before = allowed - bits(abs(a[series + (order - 1) * LANES + i]))
+        last = (last >> 28) * ((1 << 28) // order)
+        before = (before >> 28) * ((1 << 28) // (order - 1))
         a[LENGTH + i] = min(a[LENGTH + i], number(ONE + min(last, before)))
 
 
@@ -100,7 +100,7 @@ def flight_step(a):
     for i in range(LANES):
         a[LENGTH + i] = a[LONGEST + i]
         a[SCALE + i] = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
-    limit_length(a, X, FLIGHT_ORDER)
+    limit_length(a, V, FLIGHT_ORDER - 1)
     walls = 0
     for i in range(LANES):
         a[BOUND + i] = 0.0
@@ -171,8 +171,8 @@ def contact_step(a):
         a[LENGTH + i] = min(a[LONGEST + i], (DEEPER if deeper else BACK) * 2.0 * math.pi / natural)
         scale = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
         a[SCALE + i] = max(scale, abs(a[Y3 + i]))
-    limit_length(a, X, CONTACT_ORDER)
-    limit_length(a, Q, CONTACT_ORDER)
+    limit_length(a, V, CONTACT_ORDER - 1)
+    limit_length(a, W, CONTACT_ORDER - 1)
     contact_bound(a)
     find_release(a)
     contact_slope_x(a)
