@@ -47,6 +47,11 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 
 
+onstart:
+    if workflow.is_main_process and workflow.local_exec:
+        start_warm_process()
+
+
 onsuccess:
     write_provenance()
 

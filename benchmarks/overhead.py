@@ -1,21 +1,31 @@
 """What a run of the pipeline spends on anything but computing."""
 
+import os
 import re
-import resource
 import subprocess
 import sys
-from collections import Counter
+import tempfile
+import time
 from datetime import datetime, timedelta
 from pathlib import Path
 
 import pandas as pd
 
 from benchmarks import stages
+from impact_damper import warm
 
-ROOT = Path(__file__).parents[1]
-SCRIPT = re.compile(r"^rule (\w+):(?:(?!^rule ).)*?scripts/(\w+)\.py", re.MULTILINE | re.DOTALL)
-# Modules that a script looks up by name: one that stands for all of them.
-LOOKED_UP = {"draw": "impact_damper.figures.response", "table": "impact_damper.tables"}
+REPEATS = 10
+# What Snakemake puts before a script, as far as it takes time, and an empty script.
+EMPTY = """
+from types import SimpleNamespace
+
+from snakemake.iocontainers import Snakemake
+from snakemake.logging import logger
+
+from impact_damper.job import begin
+
+begin(SimpleNamespace(log=[__file__ + ".log"], input={}))
+"""
 
 
 def last_run(folder):
@@ -40,10 +50,7 @@ def table(text, timings):
     wall = timedelta(hours=clock.hour, minutes=clock.minute, seconds=clock.second).total_seconds()
     cores = int(re.search(r"Provided cores: (\d+)", text)[1])
     found = stages.jobs(timings, since=begin.timestamp())
-    scripts = {rule: script for path in sorted((ROOT / "workflow/rules").glob("*.smk"))
-               for rule, script in SCRIPT.findall(path.read_text())}  # fmt: skip
-    started = Counter(scripts.get(rule, "draw") for rule in _rules(text) if rule != "all")
-    start_up = sum(count * start_up_of(script) for script, count in started.items())
+    start_up = len(found) * start_up_of_a_job()
     computing = found["seconds"].sum() - start_up
     rows = {
         "jobs": len(found),
@@ -58,15 +65,20 @@ def table(text, timings):
     return pd.DataFrame({"what": rows.keys(), "value": rows.values()})
 
 
-def start_up_of(script):
-    """Processor seconds until a script has imported what it needs."""
-    lines = (ROOT / "workflow/scripts" / f"{script}.py").read_text().splitlines()
-    code = "\n".join(line for line in lines if line.startswith(("import ", "from ")))
-    code += f"\nimport {LOOKED_UP[script]}" if script in LOOKED_UP else ""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, "-c", code], check=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+def start_up_of_a_job():
+    """Seconds from the start of a job until its script begins, with modules and kernels loaded."""
+    warm.start()
+    address = Path(os.environ.pop(warm.ADDRESS))
+    while not address.exists():
+        time.sleep(0.1)
+    with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
+        script = Path(folder) / "empty.py"
+        script.write_text(EMPTY)
+        begin = time.perf_counter()
+        for _ in range(REPEATS):
+            environment = os.environ | {warm.ADDRESS: str(address)}
+            subprocess.run([sys.executable, script], check=True, env=environment)
+        return (time.perf_counter() - begin) / REPEATS
 
 
 def _rules(text):

@@ -12,7 +12,10 @@ FILE = "results/design/figure_05a.nc"
 YEAR = 365 * 86400
 
 # A job: it begins, and then does what is put here.
-JOB = "import sys, time; from impact_damper.job import begin; begin({!r}); print('begun'); {}"
+JOB = (
+    "import sys, time; from types import SimpleNamespace; from impact_damper.job import begin; "
+    "begin(SimpleNamespace(log=[{!r}], input={{}})); print('begun'); {}"
+)
 LONG = "time.sleep(60); sys.__stdout__.write('lived on')"
 # What starts a job, and waits.
 RUN = "import subprocess, sys; subprocess.Popen([sys.executable, '-c', {!r}]); sys.stdin.read()"

@@ -120,7 +120,8 @@ def test_tangents_solve_the_variational_equations(lanes, p, phase):
     d = d.ravel()
     getattr(module, f"{phase}_tangent_series")(a, d)
     first, second = (
-        Polynomial(d[columns * place + lane :: columns][: order + 1]) for place in (4, 4 + 2 * LENGTH)
+        Polynomial(d[columns * place + lane :: columns][: order + 1])
+        for place in (4, 4 + 2 * LENGTH)
     )
     force = contact_force(p, second) if phase == "contact" else Polynomial([0.0])
     terms = [first.deriv(2), p[1] * first.deriv(), p[2] * first, 3 * x**2 * first, force]

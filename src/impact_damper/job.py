@@ -6,17 +6,27 @@ import threading
 import time
 from contextlib import suppress
 
+from impact_damper.warm import hand_over
+
 WATCH = 0.5  # seconds, less than another run takes to start a job
 
 
-def begin(log) -> None:
+def begin(job) -> None:
     """Send what the job prints to its log, end it with its run, and tell files that stop it.
+
+    What stands after it in a script happens in a process that has imported its modules, if there
+    is one (`warm.hand_over`).
 
     A job outlives a Snakemake that is killed. It could then write what an older configuration
     gives over the results of a newer run, so it ends soon after the process that started it.
 
     An error that concerns a file says all in one line. It goes to the terminal too, for on a
     full disk nothing comes to the log.
+
+    Parameters
+    ----------
+    job : object
+        With the attributes `log` and `input` of Snakemake's scripts.
     """
     terminal, show = sys.stderr, sys.excepthook
 
@@ -27,9 +37,10 @@ def begin(log) -> None:
             with suppress(OSError):
                 print(f"Error: {error}", file=place)
 
-    sys.excepthook = tell
-    sys.stdout = sys.stderr = open(log, "w", buffering=1)
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
+    hand_over(compiled="kernels" in job.input.keys())
+    sys.excepthook = tell
+    sys.stdout = sys.stderr = open(job.log[0], "w", buffering=1)
 
 
 def _end_with(parent):

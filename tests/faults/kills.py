@@ -39,7 +39,11 @@ def wait_for_end_of_orphans(folder):
 
 def _within(folder, process):
     line = " ".join(process.info["cmdline"] or [])
-    return f"{folder}/.snakemake/scripts" in line
+    try:
+        warm = "impact_damper.warm" in line and process.cwd() == str(folder)
+    except psutil.Error:
+        return False
+    return warm or f"{folder}/.snakemake/scripts" in line
 
 
 def kill_snakemake(context):

@@ -20,6 +20,7 @@ from impact_damper.configuration import (
 )
 from impact_damper.contradictions import SECTIONS
 from impact_damper.variables.studies import AXES
+from impact_damper.warm import start as start_warm_process
 
 ROOT = Path(workflow.basedir)
 PACKAGE = Path(find_spec("impact_damper").origin).parent

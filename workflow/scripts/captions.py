@@ -1,14 +1,16 @@
 """Captions of all figures, from the templates that the report uses too."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from pathlib import Path
 from types import SimpleNamespace
 
 import jinja2
 
-from impact_damper.job import begin
 from impact_damper.whole_files import whole
 
-begin(snakemake.log[0])
 for template, figure, output in zip(
     snakemake.input.templates, snakemake.params, snakemake.output, strict=True
 ):

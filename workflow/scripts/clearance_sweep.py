@@ -1,16 +1,18 @@
 """Largest displacement against clearance, and its optimum (figures 6, 7 and 11)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.optimum import clearance_sweep
 from impact_damper.parameters import Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 sweep = clearance_sweep(
     Oscillator(**job["oscillator"]),

@@ -1,13 +1,15 @@
 """Whether random starts in the literal ball lead to collisions (section 3, claim 8)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 from impact_damper.datasets import save
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.response import collisions
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 shares = collisions(
     Oscillator(**job["oscillator"]),

@@ -1,5 +1,9 @@
 """The contact model over restitution and load, and contacts of motions in it."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
@@ -7,10 +11,8 @@ import numpy as np
 from impact_damper.contact_model import contact_model, spread_loads
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 model = contact_model(
     Oscillator(**job["oscillator"]),

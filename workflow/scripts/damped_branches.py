@@ -1,13 +1,15 @@
 """Every branch of periodic orbits with a damper, stable or not (figures 5, 8 and 10)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 from impact_damper.datasets import load, save
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.periodic import complete_branches
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 branches = complete_branches(
     Oscillator(**job["oscillator"]),

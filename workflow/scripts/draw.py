@@ -1,13 +1,15 @@
 """Every figure of data: the function `draw_<kind>`, in the module that draws the kind."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from importlib import import_module
 from pathlib import Path
 
 from impact_damper.datasets import load
 from impact_damper.figures.style import save
-from impact_damper.job import begin
 
-begin(snakemake.log[0])
 draw = getattr(import_module(snakemake.params.module), f"draw_{snakemake.params.kind}")
 drawing = draw(
     **{

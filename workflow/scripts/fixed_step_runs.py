@@ -1,15 +1,17 @@
 """What becomes of the quiet motion with fixed steps, over stiffness and step."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.stable_steps import stable_steps
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 stiffnesses, scaled = job["stiffnesses"], job["scaled_steps"]
 found = stable_steps(

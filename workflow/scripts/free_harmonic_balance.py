@@ -1,15 +1,17 @@
 """Free response by harmonic balance, stable and unstable (figures 2, 5, 8 and 10)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.design import harmonic_balance_response
-from impact_damper.job import begin
 from impact_damper.parameters import Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 response = harmonic_balance_response(
     Oscillator(**job["oscillator"]),

@@ -1,16 +1,18 @@
 """Motions of the free oscillator and the ends of its branches (figure 2)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.parameters import Oscillator
 from impact_damper.response import frequency_response
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 response = frequency_response(
     Oscillator(**job["oscillator"]),

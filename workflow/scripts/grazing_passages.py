@@ -1,15 +1,17 @@
 """Contacts near grazing that integrators miss, counted over random passages."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
-from impact_damper.job import begin
 from impact_damper.missed_contacts import missed_contacts
 from impact_damper.parameters import Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 depths, tolerances, steps = job["depths"], job["tolerances"], job["steps"]
 steps = np.geomspace(steps["first"], steps["last"], tolerances["points"])

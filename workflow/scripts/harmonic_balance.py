@@ -1,5 +1,9 @@
 """Harmonic-balance response and suppression band of a damper (section 2, figures 3, 5 and 8)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
@@ -7,10 +11,8 @@ import xarray as xr
 
 from impact_damper.datasets import save
 from impact_damper.design import harmonic_balance_response, optimum_clearance, suppression_band
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])
 given = job["damper"]

@@ -1,5 +1,9 @@
 """Where harmonic balance fails, over frequency and another parameter."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
@@ -7,9 +11,7 @@ import numpy as np
 from impact_damper.balance_map import balance_map
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 found = balance_map(
     job["parameter"],

@@ -1,13 +1,15 @@
 """Harmonic balance with many harmonics against the exact orbit."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 from impact_damper.datasets import save
 from impact_damper.harmonics import harmonic_convergence, ladder
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 harmonics = ladder(job["highest"])
 convergence = harmonic_convergence(

@@ -1,15 +1,17 @@
 """Verdicts of integrators by tolerance, against the truth."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.verdicts import make_scene, verdicts
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])
 scenes = {}

@@ -1,14 +1,16 @@
 """Runs of the migration controller (section 5, figures 13 to 16)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.migration import trials
 from impact_damper.parameters import Damper, Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 outcome = trials(
     Oscillator(**job["oscillator"]),

@@ -1,16 +1,18 @@
 """Where releases of the damper lead over frequency (section 5, figure 14)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.release_scan import release_scan
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 scan = release_scan(
     Oscillator(**job["oscillator"]),

@@ -1,16 +1,18 @@
 """Rigid impacts against compliant contact over frequency and contact stiffness."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.rigid_limit import rigid_limit
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 limit = rigid_limit(
     Oscillator(**job["oscillator"]),

@@ -1,15 +1,17 @@
 """Errors of methods against counted work, on one scene."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 import json
 from collections import ChainMap
 from pathlib import Path
 
 from impact_damper.accuracy import Scene, error_against_work
 from impact_damper.datasets import save
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 
-begin(snakemake.log[0])
 job = dict(ChainMap(*snakemake.params))
 settings, damper = job.pop("settings"), job.pop("damper")
 scene = Scene(

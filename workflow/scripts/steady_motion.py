@@ -1,14 +1,16 @@
 """A steady motion over its period (figure 4)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.motions import steady_orbit
 from impact_damper.parameters import Damper, Oscillator
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 motion = steady_orbit(
     Oscillator(**job["oscillator"]),

@@ -1,16 +1,18 @@
 """A chunk of a study over mass ratio, clearance, frequency and restitution."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.parameters import Oscillator
 from impact_damper.studies import study_chunk
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 chunk = study_chunk(
     Oscillator(**job["oscillator"]),

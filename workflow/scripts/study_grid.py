@@ -1,7 +1,9 @@
 """The chunks of a study as one file."""
 
-from impact_damper.gathering import gather_chunks
 from impact_damper.job import begin
 
-begin(snakemake.log[0])
+begin(snakemake)
+
+from impact_damper.gathering import gather_chunks
+
 gather_chunks(snakemake.input.chunks, snakemake.output[0])

@@ -1,16 +1,18 @@
 """The one-third subharmonic, and what the damper makes of it (figures 5 and 8)."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from collections import ChainMap
 
 import numpy as np
 
 from impact_damper.datasets import save
 from impact_damper.ensemble import Settling
-from impact_damper.job import begin
 from impact_damper.parameters import Damper, Oscillator
 from impact_damper.subharmonic import subharmonic_suppression
 
-begin(snakemake.log[0])
 job = ChainMap(*snakemake.params)
 motions = subharmonic_suppression(
     Oscillator(**job["oscillator"]),

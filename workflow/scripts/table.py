@@ -1,13 +1,15 @@
 """Every table but that of the claims: the function of its name, in the module that makes it."""
 
+from impact_damper.job import begin
+
+begin(snakemake)
+
 from importlib import import_module
 from pathlib import Path
 
 from impact_damper.datasets import load
-from impact_damper.job import begin
 from impact_damper.table_files import save
 
-begin(snakemake.log[0])
 datasets = {
     stage: {Path(path).stem: load(path) for path in paths}
     for stage, paths in snakemake.input.items()

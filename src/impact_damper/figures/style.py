@@ -4,6 +4,7 @@ The palette is that of Okabe and Ito, which colour-blind readers can tell apart.
 Roles that meet in one figure differ in marker or line as well, for grey print.
 """
 
+import io
 import re
 import string
 
@@ -213,6 +214,15 @@ def legend(figure, columns) -> None:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
+
+
+def draw_first() -> None:
+    """Draw something to nowhere, for matplotlib imports and prepares much when it first draws."""
+    with style():
+        drawn = figure("single", 2.0)
+        drawn.subplots().set_title(r"$\Omega$")
+        for kind in ("pdf", "png"):
+            drawn.savefig(io.BytesIO(), format=kind)
 
 
 def save(figure, path) -> None:
