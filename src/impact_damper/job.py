@@ -37,10 +37,15 @@ def begin(job) -> None:
             with suppress(OSError):
                 print(f"Error: {error}", file=place)
 
-    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
+    end_with_parent()
     hand_over(compiled="kernels" in job.input.keys())
     sys.excepthook = tell
     sys.stdout = sys.stderr = open(job.log[0], "w", buffering=1)
+
+
+def end_with_parent() -> None:
+    """End this process soon after the one that started it."""
+    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
 
 
 def _end_with(parent):

@@ -30,6 +30,13 @@ def workspace():
 
 
 @kernel
+def assign(target, state):
+    """`target[:] = state`, which to compile takes numba three seconds."""
+    for i in range(4):
+        target[i] = state[i]
+
+
+@kernel
 def polynomial(c, order, t):
     """Value and first derivative of a polynomial at t."""
     value = c[order]

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from impact_damper.accelerate import inlined, kernel
-from impact_damper.kernel import side_of
+from impact_damper.kernel import assign, side_of
 from impact_damper.lanes import (
     LANES,
     RESIDENT,
@@ -244,8 +244,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, watched, 
                 p, y, side, contacts, tangent, rings[m], seen[m], tolerance, patience, limit, out[i]
             ):
                 left -= 1
-                for k in range(4):
-                    out[i].state[k] = y[k]
+                assign(out[i].state, y)
                 if out[i].outcome != DIVERGED:
                     periods = out[i].period if out[i].period > 0 else watched
                     measure(p, y, periods, tolerance, out[i])

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from impact_damper.accelerate import inlined, kernel
-from impact_damper.kernel import advance, side_of, workspace
+from impact_damper.kernel import advance, assign, side_of, workspace
 
 CONVERGED = 1e-9
 POLISH_TOLERANCE = 1e-12
@@ -142,7 +142,7 @@ def polish(p, y, periods, reach, tolerance):
         if abs(solve(newton, change)) < 1e-12:
             break
         if largest(change) < CONVERGED:
-            y[:] = orbit
+            assign(y, orbit)
             square = matrix[:active, :active].astype(np.complex128)
             return True, residual, dominant(np.linalg.eigvals(square))
         for i in range(active):
@@ -191,8 +191,8 @@ def follow(p, y, periods, index, target, resolution, tolerance):
         found, _, next_multiplier = polish(trial, guess, periods, REACH, tolerance)
         near = found and abs(next_multiplier) < 1.0 and distance(guess, y, 0.0) < 2.0 * REACH
         if near and not repeats_sooner(trial, guess, periods, tolerance):
-            before[:] = y
-            y[:] = guess
+            assign(before, y)
+            assign(y, guess)
             p[index] = trial[index]
             last_step = step_now
             multiplier = next_multiplier

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from impact_damper.accelerate import kernel
-from impact_damper.kernel import Q, X, polynomial, side_of, step, workspace
+from impact_damper.kernel import Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.orbits import distance, speed_weight, strobe_time
 from impact_damper.widths import CONTACT_ORDER, FLIGHT_ORDER
 
@@ -85,7 +85,7 @@ def measure(p, y, periods, tolerance, out):
     out.asymmetry = np.nan
     while t < end:
         stop = min(end, half) if t < half else end
-        start[:] = state
+        assign(start, state)
         before = side
         length, side = step(p, state, none, side, t, stop - t, tolerance, work)
         order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
@@ -131,10 +131,10 @@ def trace(p, y, t, times, tolerance, states, log):
         contacts = record_beginning(log, contacts, side, t, y[3])
     sample = 0
     while sample < len(times) and times[sample] <= t:
-        states[sample] = y
+        assign(states[sample], y)
         sample += 1
     while sample < len(times):
-        start[:] = y
+        assign(start, y)
         before = side
         # the last sample is an end of a step, so that y is the state there
         left = times[-1] - t

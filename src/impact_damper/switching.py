@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from impact_damper.accelerate import kernel
-from impact_damper.kernel import advance, side_of, workspace
+from impact_damper.kernel import advance, assign, side_of, workspace
 from impact_damper.motion import (
     NEAR,
     NEAREST,
@@ -42,19 +42,21 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
     near = NEAR
     t = strobe_time(p)
     out.outcome, out.period, out.maximum_displacement = UNRESOLVED, 0, np.nan
-    path[0, 0], path[0, 1:] = strobe - ahead, y
+    path[0, 0] = strobe - ahead
+    assign(path[0, 1:], y)
     side, _, _ = advance(
         p, y, none, side_of(p, y), t - ahead * 2.0 * math.pi / p[0], t, tolerance, work
     )
     for k in range(limit + 1):
-        path[k + 1, 0], path[k + 1, 1:] = strobe + k, y
-        ring[k % RING] = y
+        path[k + 1, 0] = strobe + k
+        assign(path[k + 1, 1:], y)
+        assign(ring[k % RING], y)
         out.periods_run = k
         n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)
         if n > 0:
             orbit = y.copy()
             if land(p, orbit, n, near, out):
-                out.state[:] = orbit
+                assign(out.state, orbit)
                 measure(p, orbit, np.int64(out.period), tolerance, out)
                 break
             near = max(0.1 * near, NEAREST)
@@ -109,7 +111,7 @@ def life(p, path, out, tolerance):
     y = out.state.copy()
     side = side_of(p, y)
     for j in range(out.period):
-        orbit[j] = y
+        assign(orbit[j], y)
         side, _, _ = one_period(p, y, none, side, tolerance, work)
     last = out.periods_run
     for k in range(last, -1, -1):

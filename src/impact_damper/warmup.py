@@ -2,27 +2,45 @@
 
 import numpy as np
 
-from impact_damper import runs
+from impact_damper import runs, switching
 from impact_damper.ensemble import Settling
-from impact_damper.migration import trials
 from impact_damper.motions import simulate
 from impact_damper.orbits import strobe_time
 from impact_damper.parameters import Damper, Oscillator, pack
+from impact_damper.recording import MOTION
 from impact_damper.response import collisions, frequency_response
 from impact_damper.rivals import fixed_step, merson
 from impact_damper.rivals.passages import draw_passages
 
+OSCILLATOR = Oscillator(damping=0.215)
+# With it every motion settles soon at this frequency, so that orbits are followed too.
+DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
+FREQUENCY = 1.95
+
 
 def warm_up() -> None:
     """Call each kernel once with the types that it is always called with."""
-    oscillator = Oscillator(damping=0.215)
-    # With it every motion settles soon at this frequency, so that orbits are followed too.
-    damper = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
+    warm_up_single()
+    warm_up_settling()
+
+
+def warm_up_single() -> None:
+    """`warm_up` of what takes one motion; what both halves need comes first."""
+    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
+    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
+    on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
+    path, record = np.zeros((4, 5)), np.zeros(1, MOTION)[0]
+    record["period"] = 1
+    switching.life(on, path, record, 1e-9)
+    switching.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, record)
+
+
+def warm_up_settling() -> None:
+    """`warm_up` of what takes many motions until they settle."""
     settling = Settling(patience=100, limit=100, watched=1)
-    simulate(oscillator, damper, 1.95, periods=1, samples=2)
-    frequency_response(oscillator, damper, [1.95, 1.96], starts=1, settling=settling)
-    collisions(oscillator, damper, 1.95, starts=1, periods=1)
-    trials(oscillator, damper, 1.95, trials=1, releases=1, lifetime=100, longest_hold=5)
+    frequency_response(
+        OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
+    )
 
 
 def warm_up_rivals() -> None:
@@ -31,7 +49,7 @@ def warm_up_rivals() -> None:
     Code that is loaded from the cache can differ in the last digit from code that was compiled in
     the same process, which shows where a method goes through a jump: all jobs are to load it.
     """
-    p = pack(Oscillator(damping=0.215), Damper(0.25, 1.0, 0.75), 2.0)
+    p = pack(OSCILLATOR, DAMPER, 2.0)
     start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
     runs.taylor(p, start, begin, 1, 1e-3)
     runs.rigid(p, 0.75, start, begin, 1, 1e-3)

@@ -13,7 +13,7 @@ rule kernels:
     priority: 2
     conda:
         "../envs/impact-damper.yaml"
-    threads: 1
+    threads: 2
     message:
         "Compiling the kernels, once for all jobs"
     script:
