@@ -27,7 +27,7 @@ from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
 from impact_damper.work import operations
 
-FLIGHT_ROUNDS, CONTACT_ROUNDS = 1, 3
+FLIGHT_ROUNDS, CONTACT_ROUNDS = 1, 2
 MOST_CONTACTS = 100_000
 SAMPLES = 64
 MOST_ENDS = 400_000

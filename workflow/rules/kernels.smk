@@ -14,6 +14,8 @@ rule kernels:
     conda:
         "../envs/impact-damper.yaml"
     threads: 2
+    resources:
+        mem_mb=2000,
     message:
         "Compiling the kernels, once for all jobs"
     script:
