@@ -16,7 +16,7 @@ USUAL = {"mass_ratio": 0.12, "clearance": 2.0, "restitution": 1.0, "contact_stif
 EXTREMES = [
     {"contact_stiffness": 1e-6},
     {"contact_stiffness": 1e9},
-    {"clearance": 1e-4},
+    {"clearance": 1e-6},
     {"clearance": 1e3},
     {"restitution": 0.05},
     {"restitution": 0.3},
