@@ -1,6 +1,7 @@
 """Jobs that are handed over to a process which has imported what they need."""
 
 import os
+import socket
 import subprocess
 import sys
 import time
@@ -88,4 +89,13 @@ def test_a_job_ends_with_the_process_that_handed_it_over(address, tmp_path):
 
 def test_a_job_whose_child_is_killed_fails(address, tmp_path):
     job = start(tmp_path, "os.kill(os.getpid(), 9)", address)
-    assert job.wait() == 1
+    _, told = job.communicate()
+    assert job.returncode == 1
+    assert told == f"Error: the process that ran {tmp_path / 'job.py'} was killed.\n"
+
+
+def test_a_connection_without_a_request_ends_nothing(address, tmp_path):
+    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as connection:
+        connection.connect(str(address))
+    assert start(tmp_path, "", address).wait() == 0
+    assert (tmp_path / "job.py.log").read_text().startswith("True")

@@ -26,6 +26,7 @@ MODULES = ["impact_damper.warmup", "impact_damper.accuracy", "impact_damper.tabl
 # As Snakemake sets them for a job of one thread.
 THREADS = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
 LOOK = 0.5  # seconds between two looks whether the run goes on
+LONGEST_SILENCE = 5.0  # seconds
 LONGEST_REQUEST = 2**16
 REFUSED = 255
 
@@ -70,10 +71,12 @@ def hand_over(compiled) -> None:
             answer = connection.recv(1)
         except OSError:
             return
-    # Without an answer the child was killed.
-    code = answer[0] if answer else 1
-    if code != REFUSED:
-        os._exit(code)
+    if not answer:
+        print(f"Error: the process that ran {request['script']} was killed.", file=sys.stderr)
+        sys.stderr.flush()
+        os._exit(1)
+    if answer[0] != REFUSED:
+        os._exit(answer[0])
 
 
 def serve(folder, run) -> None:
@@ -89,15 +92,21 @@ def serve(folder, run) -> None:
     listener.listen(4096)
     loaded = False
     while os.getppid() == run:
-        with suppress(OSError):
+        # A job that is killed before it has said what it wants closes the connection.
+        with suppress(OSError, json.JSONDecodeError):
             connection, _ = listener.accept()
+            connection.settimeout(LONGEST_SILENCE)
             request, files, _, _ = socket.recv_fds(connection, LONGEST_REQUEST, 2)
+            connection.settimeout(None)
             request = json.loads(request)
             if request["compiled"] and not loaded:
                 _load_kernels()
                 loaded = True
             if os.fork() == 0:
-                _run(connection, request, files)
+                try:
+                    _run(connection, request, files)
+                finally:
+                    os._exit(1)
             connection.close()
             for file in files:
                 os.close(file)
@@ -125,7 +134,6 @@ def _run(connection, request, files):
     with suppress(OSError):
         sys.stdout.flush()
         connection.send(bytes([code]))
-    os._exit(0)
 
 
 def _code_of(script):
