@@ -48,6 +48,7 @@ include: "workflow/rules/tables.smk"
 
 
 onstart:
+    check_writable(Path(config["results"]))
     if workflow.is_main_process and workflow.local_exec:
         start_warm_process()
 
