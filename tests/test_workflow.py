@@ -83,3 +83,10 @@ def test_a_key_that_stands_twice_is_told(tmp_path):
     result = snakemake(ROOT, "-n", "--configfile", mine)
     assert result.returncode == 1
     assert "mine.yaml, line 2: seed stands twice" in result.stderr + result.stdout
+
+
+def test_each_hook_stands_once():
+    """Of two Snakemake would forget the first."""
+    files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
+    hooks = re.findall("^(on[a-z]+):", "".join(path.read_text() for path in files), re.MULTILINE)
+    assert sorted(hooks) == ["onstart", "onsuccess"]
