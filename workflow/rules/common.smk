@@ -1,6 +1,7 @@
 """What the rules share: a checked configuration, and the sources of a script."""
 
 import ast
+import gc
 import json
 import math
 import os
@@ -21,6 +22,10 @@ from impact_damper.configuration import (
 from impact_damper.contradictions import SECTIONS
 from impact_damper.variables.studies import AXES
 from impact_damper.warm import start as start_warm_process
+
+# To plan makes many small objects that are all kept: to look for garbage among them takes a
+# fifteenth of the time of a dry run.
+gc.set_threshold(100_000)
 
 ROOT = Path(workflow.basedir)
 PACKAGE = Path(find_spec("impact_damper").origin).parent
