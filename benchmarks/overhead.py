@@ -74,9 +74,9 @@ def start_up_of_a_job():
     with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
         script = Path(folder) / "empty.py"
         script.write_text(EMPTY)
+        environment = os.environ | {warm.ADDRESS: str(address)}
         begin = time.perf_counter()
         for _ in range(REPEATS):
-            environment = os.environ | {warm.ADDRESS: str(address)}
             subprocess.run([sys.executable, script], check=True, env=environment)
         return (time.perf_counter() - begin) / REPEATS
 

@@ -94,6 +94,20 @@ def close_in(t, f, slope, curve, natural, low, high, length, fine, tolerance):
 
 
 @kernel
+def go_on(a, i, mode, t, move, low, high):
+    """Keep where a search in a lane has come to, after a last move; 1 if it has not ended."""
+    going = a[MODE + i] <= ENDING
+    a[LOW + i] = low
+    a[HIGH + i] = high
+    a[T + i] = t
+    a[MODE + i] = mode
+    value = a[VALUE + i] + move * (a[SLOPE + i] + 0.5 * move * a[CURVE + i])
+    a[END_VALUE + i] = value if going else a[END_VALUE + i]
+    a[END_SLOPE + i] = a[SLOPE + i] + move * a[CURVE + i] if going else a[END_SLOPE + i]
+    return 1 if mode <= ENDING else 0
+
+
+@kernel
 def find_contact(a):
     """Move T to the first time in [0, LENGTH] at which |Z2| reaches the clearance from inside.
 
@@ -156,7 +170,6 @@ def search_contact(a):
             high = a[HIGH + i]
             length = a[LENGTH + i]
             move = 0.0
-            going = mode <= ENDING
             if mode == MARCH:
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
@@ -179,14 +192,7 @@ def search_contact(a):
             elif mode == ENDING:
                 mode = MISSED
             a[WALL + i] = wall
-            a[LOW + i] = low
-            a[HIGH + i] = high
-            a[T + i] = t
-            a[MODE + i] = mode
-            value = a[VALUE + i] + move * (a[SLOPE + i] + 0.5 * move * a[CURVE + i])
-            a[END_VALUE + i] = value if going else a[END_VALUE + i]
-            a[END_SLOPE + i] = a[SLOPE + i] + move * a[CURVE + i] if going else a[END_SLOPE + i]
-            running += 1 if mode <= ENDING else 0
+            running += go_on(a, i, mode, t, move, low, high)
 
 
 @kernel
@@ -245,7 +251,6 @@ def find_release(a):
             high = a[HIGH + i]
             length = a[LENGTH + i]
             move = 0.0
-            going = mode <= ENDING
             if mode == MARCH:
                 ahead = safe_advance(f, -slope, bound)
                 t, mode = march(t, f, slope <= 0.0, ahead, length, fine)
@@ -258,11 +263,4 @@ def find_release(a):
                 t += move
             elif mode == ENDING:
                 mode = MISSED
-            a[LOW + i] = low
-            a[HIGH + i] = high
-            a[T + i] = t
-            a[MODE + i] = mode
-            value = a[VALUE + i] + move * (a[SLOPE + i] + 0.5 * move * a[CURVE + i])
-            a[END_VALUE + i] = value if going else a[END_VALUE + i]
-            a[END_SLOPE + i] = a[SLOPE + i] + move * a[CURVE + i] if going else a[END_SLOPE + i]
-            running += 1 if mode <= ENDING else 0
+            running += go_on(a, i, mode, t, move, low, high)

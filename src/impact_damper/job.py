@@ -6,9 +6,7 @@ import threading
 import time
 from contextlib import suppress
 
-from impact_damper.warm import hand_over
-
-WATCH = 0.5  # seconds, less than another run takes to start a job
+from impact_damper.warm import LOOK, hand_over
 
 
 def begin(job) -> None:
@@ -50,5 +48,5 @@ def end_with_parent() -> None:
 
 def _end_with(parent):
     while os.getppid() == parent:
-        time.sleep(WATCH)
+        time.sleep(LOOK)
     os._exit(1)

@@ -18,8 +18,6 @@ fast as loops over arrays; with several to vector instructions, three times as f
 All numbers of a step stand in one flat array, `lanes` to a row; `rows` says in which row.
 """
 
-from itertools import chain
-
 # What a step is given, what it finds, and what it needs on its way. Then the series: of Z1 and
 # its rate, of the penetration and its rate, of g and of Z1^2. Those of a tangent, in an array of
 # their own, are of the first four.
@@ -78,7 +76,6 @@ class Writer:
 
     def series(self, phase):
         """Fill the series of a step: all of them in contact; X, V, G and S in flight."""
-        order = self.orders[phase]
         lines = [
             f"ww = {self.at('FREQUENCY')} * {self.at('FREQUENCY')}",
             f"e0 = {self.at('COSINE')}",
@@ -96,9 +93,8 @@ class Writer:
                 f"q0 = {self.at('Y2')} - {self.at('SIDE')} * {self.at('CLEARANCE')}",
                 f"w0 = {self.at('Y3')}",
             ]
-        lines += ["x1 = v0"] + (["q1 = w0"] if phase == "contact" else [])
-        lines += chain.from_iterable(_order(k, phase, tangent=False) for k in range(order - 1))
-        for name, last in self._written(phase):
+        lines += self._recurrence(phase, tangent=False)
+        for name, last in self._written(phase).items():
             lines += [f"{self.at(name, k)} = {name.lower()}{k}" for k in range(last + 1)]
         return self.function(f"{phase}_series", lines)
 
@@ -110,16 +106,22 @@ class Writer:
             f"linear = {self.at('STIFFNESS')} + s0",
             *self._given(phase),
         ]
-        names = "xvqw" if phase == "contact" else "xv"
-        lines += [f"{name}0 = {self.at_tangent('', j)}" for j, name in enumerate(names)]
-        lines += ["x1 = v0"] + (["q1 = w0"] if phase == "contact" else [])
-        lines += chain.from_iterable(_order(k, phase, tangent=True) for k in range(order - 1))
-        for name, last in self._written(phase):
-            if name.lower() in names:
-                lines += [
-                    f"{self.at_tangent(f'D{name}', k)} = {name.lower()}{k}" for k in range(last + 1)
-                ]
+        written = self._written_of_tangent(phase)
+        lines += [f"{name.lower()}0 = {self.at_tangent('', j)}" for j, name in enumerate(written)]
+        lines += self._recurrence(phase, tangent=True)
+        for name, last in written.items():
+            lines += [
+                f"{self.at_tangent(f'D{name}', k)} = {name.lower()}{k}" for k in range(last + 1)
+            ]
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
+
+    def _recurrence(self, phase, tangent):
+        """All orders, from x0 and v0 and in contact q0 and w0 on."""
+        yield "x1 = v0"
+        if phase == "contact":
+            yield "q1 = w0"
+        for k in range(self.orders[phase] - 1):
+            yield from _order(k, phase, tangent)
 
     def _given(self, phase):
         """Factors of the recurrence."""
@@ -136,30 +138,31 @@ class Writer:
         """The series that a step fills, and their orders."""
         order = self.orders[phase]
         orders = {"X": order, "V": order - 1, "G": order - 2, "S": order - 2}
-        return (orders | ({"Q": order, "W": order - 1} if phase == "contact" else {})).items()
+        return orders | ({"Q": order, "W": order - 1} if phase == "contact" else {})
 
-    def values(self, phase, name, results):
-        """Sums of series at T; `results` gives the row of each sum, and its series."""
+    def _written_of_tangent(self, phase):
+        """The same of a tangent, in the order of its rows 0 to 3."""
+        return {
+            name: last
+            for name, last in self._written(phase).items()
+            if f"D{name}" in TANGENT_SERIES
+        }
+
+    def values(self, phase, name, results, then=()):
+        """Sums of series at T, and what follows; `results` gives each sum's row, and its series."""
         lines = [f"t = {self.at('T')}", *_powers()]
-        orders = dict(self._written(phase))
+        orders = self._written(phase)
         for result, row in results.items():
             coefficients = [self.at(row, k) for k in range(orders[row] + 1)]
             lines += _sum(coefficients, self.at(result))
-        if name == "curve_q":
-            force = (
-                f"{self.at('CONTACT')} * {self.at('VALUE')} "
-                f"+ {self.at('DASHPOT')} * {self.at('SLOPE')}"
-            )
-            lines += [f"{self.at('CURVE')} -= (1.0 + {self.at('INVERSE_MASS')}) * ({force})"]
-        return self.function(f"{phase}_{name}", lines)
+        return self.function(f"{phase}_{name}", [*lines, *then])
 
     def tangent_value(self, phase):
         """The tangent at T."""
         lines = [f"t = {self.at('T')}", *_powers()]
-        for name, order in self._written(phase):
-            if f"D{name}" in TANGENT_SERIES:
-                coefficients = [self.at_tangent(f"D{name}", k) for k in range(order + 1)]
-                lines += _sum(coefficients, self.at_tangent("", "XVQW".index(name)))
+        for place, (name, last) in enumerate(self._written_of_tangent(phase).items()):
+            coefficients = [self.at_tangent(f"D{name}", k) for k in range(last + 1)]
+            lines += _sum(coefficients, self.at_tangent("", place))
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def bound(self, phase):
@@ -172,7 +175,12 @@ class Writer:
     def source(self):
         """The module."""
         x = {"VALUE": "X", "SLOPE": "V"}
-        q = {"VALUE": "Q", "SLOPE": "W"}
+        # Of the acceleration of the penetration, G is what does not come from the wall.
+        q = {"VALUE": "Q", "SLOPE": "W", "CURVE": "G"}
+        force = (
+            f"{self.at('CONTACT')} * {self.at('VALUE')} + {self.at('DASHPOT')} * {self.at('SLOPE')}"
+        )
+        wall = f"{self.at('CURVE')} -= (1.0 + {self.at('INVERSE_MASS')}) * ({force})"
         functions = [
             *(self.series(phase) for phase in self.orders),
             *(self.tangent_series(phase) for phase in self.orders),
@@ -181,7 +189,7 @@ class Writer:
             self.values("flight", "slope_x", x),
             self.values("flight", "curve_x", x | {"CURVE": "G"}),
             self.values("contact", "slope_x", x),
-            self.values("contact", "curve_q", q | {"CURVE": "G"}),
+            self.values("contact", "curve_q", q, [wall]),
         ]
         return "from impact_damper.accelerate import kernel\n\n\n" + "\n\n".join(functions)
 
@@ -195,7 +203,8 @@ def _order(k, phase, tangent):
     last = f"s{k} * x0"
     if not tangent and k > 0:
         known = _square_but_ends(k)
-        yield f"p{k} = {known}" if known else ""
+        if known:
+            yield f"p{k} = {known}"
         yield f"s{k} = p{k} + twice * x{k}" if known else f"s{k} = twice * x{k}"
         last = f"p{k} * x0" if known else ""
     if not tangent and k > 1:

@@ -21,11 +21,13 @@ from contextlib import suppress
 from importlib import import_module
 
 ADDRESS = "IMPACT_DAMPER_WARM"
-# Between them they import what all jobs do.
+# Between them they import what all jobs do. By name: what a module imports itself counts for the
+# workflow as what its jobs depend on.
 MODULES = ["impact_damper.warmup", "impact_damper.accuracy", "impact_damper.tables"]
 # As Snakemake sets them for a job of one thread.
 THREADS = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
-LOOK = 0.5  # seconds between two looks whether the run goes on
+# Seconds between two looks whether the run goes on, less than another takes to start a job.
+LOOK = 0.5
 LONGEST_SILENCE = 5.0  # seconds
 LONGEST_REQUEST = 2**16
 REFUSED = 255

@@ -49,13 +49,13 @@ def unwritable(folder):
 
 def check_writable(folder):
     """Refuse to start jobs where nothing can be written."""
-    if unwritable(folder):
-        raise WorkflowError(unwritable(folder))
+    if words := unwritable(folder):
+        raise WorkflowError(words)
 
 
 # Not once more in each job.
 if workflow.is_main_process:
     check_results(Path(config["results"]))
 # What is there can still be looked at; Snakemake's own words for a run that would write come later.
-if unwritable(Path(config["results"])):
-    logger.warning(unwritable(Path(config["results"])))
+if words := unwritable(Path(config["results"])):
+    logger.warning(words)
