@@ -51,7 +51,8 @@ if "+avx512f" in get_host_cpu_features():
 # "contract" allows fused multiply-add and nothing else: reordering sums would
 # cost both digits and speed. Kernels release the interpreter lock, so threads
 # spread them over cores without a parallel compilation of their own.
-kernel = partial(numba.njit, cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
+CONTRACT = ("contract",)
+kernel = partial(numba.njit, cache=True, nogil=True, fastmath=set(CONTRACT), error_model="numpy")
 
 # For a function with few callers: compiled as part of them and not by itself as well.
 inlined = partial(kernel, inline="always")

@@ -1,0 +1,138 @@
+"""Straight lines of arithmetic, compiled without asking for their types.
+
+All numbers are of one type here, so that LLVM's code can be written at once. numba's inference of
+types takes a millisecond for an operation, and the series of a step have thousands of them.
+"""
+
+import ast
+import inspect
+import textwrap
+from contextlib import nullcontext
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from impact_damper.accelerate import CONTRACT
+
+# Lanes at once, in one register or, where they are narrower, in several.
+WIDTH = 8
+NUMBER = ir.DoubleType()
+OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
+
+
+def straight(function):
+    """Compile a function that does lines of arithmetic for each lane.
+
+    Parameters
+    ----------
+    function : callable
+        Of one argument or two, pointers to numbers. Its body is a loop `for i in range(lanes)`, of
+        a multiple of WIDTH or fewer, over assignments. Their left sides are names, or numbers
+        `a[1]` or `a[1 + i]` of an argument, and their right sides sums, differences, products and
+        quotients of such, of constants, and of `abs` and `max`.
+
+    Returns
+    -------
+    intrinsic
+        To be called in a kernel. Its attribute `py_func` is the function.
+    """
+    tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
+    names = [argument.arg for argument in tree.args.args]
+    loop = tree.body[0]
+    lanes = loop.iter.args[0].value
+    width = min(lanes, WIDTH)
+
+    def generate(context, builder, signature, arguments):
+        arrays = dict(zip(names, arguments, strict=True))
+        count, step = (context.get_constant(types.intp, n) for n in (lanes // width, width))
+        # A loop of one round would move stores behind its end.
+        with cgutils.for_range(builder, count) if lanes > width else nullcontext() as turn:
+            first = builder.mul(turn.index, step) if turn else None
+            lines = _Lines(builder, arrays, first, width)
+            for statement in loop.body:
+                lines.visit(statement)
+        return context.get_dummy_value()
+
+    # Numba reads off the signature how many arguments there are.
+    def of_one(typing, a):
+        return types.void(a), generate
+
+    def of_two(typing, a, d):
+        return types.void(a, d), generate
+
+    compiled = intrinsic(of_one if len(names) == 1 else of_two)
+    compiled.py_func = function
+    return compiled
+
+
+class _Lines(ast.NodeVisitor):
+    """Writes assignments for some lanes from the first on; with one lane they are scalars."""
+
+    def __init__(self, builder, arrays, first, width):
+        self.builder, self.arrays, self.first, self.width = builder, arrays, first, width
+        self.type = NUMBER if width == 1 else ir.VectorType(NUMBER, width)
+        self.values = {}
+
+    def constant(self, number):
+        """A number in all lanes."""
+        return ir.Constant(self.type, number if self.width == 1 else [number] * self.width)
+
+    def place(self, node):
+        """Pointer to a number of an array, and whether each lane has its own."""
+        index, own = node.slice, isinstance(node.slice, ast.BinOp)
+        number = ir.Constant(ir.IntType(64), (index.left if own else index).value)
+        if own and self.first is not None:
+            number = self.builder.add(number, self.first)
+        return self.builder.gep(self.arrays[node.value.id], [number], inbounds=True), own
+
+    def visit_Assign(self, node):
+        self.store(node.targets[0], self.visit(node.value))
+
+    def visit_AugAssign(self, node):
+        self.store(node.target, self.visit(ast.BinOp(node.target, node.op, node.value)))
+
+    def store(self, target, value):
+        if isinstance(target, ast.Name):
+            self.values[target.id] = value
+            return
+        pointer, _ = self.place(target)
+        self.builder.store(value, self.builder.bitcast(pointer, self.type.as_pointer()), align=8)
+
+    def visit_Subscript(self, node):
+        pointer, own = self.place(node)
+        if own:
+            pointer = self.builder.bitcast(pointer, self.type.as_pointer())
+            return self.builder.load(pointer, align=8)
+        number = self.builder.load(pointer, align=8)
+        if self.width == 1:
+            return number
+        lane = ir.IntType(32)
+        vector = ir.Constant(self.type, ir.Undefined)
+        vector = self.builder.insert_element(vector, number, ir.Constant(lane, 0))
+        zeros = ir.Constant(ir.VectorType(lane, self.width), [0] * self.width)
+        return self.builder.shuffle_vector(vector, vector, zeros)
+
+    def visit_Name(self, node):
+        return self.values[node.id]
+
+    def visit_Constant(self, node):
+        return self.constant(float(node.value))
+
+    def visit_UnaryOp(self, node):
+        return self.builder.fneg(self.visit(node.operand), flags=CONTRACT)
+
+    def visit_BinOp(self, node):
+        operation = getattr(self.builder, OPERATIONS[type(node.op)])
+        return operation(self.visit(node.left), self.visit(node.right), flags=CONTRACT)
+
+    def visit_Call(self, node):
+        values = [self.visit(argument) for argument in node.args]
+        if node.func.id == "abs":
+            name = "llvm.fabs.f64" if self.width == 1 else f"llvm.fabs.v{self.width}f64"
+            signature = ir.FunctionType(self.type, [self.type])
+            function = cgutils.get_or_insert_function(self.builder.module, signature, name)
+            return self.builder.call(function, values)
+        larger = self.builder.fcmp_ordered(">", *values)
+        return self.builder.select(larger, *values)

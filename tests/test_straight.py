@@ -1,0 +1,100 @@
+"""Lines of arithmetic against Python, and the forcing that is turned against the exact one."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from pointed import pointed
+
+from impact_damper.accelerate import kernel
+from impact_damper.straight import straight
+from impact_damper.widths import instance
+
+
+def one_lane(a):
+    for _ in range(1):
+        x = a[0]
+        y = -x / (a[1] - 0.5)
+        a[2] = max(abs(y), x) * 2.0
+        a[2] -= y
+
+
+def sixteen_lanes(a):
+    for i in range(16):
+        x = a[0 + i]
+        y = -x / (a[16 + i] - 0.5)
+        a[32 + i] = max(abs(y), x) * 2.0
+        a[32 + i] -= y
+
+
+def four_columns(a, d):
+    for i in range(4):
+        d[4 + i] = a[1] * d[0 + i] + 1.0
+
+
+one, sixteen, four = straight(one_lane), straight(sixteen_lanes), straight(four_columns)
+
+
+@kernel
+def one_compiled(a):
+    one(a)
+
+
+@kernel
+def sixteen_compiled(a):
+    sixteen(a)
+
+
+@kernel
+def four_compiled(a, d):
+    four(a, d)
+
+
+@pytest.mark.parametrize(
+    ("compiled", "function", "sizes"),
+    [
+        (one_compiled, one_lane, [3]),
+        (sixteen_compiled, sixteen_lanes, [48]),
+        (four_compiled, four_columns, [2, 8]),
+    ],
+)
+def test_lines_do_what_python_does(compiled, function, sizes):
+    random = np.random.default_rng(1995)
+    given = [random.uniform(-1, 1, size) for size in sizes]
+    expected = [array.copy() for array in given]
+    function(*expected)
+    pointed(compiled)(*given)
+    for found, each in zip(given, expected, strict=True):
+        assert_allclose(found, each, rtol=1e-15)
+
+
+def test_each_lane_has_its_own_numbers():
+    a = np.tile(np.array([[1.0], [1.5], [0.0]]), 16)
+    a[0, 5] = 3.0
+    flat = a.ravel()
+    pointed(sixteen_compiled)(flat)
+    assert_array_equal(np.flatnonzero(flat[32:] != flat[32]), [5])
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e-9, 3e-5, -3e-5, 4.9e-5, 0.3, -2.0, math.inf])
+@pytest.mark.parametrize("time", [0.0, 1.0, 1234.5])
+def test_forcing_near_a_known_one(time, shift):
+    """Turned by little or found anew, it is that of its time, to rounding of the phase."""
+    module, frequency = instance(1), 2.0
+    a = np.zeros(module.SIZE)
+    a[module.FREQUENCY] = frequency
+    if math.isfinite(shift):
+        a[module.TIME], a[module.T] = time - 0.25, 0.25 + shift
+        pointed(module.look_ahead)(a)
+    else:
+        a[module.KNOWN] = shift
+    a[module.TIME] = time
+    pointed(module.forcing)(a)
+    found = [a[module.COSINE], a[module.SINE]]
+    assert_allclose(
+        found,
+        [math.cos(frequency * time), math.sin(frequency * time)],
+        rtol=0,
+        atol=1e-15 * (1 + time),
+    )
