@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper import runs, switching
+from impact_damper import lanes, orbits, runs, switching
 from impact_damper.ensemble import Settling
 from impact_damper.motions import simulate
 from impact_damper.orbits import strobe_time
@@ -11,6 +11,7 @@ from impact_damper.recording import MOTION
 from impact_damper.response import collisions, frequency_response
 from impact_damper.rivals import fixed_step, merson
 from impact_damper.rivals.passages import draw_passages
+from impact_damper.sweep import CLEARANCE
 
 OSCILLATOR = Oscillator(damping=0.215)
 # With it every motion settles soon at this frequency, so that orbits are followed too.
@@ -20,15 +21,14 @@ FREQUENCY = 1.95
 
 def warm_up() -> None:
     """Call each kernel once with the types that it is always called with."""
-    warm_up_single()
+    warm_up_orbits()
     warm_up_settling()
 
 
-def warm_up_single() -> None:
-    """`warm_up` of what takes one motion; what both halves need comes first."""
-    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
-    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
+def warm_up_orbits() -> None:
+    """`warm_up` of what follows orbits and switches the damper; what both halves need first."""
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
+    orbits.follow(on.copy(), np.zeros(4), 1, CLEARANCE, on[CLEARANCE], 1e-3, 1e-9)
     path, record = np.zeros((4, 5)), np.zeros(1, MOTION)[0]
     record["period"] = 1
     switching.life(on, path, record, 1e-9)
@@ -36,7 +36,13 @@ def warm_up_single() -> None:
 
 
 def warm_up_settling() -> None:
-    """`warm_up` of what takes many motions until they settle."""
+    """`warm_up` of what takes many motions until they settle, and of recordings."""
+    pool, places = lanes.make_pool(1), np.zeros(lanes.LANES, np.int64)
+    lanes.enter(pool, 0, pack(OSCILLATOR, DAMPER, FREQUENCY), np.zeros(4), 0, 1e-9)
+    lanes.send(pool, 0, 0.0, 0.01, False)
+    lanes.advance_some(pool, places, places.copy())
+    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
+    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
     settling = Settling(patience=100, limit=100, watched=1)
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling

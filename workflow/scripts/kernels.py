@@ -6,8 +6,8 @@ begin(snakemake)
 
 from concurrent.futures import ProcessPoolExecutor
 
-from impact_damper.warmup import warm_up_settling, warm_up_single
+from impact_damper.warmup import warm_up_orbits, warm_up_settling
 
 with ProcessPoolExecutor(snakemake.threads, initializer=end_with_parent) as pool:
-    for half in [pool.submit(warm_up_single), pool.submit(warm_up_settling)]:
+    for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
         half.result()
