@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
+from pointed import pointed
 from sampling import sample
 
 from impact_damper import kernel
@@ -77,11 +78,15 @@ def found(lanes, phase, series_given, length, **numbers):
         # The others have the same beginning, but not the same bends.
         for name, c in series_given(1.0 if i == lane else 1.0 + 0.1 * i).items():
             a[rows[name] : rows[name] + len(c), i] = c
-    for name, number in (numbers | {"LENGTH": length}).items():
+    for name, number in (numbers | {"LENGTH": length, "T": length}).items():
         a[rows[name]] = number
     flat = a.ravel()
-    getattr(module, f"{phase}_bound")(flat)
-    (module.find_contact if phase == "flight" else module.find_release)(flat)
+    searched = {
+        "flight": [module.flight_slope, module.flight_change, module.find_contact],
+        "contact": [module.contact_bound, module.find_release],
+    }
+    for each in searched[phase]:
+        pointed(each)(flat)
     return a[rows["T"], lane], a[rows["MODE"], lane] == module.MET, a[rows["WALL"], lane]
 
 
@@ -111,6 +116,7 @@ def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
 
     c = [*c, *[0.0] * (3 - len(c))]
     numbers = {"CONTACT": stiffness, "DASHPOT": dashpot, "INVERSE_MASS": inverse_mass}
+    numbers["NATURAL"] = math.sqrt(stiffness * (1 + inverse_mass))
     t, met, _ = found(lanes, "contact", series_given, length, SIDE=side, **numbers)
     return t, met
 

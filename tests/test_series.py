@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
+from pointed import pointed
 
 from impact_damper.parameters import Damper, Oscillator, pack
 from impact_damper.widths import CONTACT_ORDER, FLIGHT_ORDER, instance
@@ -41,7 +42,9 @@ def filled(lanes, p, state, phase):
     a[module.Y2 // lanes] += p[3]
     a[module.COSINE // lanes], a[module.SINE // lanes] = math.cos(ANGLE), math.sin(ANGLE)
     flat = a.ravel()
-    getattr(module, f"{phase}_series")(flat)
+    if lanes == 1:
+        pointed(module.drive_series)(flat)
+    pointed(getattr(module, f"{phase}_series"))(flat)
     return module, flat
 
 
@@ -118,7 +121,7 @@ def test_tangents_solve_the_variational_equations(lanes, p, phase):
     d[:4, lane] = 0.5, -0.8, 0.3, 1.2
     # With several lanes a tangent belongs to the motion in its lane.
     d = d.ravel()
-    getattr(module, f"{phase}_tangent_series")(a, d)
+    pointed(getattr(module, f"{phase}_tangent_series"))(a, d)
     first, second = (
         Polynomial(d[columns * place + lane :: columns][: order + 1])
         for place in (4, 4 + 2 * LENGTH)

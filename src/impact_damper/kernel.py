@@ -10,7 +10,7 @@ from impact_damper import widths
 from impact_damper.accelerate import kernel, pointer
 
 _ONE = widths.instance(1)
-flight_step, contact_step = _ONE.flight_step, _ONE.contact_step
+drive_series, flight_step, contact_step = _ONE.drive_series, _ONE.flight_step, _ONE.contact_step
 flight_tangents, contact_tangents = _ONE.flight_tangents, _ONE.contact_tangents
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
@@ -20,7 +20,7 @@ SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.TOLERANCE,
     _ONE.LENGTH,
 )
-PARAMETERS, STATE, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.X, _ONE.Q
+PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
 
 
 @kernel
@@ -56,6 +56,8 @@ def load(p, y, tangents, side, tolerance, a, d):
         a[STATE + i] = y[i]
     a[SIDE] = side
     a[TOLERANCE] = tolerance
+    a[KNOWN] = np.inf
+    drive_series(a)
     if len(tangents) > 0:
         for i in range(COLUMNS):
             for j in range(4):

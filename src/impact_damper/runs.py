@@ -3,8 +3,8 @@
 The work of a run is in floating-point operations (`work.operations`):
 
 - Taylor series: steps in flight and in contact times the operations of one, the generated series
-  included. The search for an event evaluates a polynomial FLIGHT_ROUNDS and CONTACT_ROUNDS times
-  a step, means over the scenes.
+  included. Of the search for an event all counts in each step but its loop, which most steps do
+  not enter.
 - Runge-Kutta-Merson: steps tried, those of locating contacts included, times the operations of
   one: five evaluations of the rate, the combinations of them, and the estimate of the error.
 - SciPy's methods: evaluations of the rate times its operations and those of combining it with the
@@ -27,7 +27,6 @@ from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
 from impact_damper.work import operations
 
-FLIGHT_ROUNDS, CONTACT_ROUNDS = 1, 2
 MOST_CONTACTS = 100_000
 SAMPLES = 64
 MOST_ENDS = 400_000
@@ -115,9 +114,9 @@ def taylor_steps(p, start, t, periods, tolerance):
 def step_work(side, tangents=0):
     """Operations of one step of the Taylor series with so many tangents."""
     if side == 0:
-        state, each = operations(kernel.flight_step, FLIGHT_ROUNDS), kernel.flight_tangents
+        state, each = operations(kernel.flight_step, 0), kernel.flight_tangents
     else:
-        state, each = operations(kernel.contact_step, CONTACT_ROUNDS), kernel.contact_tangents
+        state, each = operations(kernel.contact_step, 0), kernel.contact_tangents
     return state + tangents * operations(each) // kernel.COLUMNS
 
 

@@ -12,24 +12,28 @@ and (20) to (24); g is what of the acceleration does not come from the wall. In 
 is no q, and Z2 differs from x by its offset and drift only. The variational equations are
 the same with e = 0 and 3 (s dx)[k] for the cube.
 
-`source` writes these as straight-line Python on scalars in a loop over lanes, which are
-trajectories side by side. With one lane it compiles to scalar code, about three times as
-fast as loops over arrays; with several to vector instructions, three times as fast again.
-All numbers of a step stand in one flat array, `lanes` to a row; `rows` says in which row.
+These are written as lines of arithmetic in a loop over lanes, which are trajectories side by
+side; `straight` compiles them. With one lane that gives scalar code, about three times as fast as
+loops over arrays; with several, vector instructions, three times as fast again. All numbers of a
+step stand in one flat array, `lanes` to a row; `rows` says in which row.
 """
 
+from functools import partial
+
 # What a step is given, what it finds, and what it needs on its way. Then the series: of Z1 and
-# its rate, of the penetration and its rate, of g and of Z1^2. Those of a tangent, in an array of
-# their own, are of the first four.
+# its rate, of the penetration and its rate, of g, of Z1^2, and of cos W t, whose terms still lack
+# the cosine or sine of the phase. Those of a tangent, in an array of their own, are of the first
+# four.
 PARAMETERS = "FREQUENCY DAMPING STIFFNESS CLEARANCE CONTACT INVERSE_MASS DASHPOT".split()
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
-    "COSINE SINE T VALUE SLOPE CURVE BOUND FINE SCALE WALL MODE LOW HIGH NATURAL "
-    "END_VALUE END_SLOPE"
+    "COSINE SINE KNOWN T Z1 Z1_SLOPE Z1_CURVE Z1_JERK DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK "
+    "BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH NATURAL "
+    "END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE"
 ).split()
 SINGLE = PARAMETERS + STATE + STEP + SCRATCH
-SERIES = "X V Q W G S".split()
+SERIES = "X V Q W G S E".split()
 TANGENT_SERIES = "DX DV DQ DW".split()
 
 
@@ -47,7 +51,7 @@ def rows(flight_order, contact_order):
 
 
 class Writer:
-    """Writes the functions for a number of lanes and the orders of the series.
+    """Writes the series for a number of lanes and the orders of the two phases.
 
     With one lane up to four tangents stand side by side and share its series; with several
     lanes each has one tangent.
@@ -69,61 +73,84 @@ class Writer:
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False):
-        """A function that does the lines for each lane."""
+        """A kernel that does the lines for each lane."""
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         body = "\n".join(f"        {line}" for line in lines)
-        return f"@kernel\ndef {name}({arguments}):\n    for i in range({lanes}):\n{body}\n"
+        return (
+            f"@straight\ndef {name}_lines({arguments}):\n    for i in range({lanes}):\n{body}\n"
+            f"\n\n@kernel\ndef {name}({arguments}):\n    {name}_lines({arguments})\n"
+        )
+
+    def filled(self, phase):
+        """The series that a step fills, and their orders."""
+        order = self.orders[phase]
+        orders = {"X": order, "V": order - 1, "G": order - 2, "S": order - 2}
+        return orders | ({"Q": order, "W": order - 1} if phase == "contact" else {})
+
+    def filled_of_tangent(self, phase):
+        """The same of a tangent, in the order of its rows 0 to 3."""
+        filled = self.filled(phase).items()
+        return {name: last for name, last in filled if f"D{name}" in TANGENT_SERIES}
+
+    def drive(self):
+        """Fill the series of the drive, which stays the same while a trajectory does."""
+        count = max(self.orders.values()) - 1
+        places = {"E": partial(self.at, "E")}
+        return self.function("drive_series", _stored(self._drive(count), places))
+
+    def _drive(self, count):
+        """Terms of the drive."""
+        yield f"w = {self.at('FREQUENCY')}"
+        yield "ww = w * w"
+        yield "e0 = 1.0"
+        yield "e1 = -w"
+        for k in range(2, count):
+            yield f"e{k} = {-1.0 / (k * (k - 1))!r} * ww * e{k - 2}"
 
     def series(self, phase):
-        """Fill the series of a step: all of them in contact; X, V, G and S in flight."""
+        """Fill the series of a step: all of them in contact; X, V, G and S in flight.
+
+        In several lanes there are other trajectories in each step, so the drive's is made here.
+        """
+        count = self.orders[phase] - 1
+        kept = (f"e{k} = {self.at('E', k)}" for k in range(count))
+        drive = kept if self.lanes == 1 else self._drive(count)
         lines = [
-            f"ww = {self.at('FREQUENCY')} * {self.at('FREQUENCY')}",
-            f"e0 = {self.at('COSINE')}",
-            f"e1 = -{self.at('FREQUENCY')} * {self.at('SINE')}",
+            f"cosine = {self.at('COSINE')}",
+            f"sine = {self.at('SINE')}",
+            *drive,
             f"x0 = {self.at('Y0')}",
             f"v0 = {self.at('Y1')}",
             "twice = 2.0 * x0",
             "s0 = x0 * x0",
             f"stiffness = {self.at('STIFFNESS')} + s0",
             "linear = stiffness + 2.0 * s0",
-            *self._given(phase),
+            *self._factors(phase),
         ]
         if phase == "contact":
             lines += [
                 f"q0 = {self.at('Y2')} - {self.at('SIDE')} * {self.at('CLEARANCE')}",
                 f"w0 = {self.at('Y3')}",
             ]
-        lines += self._recurrence(phase, tangent=False)
-        for name, last in self._written(phase).items():
-            lines += [f"{self.at(name, k)} = {name.lower()}{k}" for k in range(last + 1)]
-        return self.function(f"{phase}_series", lines)
+        lines += _recurrence(self.orders[phase], phase, tangent=False)
+        places = {name: partial(self.at, name) for name in self.filled(phase)}
+        return self.function(f"{phase}_series", _stored(lines, places))
 
     def tangent_series(self, phase):
         """Fill the series of a tangent over a step."""
         order = self.orders[phase]
+        filled = self.filled_of_tangent(phase)
         lines = [
             *(f"s{k} = 3.0 * {self.at('S', k)}" for k in range(order - 1)),
             f"linear = {self.at('STIFFNESS')} + s0",
-            *self._given(phase),
+            *self._factors(phase),
+            *(f"{name.lower()}0 = {self.at_tangent('', j)}" for j, name in enumerate(filled)),
+            *_recurrence(order, phase, tangent=True),
         ]
-        written = self._written_of_tangent(phase)
-        lines += [f"{name.lower()}0 = {self.at_tangent('', j)}" for j, name in enumerate(written)]
-        lines += self._recurrence(phase, tangent=True)
-        for name, last in written.items():
-            lines += [
-                f"{self.at_tangent(f'D{name}', k)} = {name.lower()}{k}" for k in range(last + 1)
-            ]
-        return self.function(f"{phase}_tangent_series", lines, tangent=True)
+        places = {name: partial(self.at_tangent, f"D{name}") for name in filled}
+        return self.function(f"{phase}_tangent_series", _stored(lines, places), tangent=True)
 
-    def _recurrence(self, phase, tangent):
-        """All orders, from x0 and v0 and in contact q0 and w0 on."""
-        yield "x1 = v0"
-        if phase == "contact":
-            yield "q1 = w0"
-        for k in range(self.orders[phase] - 1):
-            yield from _order(k, phase, tangent)
-
-    def _given(self, phase):
+    def _factors(self, phase):
         """Factors of the recurrence."""
         lines = [f"h = {self.at('DAMPING')}"]
         if phase == "contact":
@@ -134,71 +161,32 @@ class Writer:
             ]
         return lines
 
-    def _written(self, phase):
-        """The series that a step fills, and their orders."""
-        order = self.orders[phase]
-        orders = {"X": order, "V": order - 1, "G": order - 2, "S": order - 2}
-        return orders | ({"Q": order, "W": order - 1} if phase == "contact" else {})
 
-    def _written_of_tangent(self, phase):
-        """The same of a tangent, in the order of its rows 0 to 3."""
-        return {
-            name: last
-            for name, last in self._written(phase).items()
-            if f"D{name}" in TANGENT_SERIES
-        }
+def _stored(lines, places):
+    """Lines, each followed by the store of what it gives, so that no number waits for it."""
+    for line in lines:
+        yield line
+        given = line.split(" = ")[0]
+        name, order = given[0].upper(), given[1:]
+        if name in places and order.isdigit():
+            yield f"{places[name](int(order))} = {given}"
 
-    def values(self, phase, name, results, then=()):
-        """Sums of series at T, and what follows; `results` gives each sum's row, and its series."""
-        lines = [f"t = {self.at('T')}", *_powers()]
-        orders = self._written(phase)
-        for result, row in results.items():
-            coefficients = [self.at(row, k) for k in range(orders[row] + 1)]
-            lines += _sum(coefficients, self.at(result))
-        return self.function(f"{phase}_{name}", [*lines, *then])
 
-    def tangent_value(self, phase):
-        """The tangent at T."""
-        lines = [f"t = {self.at('T')}", *_powers()]
-        for place, (name, last) in enumerate(self._written_of_tangent(phase).items()):
-            coefficients = [self.at_tangent(f"D{name}", k) for k in range(last + 1)]
-            lines += _sum(coefficients, self.at_tangent("", place))
-        return self.function(f"{phase}_tangent_value", lines, tangent=True)
-
-    def bound(self, phase):
-        """BOUND on |g| over the LENGTH of the step, which in flight is a bound on |Z1''|."""
-        order = self.orders[phase]
-        lines = [f"t = {self.at('LENGTH')}", *_powers()]
-        lines += _sum([f"abs({self.at('G', k)})" for k in range(order - 1)], self.at("BOUND"))
-        return self.function(f"{phase}_bound", lines)
-
-    def source(self):
-        """The module."""
-        x = {"VALUE": "X", "SLOPE": "V"}
-        # Of the acceleration of the penetration, G is what does not come from the wall.
-        q = {"VALUE": "Q", "SLOPE": "W", "CURVE": "G"}
-        force = (
-            f"{self.at('CONTACT')} * {self.at('VALUE')} + {self.at('DASHPOT')} * {self.at('SLOPE')}"
-        )
-        wall = f"{self.at('CURVE')} -= (1.0 + {self.at('INVERSE_MASS')}) * ({force})"
-        functions = [
-            *(self.series(phase) for phase in self.orders),
-            *(self.tangent_series(phase) for phase in self.orders),
-            *(self.tangent_value(phase) for phase in self.orders),
-            *(self.bound(phase) for phase in self.orders),
-            self.values("flight", "slope_x", x),
-            self.values("flight", "curve_x", x | {"CURVE": "G"}),
-            self.values("contact", "slope_x", x),
-            self.values("contact", "curve_q", q, [wall]),
-        ]
-        return "from impact_damper.accelerate import kernel\n\n\n" + "\n\n".join(functions)
+def _recurrence(order, phase, tangent):
+    """All orders, from x0 and v0 and in contact q0 and w0 on."""
+    yield "x1 = v0"
+    if phase == "contact":
+        yield "q1 = w0"
+    for k in range(order - 1):
+        yield from _order(k, phase, tangent)
 
 
 def _order(k, phase, tangent):
     """The lines that give v[k+1] and x[k+2], and in contact w[k+1] and q[k+2].
 
-    Sums end with the terms that wait longest for their factors. Of s[k] the part p[k] with x[k]
-    left out comes first; x[k] is then multiplied once, by `linear` = omega_l^2 + 3 x[0]^2.
+    Sums end with the terms that wait longest for their factors, and of v and w the terms before
+    their division are waited for. Of s[k] the part p[k] with x[k] left out comes first; x[k] is
+    then multiplied once, by `linear` = omega_l^2 + 3 x[0]^2.
     """
     last = f"s{k} * x0"
     if not tangent and k > 0:
@@ -207,20 +195,25 @@ def _order(k, phase, tangent):
             yield f"p{k} = {known}"
         yield f"s{k} = p{k} + twice * x{k}" if known else f"s{k} = twice * x{k}"
         last = f"p{k} * x0" if known else ""
-    if not tangent and k > 1:
-        yield f"e{k} = {-1.0 / (k * (k - 1))!r} * ww * e{k - 2}"
-    terms = [f"s{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: max(j, k - j))]
+    terms = [f"s{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
     terms += [last] if k > 0 and last else []
-    terms += [f"linear * x{k}" if k > 0 or tangent else "stiffness * x0", f"h * v{k}"]
-    yield f"g{k} = {'' if tangent else f'e{k}'} - {' - '.join(terms)}"
-    force = ""
-    if phase == "contact":
-        force = f" - f{k}"
-        yield f"f{k} = dash * w{k} + r1 * q{k}"
-        yield f"w{k + 1} = {1 / (k + 1)!r} * (g{k} - both * f{k})"
-        yield f"q{k + 2} = {1 / (k + 2)!r} * w{k + 1}"
-    yield f"v{k + 1} = {1 / (k + 1)!r} * (g{k}{force})"
-    yield f"x{k + 2} = {1 / (k + 2)!r} * v{k + 1}"
+    terms += [f"linear * x{k}" if k > 0 or tangent else "stiffness * x0"]
+    drive = "" if tangent else f"e{k} * {'sine' if k % 2 else 'cosine'}"
+    known = f"{drive} - {' - '.join(terms)}"
+    if phase == "flight":
+        yield f"g{k} = {known} - h * v{k}"
+        yield f"v{k + 1} = {1 / (k + 1)!r} * g{k}"
+        yield f"x{k + 2} = {1 / (k + 1) / (k + 2)!r} * g{k}"
+        return
+    damping, dashpot = f"h * v{k}", f"dash * w{k}"
+    if k > 0:
+        damping, dashpot = f"{1 / k!r} * h * a{k - 1}", f"{1 / k!r} * dash * b{k - 1}"
+    yield f"g{k} = {known} - {damping}"
+    yield f"f{k} = r1 * q{k} + {dashpot}"
+    for acceleration, rate, place, mobility in (("b", "w", "q", "both * "), ("a", "v", "x", "")):
+        yield f"{acceleration}{k} = g{k} - {mobility}f{k}"
+        yield f"{rate}{k + 1} = {1 / (k + 1)!r} * {acceleration}{k}"
+        yield f"{place}{k + 2} = {1 / (k + 1) / (k + 2)!r} * {acceleration}{k}"
 
 
 def _square_but_ends(k):
@@ -229,19 +222,3 @@ def _square_but_ends(k):
     middle = f"x{k // 2} * x{k // 2}" if k % 2 == 0 else ""
     doubled = f"2.0 * ({' + '.join(terms)})" if terms else ""
     return " + ".join(part for part in (middle, doubled) if part)
-
-
-def _powers():
-    """Powers of t for `_sum`."""
-    yield "t2 = t * t"
-    yield "t4 = t2 * t2"
-
-
-def _sum(c, result):
-    """Lines that add up a series at t: every fourth power apart, side by side, then together."""
-    for j in range(4):
-        part = c[j::4]
-        yield f"part{j} = {part[-1]}"
-        for term in part[-2::-1]:
-            yield f"part{j} = part{j} * t4 + {term}"
-    yield f"{result} = (part0 + t * part1) + t2 * (part2 + t * part3)"

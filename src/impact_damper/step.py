@@ -2,10 +2,10 @@
 
 A step takes trajectories that are all in flight, or all in contact, to the next event or to
 the end of the step, whichever is first for each. Events are the beginning and the end of
-contacts; `events` searches for them.
+contacts; `events` and `release` search for them.
 
 This file is a template: `widths.instance` compiles it for each number of lanes and each pair of
-orders that is wanted, after the constants and the functions that `series` writes for them. All
+orders that is wanted, after the constants and the functions that `sums` writes for them. All
 numbers stand in flat arrays, `a` for trajectories and `d` for tangents; names in capitals are
 the beginnings of their rows. Trajectories do not touch each other: what one comes to does not
 depend on its neighbours.
@@ -21,6 +21,7 @@ LANES: int
 TANGENTS: int
 FLIGHT_ORDER: int
 CONTACT_ORDER: int
+EARLY: int
 SIZE: int
 TANGENT_SIZE: int
 
@@ -28,12 +29,8 @@ ONE = 1023 << 52
 # Local errors pass through contacts, which amplify them; this share of the tolerance
 # keeps the error of settled motions within 10 times of it.
 SAFETY = 0.05
-# A quarter turn in two parts, the first short enough for exact multiples of it.
-QUARTER = 1.5707963267341256
-QUARTER_REST = 6.077100506506192e-11
-# Series of cosine and sine, without their first terms.
-COSINES = tuple((-1.0) ** k / math.factorial(2 * k) for k in range(1, 9))
-SINES = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9))
+# The last terms of a flight whose length was foreseen may be so many times larger.
+BEYOND = 4.0
 
 
 @kernel
@@ -46,35 +43,6 @@ def bits(x):
 def number(x):
     """The number of some bits."""
     return np.int64(x).view(np.float64)
-
-
-@kernel
-def paired(c, u):
-    """Polynomial of eight terms, added up pair by pair."""
-    v = u * u
-    low = (c[0] + c[1] * u) + (c[2] + c[3] * u) * v
-    high = (c[4] + c[5] * u) + (c[6] + c[7] * u) * v
-    return low + high * (v * v)
-
-
-@kernel
-def forcing(a):
-    """COSINE and SINE of the forcing phase, by their series within an eighth of a turn."""
-    for i in range(LANES):
-        angle = a[FREQUENCY + i] * a[TIME + i]
-        turns = np.floor(angle * (2.0 / math.pi) + 0.5)
-        t = (angle - turns * QUARTER) - turns * QUARTER_REST
-        u = t * t
-        c = paired(COSINES, u)
-        s = paired(SINES, u)
-        c = 1.0 + u * c
-        s = t + t * u * s
-        half = 0.5 * turns
-        odd = half != np.floor(half)
-        half = 0.5 * np.floor(half)
-        sign = 1.0 if half == np.floor(half) else -1.0
-        a[COSINE + i] = sign * (-s if odd else c)
-        a[SINE + i] = sign * (c if odd else s)
 
 
 @kernel
@@ -93,31 +61,69 @@ def limit_length(a, series, order):
 
 
 @kernel
+def foresee_length(a):
+    """Move T to where the last terms of the series of Z1' may be expected below the tolerance.
+
+    Not beyond LONGEST. By three terms from EARLY on, as if all fell from SCALE at one rate; the
+    next step and its forcing need not wait for the last ones then.
+    """
+    last = FLIGHT_ORDER - 1
+    for i in range(LANES):
+        fall = ((bits(SAFETY * a[TOLERANCE + i]) - ONE) >> 28) * ((1 << 28) // last)
+        top = bits(a[SCALE + i])
+        first = (top - bits(abs(a[V + EARLY * LANES + i]))) >> 28
+        second = (top - bits(abs(a[V + (EARLY + 1) * LANES + i]))) >> 28
+        third = (top - bits(abs(a[V + (EARLY + 2) * LANES + i]))) >> 28
+        first *= (1 << 28) // EARLY
+        second *= (1 << 28) // (EARLY + 1)
+        third *= (1 << 28) // (EARLY + 2)
+        length = number(ONE + fall + min(first, min(second, third)))
+        a[T + i] = min(a[LONGEST + i], length)
+
+
+@kernel
+def end_flight(a):
+    """Find how long a flight can be, LENGTH and T, and Z1 and its slope at its end."""
+    for i in range(LANES):
+        a[SCALE + i] = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
+    foresee_length(a)
+    look_ahead(a)
+    flight_slope(a)
+    beyond = 0
+    for i in range(LANES):
+        a[LENGTH + i] = a[T + i]
+        allowed = SAFETY * a[TOLERANCE + i] * a[SCALE + i]
+        beyond += 1 if a[TAIL + i] > BEYOND * allowed else 0
+    if beyond > 0:
+        limit_length(a, V, FLIGHT_ORDER - 1)
+        for i in range(LANES):
+            a[T + i] = a[LENGTH + i]
+        flight_slope(a)
+
+
+@kernel
 def flight_step(a):
     """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
     forcing(a)
     flight_series(a)
-    for i in range(LANES):
-        a[LENGTH + i] = a[LONGEST + i]
-        a[SCALE + i] = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
-    limit_length(a, V, FLIGHT_ORDER - 1)
+    end_flight(a)
     walls = 0
     for i in range(LANES):
-        a[BOUND + i] = 0.0
+        a[CHANGE + i] = 0.0
         walls += 1 if a[CLEARANCE + i] < math.inf else 0
     if walls > 0:
-        flight_bound(a)
+        flight_change(a)
     find_contact(a)
     for i in range(LANES):
         t = a[T + i]
         met = a[MODE + i] == MET
         offset = a[Y2 + i] - a[Y0 + i]
         drift = a[Y3 + i] - a[Y1 + i]
-        free = a[END_VALUE + i] + offset + drift * t
-        a[Y0 + i] = a[END_VALUE + i]
-        a[Y1 + i] = a[END_SLOPE + i]
+        free = a[END_Z1 + i] + offset + drift * t
+        a[Y0 + i] = a[END_Z1 + i]
+        a[Y1 + i] = a[END_Z1_SLOPE + i]
         a[Y2 + i] = a[WALL + i] * a[CLEARANCE + i] if met else free
-        a[Y3 + i] = a[END_SLOPE + i] + drift
+        a[Y3 + i] = a[END_Z1_SLOPE + i] + drift
         a[SIDE + i] = a[WALL + i] if met else 0.0
         a[LENGTH + i] = t
 
@@ -164,24 +170,27 @@ def dashpot_jump(a, d, direction):
 def contact_step(a):
     """Step of trajectories in contact, whose SIDE becomes 0 where it ends."""
     forcing(a)
+    foresee_release(a)
     contact_series(a)
+    look_ahead(a)
+    contact_bound(a)
+    beyond = 0
     for i in range(LANES):
-        natural = math.sqrt(a[CONTACT + i] * (1.0 + a[INVERSE_MASS + i]))
-        deeper = a[SIDE + i] * a[Y3 + i] >= 0.0
-        a[LENGTH + i] = min(a[LONGEST + i], (DEEPER if deeper else BACK) * 2.0 * math.pi / natural)
         scale = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
         a[SCALE + i] = max(scale, abs(a[Y3 + i]))
-    limit_length(a, V, CONTACT_ORDER - 1)
-    limit_length(a, W, CONTACT_ORDER - 1)
-    contact_bound(a)
+        beyond += 1 if a[TAIL + i] > SAFETY * a[TOLERANCE + i] * a[SCALE + i] else 0
+    if beyond > 0:
+        limit_length(a, V, CONTACT_ORDER - 1)
+        limit_length(a, W, CONTACT_ORDER - 1)
+        for i in range(LANES):
+            a[T + i] = min(a[T + i], a[LENGTH + i])
     find_release(a)
-    contact_slope_x(a)
     for i in range(LANES):
         released = a[MODE + i] == MET
         wall = a[SIDE + i] * a[CLEARANCE + i]
-        a[Y0 + i] = a[VALUE + i]
-        a[Y1 + i] = a[SLOPE + i]
-        a[Y2 + i] = wall if released else wall + a[END_VALUE + i]
-        a[Y3 + i] = a[END_SLOPE + i]
+        a[Y0 + i] = a[END_Z1 + i]
+        a[Y1 + i] = a[END_Z1_SLOPE + i]
+        a[Y2 + i] = wall if released else wall + a[END_DEPTH + i]
+        a[Y3 + i] = a[END_DEPTH_SLOPE + i]
         a[SIDE + i] = 0.0 if released else a[SIDE + i]
         a[LENGTH + i] = a[T + i]

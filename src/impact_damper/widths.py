@@ -6,17 +6,18 @@ import os
 import sys
 from functools import cache
 
-from impact_damper import events, step
+from impact_damper import events, forcing, release, step
 from impact_damper.accelerate import CACHE_DIRECTORY
-from impact_damper.series import SERIES, SINGLE, Writer
+from impact_damper.series import SERIES, SINGLE
+from impact_damper.sums import Source
 
 FLIGHT_ORDER = 18
-CONTACT_ORDER = 22
+CONTACT_ORDER = 23
 
 
 @cache
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """The functions of `events` and `step` for a number of lanes and the orders of the series.
+    """The functions of the templates for a number of lanes and the orders of the series.
 
     Their source is written to a module beside the compiled kernels, whose directory is named
     by the digest of all sources.
@@ -25,7 +26,7 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     path = CACHE_DIRECTORY / f"{name}.py"
     if not path.exists():
         part = path.with_name(f"{path.name}.part-{os.getpid()}")
-        part.write_text(_source(Writer(lanes, flight_order, contact_order)))
+        part.write_text(_source(Source(lanes, flight_order, contact_order)))
         os.replace(part, path)
     specification = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(specification)
@@ -35,15 +36,18 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
 
 
 def _source(writer):
-    """Constants, the series, the search for events, and the step."""
+    """Constants, the series, and the templates."""
     constants = {
         "LANES": writer.lanes,
         "TANGENTS": writer.tangents,
         "FLIGHT_ORDER": writer.orders["flight"],
         "CONTACT_ORDER": writer.orders["contact"],
+        "EARLY": 3 * (writer.orders["flight"] - 1) // 5,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
     }
     constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
-    return "\n\n".join([lines, writer.source(), *map(inspect.getsource, (events, step))])
+    return "\n\n".join(
+        [lines, writer.text(), *map(inspect.getsource, (forcing, events, release, step))]
+    )
