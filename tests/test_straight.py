@@ -1,12 +1,18 @@
 """Lines of arithmetic against Python, and the forcing that is turned against the exact one."""
 
 import math
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from pointed import pointed
 
+import impact_damper
 from impact_damper.accelerate import kernel
 from impact_damper.straight import straight
 from impact_damper.widths import instance
@@ -98,3 +104,20 @@ def test_forcing_near_a_known_one(time, shift):
         rtol=0,
         atol=1e-15 * (1 + time),
     )
+
+
+@pytest.mark.parametrize("name", ["series", "sums", "straight", "forcing", "release", "step"])
+def test_kernels_are_compiled_anew_after_an_edit(name, tmp_path):
+    """Of what writes them, too: the folder of compiled kernels is another one."""
+
+    def digest():
+        code = "from impact_damper.accelerate import source_digest; print(source_digest())"
+        environment = os.environ | {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path)}
+        return subprocess.check_output([sys.executable, "-c", code], env=environment)
+
+    package = Path(impact_damper.__file__).parent
+    shutil.copytree(package, tmp_path / "impact_damper")
+    before = digest()
+    with (tmp_path / "impact_damper" / f"{name}.py").open("a") as file:
+        file.write("# edited\n")
+    assert digest() != before

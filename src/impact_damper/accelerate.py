@@ -1,9 +1,9 @@
 """All numba settings in one place: how kernels are compiled and where they are kept.
 
-Compiled kernels are cached in a directory named by the digest of all modules that hold
-kernels, which are those that name this one. Numba notices an edit only in the file of the
-function itself, so a kernel that calls into another module would otherwise go on with the
-old code. What a kernel uses, constants too, must therefore stand in such a module.
+Compiled kernels are cached in a directory named by the digest of all modules that hold kernels
+or write them, which are those that name this one or the decorator. Numba notices an edit only in
+the file of the function itself, so a kernel that calls into another module would otherwise go on
+with the old code. What a kernel uses, constants too, must therefore stand in such a module.
 """
 
 import hashlib
@@ -20,12 +20,12 @@ from numba.extending import intrinsic
 
 
 def source_digest() -> str:
-    """Digest of every module that holds kernels, and of numba's version."""
+    """Digest of every module that holds or writes kernels, and of numba's version."""
     digest = hashlib.sha256(numba.__version__.encode())
     root = Path(__file__).parent
     for path in sorted(root.rglob("*.py")):
         source = path.read_bytes()
-        if b"impact_damper.accelerate" in source or path == Path(__file__):
+        if b"impact_damper.accelerate" in source or b"@kernel" in source or path == Path(__file__):
             digest.update(path.relative_to(root).as_posix().encode() + b"\0" + source)
     return digest.hexdigest()[:16]
 

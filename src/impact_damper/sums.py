@@ -1,6 +1,7 @@
 """Values of the series of a step at a time in it, and bounds on them."""
 
 from impact_damper.series import Writer
+from impact_damper.straight import straight
 
 
 class Source(Writer):
@@ -27,7 +28,7 @@ class Source(Writer):
         ]
         imports = [
             "from impact_damper.accelerate import kernel",
-            "from impact_damper.straight import straight\n",
+            f"from {straight.__module__} import {straight.__name__}\n",
         ]
         return "\n".join(imports) + "\n\n" + "\n\n".join(functions)
 
