@@ -184,6 +184,7 @@ def contact_step(a):
         limit_length(a, W, CONTACT_ORDER - 1)
         for i in range(LANES):
             a[T + i] = min(a[T + i], a[LENGTH + i])
+        contact_bound(a)
     find_release(a)
     for i in range(LANES):
         released = a[MODE + i] == MET
