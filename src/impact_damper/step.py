@@ -46,18 +46,26 @@ def number(x):
 
 
 @kernel
-def limit_length(a, series, order):
+def allowed(a, i):
+    """How large the last terms of the series may be."""
+    return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
+
+
+@kernel
+def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series stay below the tolerance.
 
-    Roots are taken by division of the bits, within a few per cent.
+    Only where TAIL exceeds that so many times: whatever the neighbours need. Roots are taken by
+    division of the bits, within a few per cent.
     """
     for i in range(LANES):
-        allowed = bits(SAFETY * a[TOLERANCE + i] * a[SCALE + i])
-        last = allowed - bits(abs(a[series + order * LANES + i]))
-        before = allowed - bits(abs(a[series + (order - 1) * LANES + i]))
+        most = bits(allowed(a, i))
+        last = most - bits(abs(a[series + order * LANES + i]))
+        before = most - bits(abs(a[series + (order - 1) * LANES + i]))
         last = (last >> 28) * ((1 << 28) // order)
         before = (before >> 28) * ((1 << 28) // (order - 1))
-        a[LENGTH + i] = min(a[LENGTH + i], number(ONE + min(last, before)))
+        shorter = min(a[LENGTH + i], number(ONE + min(last, before)))
+        a[LENGTH + i] = shorter if a[TAIL + i] > excess * allowed(a, i) else a[LENGTH + i]
 
 
 @kernel
@@ -92,10 +100,9 @@ def end_flight(a):
     beyond = 0
     for i in range(LANES):
         a[LENGTH + i] = a[T + i]
-        allowed = SAFETY * a[TOLERANCE + i] * a[SCALE + i]
-        beyond += 1 if a[TAIL + i] > BEYOND * allowed else 0
+        beyond += 1 if a[TAIL + i] > BEYOND * allowed(a, i) else 0
     if beyond > 0:
-        limit_length(a, V, FLIGHT_ORDER - 1)
+        limit_length(a, V, FLIGHT_ORDER - 1, BEYOND)
         for i in range(LANES):
             a[T + i] = a[LENGTH + i]
         flight_slope(a)
@@ -178,10 +185,10 @@ def contact_step(a):
     for i in range(LANES):
         scale = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
         a[SCALE + i] = max(scale, abs(a[Y3 + i]))
-        beyond += 1 if a[TAIL + i] > SAFETY * a[TOLERANCE + i] * a[SCALE + i] else 0
+        beyond += 1 if a[TAIL + i] > allowed(a, i) else 0
     if beyond > 0:
-        limit_length(a, V, CONTACT_ORDER - 1)
-        limit_length(a, W, CONTACT_ORDER - 1)
+        limit_length(a, V, CONTACT_ORDER - 1, 1.0)
+        limit_length(a, W, CONTACT_ORDER - 1, 1.0)
         for i in range(LANES):
             a[T + i] = min(a[T + i], a[LENGTH + i])
         contact_bound(a)
