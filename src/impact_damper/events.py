@@ -47,19 +47,29 @@ def march(t, f, closing, ahead, length, fine):
 
 
 @kernel
-def close_in(t, f, first, bend, rate, low, high, length, fine, tolerance):
-    """Next move and mode between `low` and `high`, where a gap is positive and where not.
+def bent(first, bend):
+    """Step of third order, from one of second order and the relative bend of the gap."""
+    return first * (1.0 - 0.5 * bend * first)
 
-    There is one root between them; or at most one, if `high` is FAR, before the end.
 
-    A step of third order, from one of second order and the relative bend of the gap. It is the
-    last where what it leaves out, of a gap that changes at this rate, is far below the tolerance.
+@kernel
+def close_in(a, i, t, f, first, bend, rate, fine):
+    """Next move and mode between LOW and HIGH, where a gap is positive and where not; f at t is.
+
+    There is one root between them; or at most one, if HIGH is FAR, before the end.
+
+    The move is the last where what it leaves out, of a gap that changes at this rate, is far
+    below the tolerance.
     """
-    move = first * (1.0 - 0.5 * bend * first)
+    low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
+    high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
+    length = a[LENGTH + i]
+    allowance = max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
+    move = bent(first, bend)
     inside = low < t + move and t + move < high
     turn = max(max(rate, 2.0 / length), abs(bend)) * move
     past = high == FAR and not t + move < length
-    last = inside and not past and abs(turn * turn * turn) <= max(LAST_MOVE * tolerance, ROUNDING)
+    last = inside and not past and abs(turn * turn * turn) <= allowance
     if abs(f) <= fine:
         return 0.0, MET
     if f > 0.0 and not t < length:
@@ -83,15 +93,20 @@ def end_at(a, i, row, end, move, going):
 
 
 @kernel
-def go_on(a, i, mode, t, move, low, high):
+def go_on(a, i, mode, t, move):
     """Keep where a search in a lane has come to, after a last move; 1 if it has not ended."""
     going = a[MODE + i] <= ENDING
-    a[LOW + i] = low
-    a[HIGH + i] = high
     a[T + i] = t
     a[MODE + i] = mode
     end_at(a, i, Z1, END_Z1, move, going)
     return 1 if mode <= ENDING else 0
+
+
+@kernel
+def loose_mass(a, i, t):
+    """Z2 and its speed in flight, from Z1 and its slope at t."""
+    drift = a[Y3 + i] - a[Y1 + i]
+    return a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t, a[Z1_SLOPE + i] + drift
 
 
 @kernel
@@ -115,14 +130,13 @@ def find_contact(a):
         speed = abs(a[Y3 + i])
         change = a[CHANGE + i]
         wall = 1.0 if a[Y3 + i] > 0.0 else -1.0
-        z = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + (a[Y3 + i] - a[Y1 + i]) * length
+        z, final = loose_mass(a, i, length)
         ahead = clearance - wall * z
         behind = clearance + wall * z
         sag = SAG * change * length
         clear = min(clearance - wall * a[Y2 + i], ahead) > sag
         left = behind + speed * length > 0.5 * change * length
-        final = wall * (a[Z1_SLOPE + i] + (a[Y3 + i] - a[Y1 + i]))
-        certain = speed + final > change
+        certain = speed + wall * final > change
         missed = (clear and left) or (certain and ahead > 0.0)
         a[WALL + i] = wall
         a[MODE + i] = MISSED if missed else (BRACKET if certain else MARCH)
@@ -155,13 +169,10 @@ def search_contact(a):
     uncertain = 0
     for i in range(LANES):
         t = a[T + i]
-        drift = a[Y3 + i] - a[Y1 + i]
-        z = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t
+        z, w = loose_mass(a, i, t)
+        closing = a[WALL + i] * w
         f = min(a[CLEARANCE + i], FAR) - a[WALL + i] * z
-        slope = -a[WALL + i] * (a[Z1_SLOPE + i] + drift)
-        curve = -a[WALL + i] * a[Z1_CURVE + i]
-        move = -f / slope
-        t += move * (1.0 - 0.5 * (curve / slope) * move)
+        t += bent(f / closing, a[WALL + i] * a[Z1_CURVE + i] / closing)
         certain = a[MODE + i] == BRACKET
         a[T + i] = t if certain and 0.0 < t < a[LENGTH + i] else a[T + i]
         uncertain += 1 if a[MODE + i] == MARCH else 0
@@ -178,13 +189,8 @@ def search_contact(a):
             bound = a[BOUND + i]
             clearance = min(a[CLEARANCE + i], FAR)
             fine = ROUNDING * clearance
-            drift = a[Y3 + i] - a[Y1 + i]
-            z = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t
-            w = a[Z1_SLOPE + i] + drift
+            z, w = loose_mass(a, i, t)
             wall = a[WALL + i]
-            low = a[LOW + i]
-            high = a[HIGH + i]
-            length = a[LENGTH + i]
             move = 0.0
             if mode == MARCH:
                 upper = safe_advance(clearance - z, w, bound)
@@ -195,17 +201,13 @@ def search_contact(a):
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)
                 # At rest on a wall the acceleration decides, a little later.
-                t, mode = march(t, clearance - wall * z, wall * w > 0.0, ahead, length, fine)
+                t, mode = march(t, clearance - wall * z, wall * w > 0.0, ahead, a[LENGTH + i], fine)
             elif mode == BRACKET:
                 f = clearance - wall * z
-                low = t if f > 0.0 else low
-                high = high if f > 0.0 else t
-                curve = -wall * a[Z1_CURVE + i]
-                first, bend = f / (wall * w), -curve / (wall * w)
-                allowed = a[TOLERANCE + i]
-                move, mode = close_in(t, f, first, bend, 0.0, low, high, length, fine, allowed)
+                first, bend = f / (wall * w), wall * a[Z1_CURVE + i] / (wall * w)
+                move, mode = close_in(a, i, t, f, first, bend, 0.0, fine)
                 t += move
             elif mode == ENDING:
                 mode = MISSED
             a[WALL + i] = wall
-            running += go_on(a, i, mode, t, move, low, high)
+            running += go_on(a, i, mode, t, move)

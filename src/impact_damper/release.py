@@ -113,27 +113,20 @@ def find_release(a):
             f = a[SIDE + i] * a[DEPTH + i]
             slope = a[SIDE + i] * a[DEPTH_SLOPE + i]
             curve = a[SIDE + i] * a[DEPTH_CURVE + i]
-            bound = a[BOUND + i]
             fine = a[FINE + i]
-            low = a[LOW + i]
-            high = a[HIGH + i]
-            length = a[LENGTH + i]
             move = 0.0
             if mode == MARCH:
-                ahead = safe_advance(f, -slope, bound)
-                t, mode = march(t, f, slope <= 0.0, ahead, length, fine)
+                ahead = safe_advance(f, -slope, a[BOUND + i])
+                t, mode = march(t, f, slope <= 0.0, ahead, a[LENGTH + i], fine)
             elif mode == BRACKET:
-                low = t if f > 0.0 else low
-                high = high if f > 0.0 else t
                 natural = a[NATURAL + i]
                 bend = (curve + natural * natural * f) / slope
                 first = swing(f, slope, natural)
-                allowed = a[TOLERANCE + i]
-                move, mode = close_in(t, f, first, bend, natural, low, high, length, fine, allowed)
+                move, mode = close_in(a, i, t, f, first, bend, natural, fine)
                 t += move
             elif mode == ENDING:
                 mode = MISSED
             end_at(a, i, DEPTH, END_DEPTH, move, a[MODE + i] <= ENDING)
-            running += go_on(a, i, mode, t, move, low, high)
+            running += go_on(a, i, mode, t, move)
         if running > 0:
             contact_values(a)
