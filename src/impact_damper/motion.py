@@ -228,9 +228,9 @@ def settle_many(parameters, states, start, tolerance, patience, limit, watched, 
     rings = np.empty((size, RING, 4))
     chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
     y = np.empty(4)
-    following, left = 0, len(out)
+    following, left = size, len(out)
     for m in range(size):
-        following = take_next(pool, m, following, parameters, states, start, tolerance, seen, out)
+        take(pool, m, m, parameters, states, start, tolerance, seen, out)
     while left > 0:
         for j in range(advance_some(pool, chosen, arrived)):
             m = arrived[j]
@@ -248,20 +248,18 @@ def settle_many(parameters, states, start, tolerance, patience, limit, watched, 
                 if out[i].outcome != DIVERGED:
                     periods = out[i].period if out[i].period > 0 else watched
                     measure(p, y, periods, tolerance, out[i])
-                following = take_next(
-                    pool, m, following, parameters, states, start, tolerance, seen, out
-                )
+                take(pool, m, following, parameters, states, start, tolerance, seen, out)
+                following += 1
             else:
                 with_tangent = seen[m].strobes > patience // 2
                 send(pool, m, strobe, strobe + 2.0 * math.pi / p[0], with_tangent)
 
 
 @kernel
-def take_next(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Give a place of the pool to motion i, if there is one. Returns the number of the next."""
+def take(pool, m, i, parameters, states, start, tolerance, seen, out):
+    """Give a place of the pool to motion i, if there is one."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
         enter(pool, m, p, y, side_of(p, y), tolerance)
         send(pool, m, start[i], strobe_time(p), False)
-    return i + 1

@@ -68,7 +68,8 @@ def flow_map(p, y, begin, periods, half, tolerance):
 @inlined
 def period_map(p, y, periods, tolerance):
     """`flow_map` from the strobe on: state, derivative and contacts begun."""
-    state, matrix, contacts, _ = flow_map(p, y, strobe_time(p), periods, False, tolerance)
+    half = np.bool_(False)  # a literal would have the map compiled for it alone
+    state, matrix, contacts, _ = flow_map(p, y, strobe_time(p), periods, half, tolerance)
     return state, matrix, contacts
 
 

@@ -78,7 +78,7 @@ def _solve(p, restitution, guess, reach):
     y = np.array(guess, float)
     for k in range(ITERATIONS):
         state, matrix, impacts, slowest, first, largest = rigid_map(
-            p, restitution, y, POLISH_TOLERANCE
+            p, float(restitution), y, POLISH_TOLERANCE
         )
         if impacts == MOST_IMPACTS:
             return None, flag("rigid_status", "chatter")

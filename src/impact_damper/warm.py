@@ -23,7 +23,14 @@ from importlib import import_module
 ADDRESS = "IMPACT_DAMPER_WARM"
 # Between them they import what all jobs do. By name: what a module imports itself counts for the
 # workflow as what its jobs depend on.
-MODULES = ["impact_damper.warmup", "impact_damper.accuracy", "impact_damper.tables"]
+MODULES = [
+    "impact_damper.warmup",
+    "impact_damper.accuracy",
+    "impact_damper.migration",
+    "impact_damper.tables",
+    "netCDF4",
+    "snakemake.script",
+]
 # As Snakemake sets them for a job of one thread.
 THREADS = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
 # Seconds between two looks whether the run goes on, less than another takes to start a job.

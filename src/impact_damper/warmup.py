@@ -29,6 +29,7 @@ def warm_up_orbits() -> None:
     """`warm_up` of what follows orbits and switches the damper; what both halves need first."""
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     orbits.follow(on.copy(), np.zeros(4), 1, CLEARANCE, on[CLEARANCE], 1e-3, 1e-9)
+    orbits.flow_map(on, np.zeros(4), strobe_time(on), 1, False, 1e-9)
     path, record = np.zeros((4, 5)), np.zeros(1, MOTION)[0]
     record["period"] = 1
     switching.life(on, path, record, 1e-9)

@@ -20,6 +20,7 @@ class _Returned(Exception):
     """A branch that is certainly taken has returned."""
 
 
+@cache
 def operations(function, rounds=1, **arguments):
     """Floating-point operations of one call.
 

@@ -35,6 +35,8 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
+    # At a set height, titles are not kept clear of ticks, which takes a fifth of the drawing.
+    "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
     "xtick.direction": "in",
