@@ -52,7 +52,8 @@ if "+avx512f" in get_host_cpu_features():
 # cost both digits and speed. Kernels release the interpreter lock, so threads
 # spread them over cores without a parallel compilation of their own.
 CONTRACT = ("contract",)
-kernel = partial(numba.njit, cache=True, nogil=True, fastmath=set(CONTRACT), error_model="numpy")
+SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_model": "numpy"}
+kernel = partial(numba.njit, **SETTINGS)
 
 # For a function with few callers: compiled as part of them and not by itself as well.
 inlined = partial(kernel, inline="always")

@@ -11,6 +11,7 @@ import numpy as np
 
 from impact_damper import widths
 from impact_damper.accelerate import kernel, pointer
+from impact_damper.addresses import by_address
 
 LANES = 16
 # Trajectories in a pool: enough for a full step to be found nearly always.
@@ -18,8 +19,11 @@ RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = widths.instance(LANES)
-flight_step, contact_step = _MANY.flight_step, _MANY.contact_step
-flight_tangents, contact_tangents = _MANY.flight_tangents, _MANY.contact_tangents
+flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.contact_step)
+flight_tangents, contact_tangents = (
+    by_address(_MANY.flight_tangents),
+    by_address(_MANY.contact_tangents),
+)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # The numbers of a trajectory in a pool are the first rows of a step, in their order.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (

@@ -29,7 +29,8 @@ def warm_up_orbits() -> None:
     """`warm_up` of what follows orbits and switches the damper; what both halves need first."""
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     orbits.follow(on.copy(), np.zeros(4), 1, CLEARANCE, on[CLEARANCE], 1e-3, 1e-9)
-    orbits.flow_map(on, np.zeros(4), strobe_time(on), 1, False, 1e-9)
+    in_contact = np.array([0.0, 0.0, 1.1, 0.0])
+    orbits.flow_map(on, in_contact, strobe_time(on), 1, False, 1e-9)
     path, record = np.zeros((4, 5)), np.zeros(1, MOTION)[0]
     record["period"] = 1
     switching.life(on, path, record, 1e-9)
@@ -42,12 +43,13 @@ def warm_up_settling() -> None:
     lanes.enter(pool, 0, pack(OSCILLATOR, DAMPER, FREQUENCY), np.zeros(4), 0, 1e-9)
     lanes.send(pool, 0, 0.0, 0.01, False)
     lanes.advance_some(pool, places, places.copy())
-    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
-    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
     settling = Settling(patience=100, limit=100, watched=1)
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
     )
+    # the step that these take is by now compiled in the other half
+    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
+    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
 
 
 def warm_up_rivals() -> None:
