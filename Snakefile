@@ -51,6 +51,9 @@ onstart:
     check_writable(Path(config["results"]))
     if workflow.is_main_process and workflow.local_exec:
         start_warm_process()
+        # A limit on jobs a second is for queues. To keep it, Snakemake looks at all that is ready
+        # once a second for every job that has ended: in the end it took a core.
+        workflow.scheduler.job_rate_limiter = None
 
 
 onsuccess:
