@@ -7,6 +7,7 @@ ends likewise (`hand_over`); if it is killed, so is the child. Where there is no
 on the nodes of a cluster, a job does all of it itself.
 """
 
+import gc
 import json
 import os
 import runpy
@@ -37,6 +38,8 @@ THREADS = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
 LOOK = 0.5
 LONGEST_SILENCE = 5.0  # seconds
 LONGEST_REQUEST = 2**16
+# Looks for garbage are rarer than by default, and leave out what is there when a child begins.
+GARBAGE_LIMITS = 50_000, 20, 50
 REFUSED = 255
 
 
@@ -94,6 +97,7 @@ def serve(folder, run) -> None:
     for module in MODULES:
         import_module(module)
     import_module("impact_damper.figures.style").draw_first()
+    gc.set_threshold(*GARBAGE_LIMITS)
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     listener = _socket()
     listener.settimeout(LOOK)
@@ -111,6 +115,7 @@ def serve(folder, run) -> None:
             if request["compiled"] and not loaded:
                 _load_kernels()
                 loaded = True
+            gc.freeze()
             if os.fork() == 0:
                 try:
                     _run(connection, request, files)

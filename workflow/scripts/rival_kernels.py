@@ -4,6 +4,9 @@ from impact_damper.job import begin
 
 begin(snakemake)
 
+import gc
+
 from impact_damper.warmup import warm_up_rivals
 
+gc.disable()
 warm_up_rivals()
