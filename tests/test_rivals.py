@@ -80,9 +80,10 @@ def test_linear_stability_limit_of_the_contact(method):
         """Largest growth per step, from the step's matrix; drift of both masses has 1."""
         h = scaled / contact
         number = fixed_step.METHODS.index(method)
+        drives = fixed_step.forcing(p, 0.0, h)
 
         def after(y):
-            return np.array(fixed_step.one_step(number, p, 0.0, h, tuple(map(float, y))))
+            return np.array(fixed_step.one_step(number, p, drives, h, tuple(map(float, y))))
 
         matrix = [after(1e-6 * unit) - after(-1e-6 * unit) for unit in np.eye(4)]
         return np.abs(np.linalg.eigvals(np.array(matrix).T / 2e-6)).max()

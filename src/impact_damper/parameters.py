@@ -51,19 +51,19 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
         value = float(value)
     except OverflowError:
         value = math.inf if value > 0 else -math.inf
-    bounds = [
-        (above, "greater than", lambda bound: value > bound),
-        (least, "at least", lambda bound: value >= bound),
-        (most, "at most", lambda bound: value <= bound),
-    ]
-    allowed = [f"{word} {bound:g}" for bound, word, _ in bounds if bound is not None]
-    holds = all(test(bound) for bound, _, test in bounds if bound is not None)
-    if not math.isfinite(value) or not holds:
-        reason = f" ({why})" if why else ""
-        raise ValueError(
-            f"{name} = {plain(value)}: must be {' and '.join(['finite', *allowed])}{reason}"
-        )
-    return value
+    if (
+        math.isfinite(value)
+        and (above is None or value > above)
+        and (least is None or value >= least)
+        and (most is None or value <= most)
+    ):
+        return value
+    bounds = {"greater than": above, "at least": least, "at most": most}
+    allowed = [f"{word} {bound:g}" for word, bound in bounds.items() if bound is not None]
+    reason = f" ({why})" if why else ""
+    raise ValueError(
+        f"{name} = {plain(value)}: must be {' and '.join(['finite', *allowed])}{reason}"
+    )
 
 
 def check_count(name, value, *, least=1, most=10**9, why=""):

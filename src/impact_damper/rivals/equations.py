@@ -22,16 +22,22 @@ def wall_at(p, z):
 @kernel
 def rate(p, side, t, y):
     """Rate of the state (Z1, Z1', Z2, Z2') while a wall acts (`side`: -1, 0 for none, 1)."""
+    return rate_under(p, side, math.cos(p[0] * t), y)
+
+
+@kernel
+def rate_under(p, side, drive, y):
+    """`rate` under a known forcing."""
     x, v, z, w = y
     force = p[4] * (z - side * p[3]) + p[6] * w if side != 0 else 0.0
-    a = math.cos(p[0] * t) - p[1] * v - (p[2] + x * x) * x - force
+    a = drive - p[1] * v - (p[2] + x * x) * x - force
     return v, a, w, a - p[5] * force
 
 
 @kernel
-def rate_by_position(p, t, y):
-    """Rate of the state, the wall chosen by the position: integration through the kink."""
-    return rate(p, wall_at(p, y[2]), t, y)
+def rate_by_position(p, drive, y):
+    """`rate_under`, the wall chosen by the position: integration through the kink."""
+    return rate_under(p, wall_at(p, y[2]), drive, y)
 
 
 @kernel
