@@ -29,7 +29,7 @@ MOTIONS = {
 }
 
 
-@style()
+@style({"axes.titley": None})  # letters stand clear of the axis above
 def draw_migration(*, migration):
     """Displacement of the primary mass in the stored run: all of it, and its last release.
 

@@ -141,9 +141,9 @@ CURVES = [
 ]
 
 
-def style():
-    """The common style, as a context manager or as a decorator of a drawing function."""
-    return matplotlib.style.context(["default", STYLE])
+def style(*changes):
+    """The common style, with changes to it, for a block or as a decorator of a drawing function."""
+    return matplotlib.style.context(["default", STYLE, *changes])
 
 
 def figure(column, height) -> Figure:
