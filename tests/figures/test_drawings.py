@@ -223,6 +223,15 @@ def test_all_lies_on_the_sheet_and_the_legend_beside_the_axes(drawing):
         assert not legend.get_window_extent().overlaps(axes.get_tightbbox())
 
 
+def test_letters_stand_above_a_second_axis(drawing):
+    drawn, _ = drawing
+    for axes in drawn.axes:
+        letter = axes._left_title.get_window_extent()
+        for second in axes.child_axes:
+            for words in [second.xaxis.label, *second.get_xticklabels()]:
+                assert letter.y0 >= words.get_window_extent().y1
+
+
 def test_axes_are_labelled(drawing):
     drawn, _ = drawing
     assert any(axes.get_xlabel() for axes in drawn.axes)
