@@ -7,8 +7,8 @@ most of a second each time.
 import ctypes
 import inspect
 import os
+import sys
 import threading
-import traceback
 
 import llvmlite.binding
 import numba
@@ -26,8 +26,13 @@ def by_address(function):
     """What kernels call in place of a kernel that takes pointers to numbers and returns nothing.
 
     Compiled code knows by name a cell with the address, which at first is that of a function that
-    compiles the kernel, or takes it from the cache. An error there ends the process: the compiled
-    code that waits for it cannot be told, and would go on as if the kernel had run.
+    compiles the kernel, or takes it from the cache. An error there, or an interruption, ends the
+    process: the compiled code that waits cannot be told, and would go on as if the kernel had run.
+
+    Parameters
+    ----------
+    function : numba.core.dispatcher.Dispatcher
+        Its name and that of its module are its own in the process.
     """
     name = f"{function.__module__}.{function.__name__}"
     count = len(inspect.signature(function.py_func).parameters)
@@ -44,7 +49,8 @@ def by_address(function):
                     kept.append(compiled(function.py_func))
                     cell.value = kept[0].address
         except BaseException:
-            traceback.print_exc()
+            sys.excepthook(*sys.exc_info())
+            sys.stderr.flush()
             os._exit(1)
         prototype(cell.value)(*pointers)
 
