@@ -51,9 +51,11 @@ onstart:
     check_writable(Path(config["results"]))
     if workflow.is_main_process and workflow.local_exec:
         start_warm_process()
-        # A limit on jobs a second is for queues. To keep it, Snakemake looks at all that is ready
-        # once a second for every job that has ended: in the end it took a core.
-        workflow.scheduler.job_rate_limiter = None
+        # Snakemake's own limit on jobs a second is for queues. To keep it, all that is ready is
+        # looked at once a second for each job that has ended: in the end that took a core.
+        limit = workflow.scheduling_settings.max_jobs_per_timespan
+        if limit and (limit.max_jobs, limit.timespan) == (100, 1):
+            workflow.scheduler.job_rate_limiter = None
 
 
 onsuccess:

@@ -5,6 +5,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import pytest
 from pointed import pointed
 
 from impact_damper.accelerate import kernel
@@ -26,6 +27,40 @@ def take_away(a, d):
 
 
 called = by_address(add)
+
+INTERRUPTED = """
+import os
+import signal
+import threading
+import numba
+import numpy as np
+from impact_damper.accelerate import kernel, pointer
+from impact_damper.addresses import by_address
+
+@kernel
+def add(a):
+    a[0] += 1.0
+
+called = by_address(add)
+
+@numba.njit(nogil=True)
+def caller(a, count):
+    x = 0.0
+    for k in range(count):
+        x += np.sin(k)
+    called(pointer(a))
+    called(pointer(a))
+    return x
+
+caller(np.zeros(1), 0) if COMPILED else caller.compile("(float64[::1], int64)")
+threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+a = np.zeros(1)
+try:
+    caller(a, 10**8)
+except KeyboardInterrupt:
+    pass
+print("counted", a[0])
+"""
 
 FAILING = """
 import numba
@@ -62,6 +97,20 @@ def test_threads_may_call_first_at_once():
     with ThreadPoolExecutor(4) as pool:
         list(pool.map(lambda each: call(each, np.ones(2)), arrays))
     assert np.all(arrays == -1.0)
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_an_interruption_skips_no_call(compiled, tmp_path):
+    """It comes while compiled code runs, and is seen when that enters Python to find an address."""
+    script = tmp_path / "interrupted.py"
+    script.write_text(INTERRUPTED.replace("COMPILED", str(compiled)))
+    run = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
+    assert run.stdout == "counted 2.0\n" or run.returncode == 1, run.stderr
+
+
+def test_a_name_has_one_address():
+    with pytest.raises(ValueError, match="test_addresses.add: has an address"):
+        by_address(add)
 
 
 def test_an_error_in_compiling_ends_the_process(tmp_path):

@@ -12,11 +12,11 @@ from impact_damper.addresses import by_address
 
 _ONE = widths.instance(1)
 drive_series = _ONE.drive_series
-flight_step, contact_step = by_address(_ONE.flight_step), by_address(_ONE.contact_step)
-flight_tangents, contact_tangents = (
-    by_address(_ONE.flight_tangents),
-    by_address(_ONE.contact_tangents),
-)
+STEPS = [
+    by_address(each)
+    for each in (_ONE.flight_step, _ONE.contact_step, _ONE.flight_tangents, _ONE.contact_tangents)
+]
+flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.SIDE,

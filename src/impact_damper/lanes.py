@@ -19,11 +19,16 @@ RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = widths.instance(LANES)
-flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.contact_step)
-flight_tangents, contact_tangents = (
-    by_address(_MANY.flight_tangents),
-    by_address(_MANY.contact_tangents),
-)
+STEPS = [
+    by_address(each)
+    for each in (
+        _MANY.flight_step,
+        _MANY.contact_step,
+        _MANY.flight_tangents,
+        _MANY.contact_tangents,
+    )
+]
+flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # The numbers of a trajectory in a pool are the first rows of a step, in their order.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (

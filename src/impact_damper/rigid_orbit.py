@@ -75,10 +75,11 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 def _solve(p, restitution, guess, reach):
     p = p.copy()
     p[6] = 0.0
+    restitution = float(restitution)  # a whole number would have the map compiled again
     y = np.array(guess, float)
     for k in range(ITERATIONS):
         state, matrix, impacts, slowest, first, largest = rigid_map(
-            p, float(restitution), y, POLISH_TOLERANCE
+            p, restitution, y, POLISH_TOLERANCE
         )
         if impacts == MOST_IMPACTS:
             return None, flag("rigid_status", "chatter")

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
-from impact_damper import widths
+from impact_damper import kernel
 from impact_damper.kernel import side_of, step, workspace
 from impact_damper.recording import measured, trace
 from impact_damper.rigid import MOST_IMPACTS, rebound, rigid_map
@@ -113,12 +113,11 @@ def taylor_steps(p, start, t, periods, tolerance):
 
 def step_work(side, tangents=0):
     """Operations of one step of the Taylor series with so many tangents."""
-    one = widths.instance(1)
     if side == 0:
-        state, each = operations(one.flight_step, 0), one.flight_tangents
+        state, each = operations(kernel.flight_step, 0), kernel.flight_tangents
     else:
-        state, each = operations(one.contact_step, 0), one.contact_tangents
-    return state + tangents * operations(each) // one.TANGENTS
+        state, each = operations(kernel.contact_step, 0), kernel.contact_tangents
+    return state + tangents * operations(each) // kernel.COLUMNS
 
 
 def rigid(p, restitution, start, t, periods, tolerance):

@@ -38,7 +38,8 @@ THREADS = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
 LOOK = 0.5
 LONGEST_SILENCE = 5.0  # seconds
 LONGEST_REQUEST = 2**16
-# Looks for garbage are rarer than by default, and leave out what is there when a child begins.
+# Objects made before a garbage collection, and collections of a generation before one of the next:
+# more than by default. What is there when a child begins is passed over.
 GARBAGE_LIMITS = 50_000, 20, 50
 REFUSED = 255
 
@@ -76,13 +77,13 @@ def hand_over(compiled) -> None:
         "python": sys.prefix,
         "compiled": compiled,
     }
-    with _socket() as connection:
-        try:
+    try:
+        with _socket() as connection:
             connection.connect(address)
             socket.send_fds(connection, [json.dumps(request).encode()], [1, 2])
             answer = connection.recv(1)
-        except OSError:
-            return
+    except OSError:
+        return
     if not answer:
         print(f"Error: the process that ran {request['script']} was killed.", file=sys.stderr)
         sys.stderr.flush()

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper import lanes, orbits, runs, switching
+from impact_damper import kernel, lanes, orbits, runs, switching
 from impact_damper.ensemble import Settling
 from impact_damper.motions import simulate
 from impact_damper.orbits import strobe_time
@@ -27,10 +27,11 @@ def warm_up() -> None:
 
 def warm_up_orbits() -> None:
     """`warm_up` of what follows orbits and switches the damper; what both halves need first."""
+    for each in kernel.STEPS:
+        each.compile()
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     orbits.follow(on.copy(), np.zeros(4), 1, CLEARANCE, on[CLEARANCE], 1e-3, 1e-9)
-    in_contact = np.array([0.0, 0.0, 1.1, 0.0])
-    orbits.flow_map(on, in_contact, strobe_time(on), 1, False, 1e-9)
+    orbits.flow_map(on, np.zeros(4), strobe_time(on), 1, False, 1e-9)
     path, record = np.zeros((4, 5)), np.zeros(1, MOTION)[0]
     record["period"] = 1
     switching.life(on, path, record, 1e-9)
@@ -39,6 +40,8 @@ def warm_up_orbits() -> None:
 
 def warm_up_settling() -> None:
     """`warm_up` of what takes many motions until they settle, and of recordings."""
+    for each in lanes.STEPS:
+        each.compile()
     pool, places = lanes.make_pool(1), np.zeros(lanes.LANES, np.int64)
     lanes.enter(pool, 0, pack(OSCILLATOR, DAMPER, FREQUENCY), np.zeros(4), 0, 1e-9)
     lanes.send(pool, 0, 0.0, 0.01, False)

@@ -35,6 +35,8 @@ def operations(function, rounds=1, **arguments):
 
     Raises
     ------
+    TypeError
+        If an argument is not hashable.
     ValueError
         If the length of a `for` loop cannot be told from the arguments.
     """

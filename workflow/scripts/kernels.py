@@ -6,10 +6,12 @@ begin(snakemake)
 
 import gc
 from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 from impact_damper.warmup import warm_up_orbits, warm_up_settling
 
-gc.disable()  # a compiler makes little garbage, and to look for it takes a fifth of its time
-with ProcessPoolExecutor(snakemake.threads, initializer=end_with_parent) as pool:
+gc.disable()  # compiling makes little garbage, and its collection takes a fifth of the time
+fork = get_context("fork")  # workers keep the setting
+with ProcessPoolExecutor(snakemake.threads, fork, initializer=end_with_parent) as pool:
     for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
         half.result()

@@ -8,5 +8,5 @@ import gc
 
 from impact_damper.warmup import warm_up_rivals
 
-gc.disable()
+gc.disable()  # as for the kernels
 warm_up_rivals()
