@@ -13,8 +13,8 @@ from impact_damper.parameters import Damper
 
 TOLERANCE = 1e-9
 RADIUS = 2.0
-# Trajectories that a thread takes at a time.
-SHARE = 128
+# Trajectories that a thread takes at a time, for some milliseconds.
+SHARE = 512
 
 
 def starts_of(scene, count):
