@@ -8,14 +8,10 @@ import numpy as np
 
 from impact_damper import widths
 from impact_damper.accelerate import kernel, pointer
-from impact_damper.addresses import by_address
 
 _ONE = widths.instance(1)
 drive_series = _ONE.drive_series
-STEPS = [
-    by_address(each)
-    for each in (_ONE.flight_step, _ONE.contact_step, _ONE.flight_tangents, _ONE.contact_tangents)
-]
+STEPS = widths.steps(1)
 flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (

@@ -11,7 +11,6 @@ import numpy as np
 
 from impact_damper import widths
 from impact_damper.accelerate import kernel, pointer
-from impact_damper.addresses import by_address
 
 LANES = 16
 # Trajectories in a pool: enough for a full step to be found nearly always.
@@ -19,15 +18,7 @@ RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = widths.instance(LANES)
-STEPS = [
-    by_address(each)
-    for each in (
-        _MANY.flight_step,
-        _MANY.contact_step,
-        _MANY.flight_tangents,
-        _MANY.contact_tangents,
-    )
-]
+STEPS = widths.steps(LANES)
 flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # The numbers of a trajectory in a pool are the first rows of a step, in their order.

@@ -37,7 +37,7 @@ class Source(Writer):
 
         The slope of a series is written with a prime. Of each series only so many terms are taken.
         """
-        lines = [f"t = {self.at('T')}", *_powers(self.orders[phase])]
+        lines = [*self._time("T", phase)]
         for result, row in results.items():
             count = min(self.filled(phase)[row[0]] + 1, terms)
             coefficients = [self.at(row[0], k) for k in range(count)]
@@ -74,33 +74,32 @@ class Source(Writer):
     def bound(self, phase, then=()):
         """BOUND on |g| over the LENGTH of the step, which in flight is a bound on |Z1''|."""
         coefficients = [f"abs({self.at('G', k)})" for k in range(self.orders[phase] - 1)]
-        lines = [f"t = {self.at('LENGTH')}", *_powers(self.orders[phase])]
-        lines += _sum(coefficients, self.at("BOUND"))
-        return self.function(f"{phase}_bound", [*lines, *then])
+        lines = [*self._time("LENGTH", phase), *_sum(coefficients, self.at("BOUND")), *then]
+        return self.function(f"{phase}_bound", lines)
 
     def change(self):
         """CHANGE: what the terms of Z1' but the first come to, at most, over a flight's LENGTH."""
         coefficients = [f"abs({self.at('V', k)})" for k in range(1, self.orders["flight"])]
-        lines = [f"t = {self.at('LENGTH')}", *_powers(self.orders["flight"])]
+        lines = [*self._time("LENGTH", "flight")]
         lines += [*_sum(coefficients, "change"), f"{self.at('CHANGE')} = change * t"]
         return self.function("flight_change", lines)
 
     def tangent_value(self, phase):
         """The tangent at T."""
-        lines = [f"t = {self.at('T')}", *_powers(self.orders[phase])]
+        lines = [*self._time("T", phase)]
         for place, (name, last) in enumerate(self.filled_of_tangent(phase).items()):
             coefficients = [self.at_tangent(f"D{name}", k) for k in range(last + 1)]
             lines += _sum(coefficients, self.at_tangent("", place))
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
-
-def _powers(order):
-    """Powers of t for `_sum`."""
-    yield "t2 = t * t"
-    yield "t4 = t2 * t2"
-    for k in range(8, order + 1, 4):
-        half = 4 * (k // 8)
-        yield f"t{k} = t{half} * t{k - half}"
+    def _time(self, row, phase):
+        """The t of a row, and its powers for `_sum`."""
+        yield f"t = {self.at(row)}"
+        yield "t2 = t * t"
+        yield "t4 = t2 * t2"
+        for k in range(8, self.orders[phase] + 1, 4):
+            half = 4 * (k // 8)
+            yield f"t{k} = t{half} * t{k - half}"
 
 
 def _sum(c, result):

@@ -8,6 +8,7 @@ from functools import cache
 
 from impact_damper import events, forcing, release, step
 from impact_damper.accelerate import CACHE_DIRECTORY
+from impact_damper.addresses import by_address
 from impact_damper.series import SERIES, SINGLE
 from impact_damper.sums import Source
 
@@ -33,6 +34,13 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     sys.modules[name] = module
     specification.loader.exec_module(module)
     return module
+
+
+def steps(lanes):
+    """The steps in flight and in contact, and those of their tangents, to be called by address."""
+    made = instance(lanes)
+    each = made.flight_step, made.contact_step, made.flight_tangents, made.contact_tangents
+    return list(map(by_address, each))
 
 
 def _source(writer):
