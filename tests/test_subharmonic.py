@@ -5,14 +5,13 @@ import pytest
 from numpy.testing import assert_allclose
 
 from impact_damper.datasets import flag, load, save
+from impact_damper.free_subharmonic import free_subharmonic, switched_on
 from impact_damper.motions import simulate, steady_motion
 from impact_damper.parameters import Damper, Oscillator, pack
 from impact_damper.subharmonic import (
     SWITCHED_MOTIONS,
     _suppression,
-    free_subharmonic,
     subharmonic_suppression,
-    switched_on,
 )
 
 PAPER = Oscillator(0.215)

@@ -12,10 +12,11 @@ import numpy as np
 from impact_damper import ensemble
 from impact_damper.branches import follow_branch
 from impact_damper.datasets import dataset, flag, is_settled
+from impact_damper.families import family_of
 from impact_damper.harmonic_balance import peak_frequency
 from impact_damper.motions import check_settling, random_states
 from impact_damper.parameters import check_damper, describe, pack
-from impact_damper.periodic import branches_dataset, family_of
+from impact_damper.periodic import branches_dataset
 from impact_damper.shooting import find_orbit
 
 HEAVY = 2.0

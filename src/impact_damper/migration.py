@@ -1,23 +1,22 @@
-"""Migration control: the loop of figure 17, which leads the free oscillator to its goal.
-
-From the resonance branch the damper is switched on and off again, until the free oscillator
-settles on its non-resonance branch. See `releases` for how the damper is switched on. It is
-switched off in the forcing periods after its motion is recognised as settled, near a stable
-orbit, at a phase drawn uniformly over the period of that motion; or, if it has not settled
-within a longest hold, in the forcing period after that.
-"""
+"""Migration control: the loop of figure 17, which leads the free oscillator to its goal."""
 
 import numpy as np
 
-from impact_damper import ensemble, recording, switching
+from impact_damper import ensemble
+from impact_damper.controller import (
+    blank,
+    control,
+    course,
+    draw,
+    run_totals,
+    switching_data,
+)
 from impact_damper.datasets import dataset, flag
 from impact_damper.motions import MOST_SEED, check_settling
 from impact_damper.parameters import check_count, check_damper, describe, pack
 from impact_damper.releases import (
     DESTINATIONS,
     KINDS,
-    destination,
-    kinds,
     release_data,
     scene,
     settled_motions,
@@ -28,124 +27,6 @@ from impact_damper.survival import BOUNDS, wilson
 from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION
 
 PAPER_CYCLES = 350
-MARGIN = 10
-SAMPLES = 40
-SWITCHING = np.dtype(
-    [
-        ("on_time", "f8"),
-        ("off_time", "f8"),
-        ("end_time", "f8"),
-        ("released_period", "i2"),
-        ("released_displacement", "f8"),
-        ("destination", "i1"),
-        ("destination_displacement", "f8"),
-    ]
-)
-
-
-def _draws(seed, switchings):
-    """Phases and places of one run: the first rows are the same for any number of switchings."""
-    return np.random.default_rng(seed).random((switchings, 3))
-
-
-def _blank(shape):
-    """Log of switchings that are not made."""
-    log = np.zeros(shape, SWITCHING)
-    for name in SWITCHING.names:
-        if SWITCHING[name].kind == "f":
-            log[name] = np.nan
-    log["destination"] = FREE_MOTION["none"]
-    return log
-
-
-def _control(here, draws, longest_hold, settling, periods):
-    """One run of the controller: rows of its path, and its log.
-
-    A row of `draws` holds for one switching the phase of switching on, the place of the loose
-    mass and the phase of release, phases as a share of the period of the motion before. A row of
-    the path is (forcing periods from the first strobe, state), at each strobe and switching.
-    """
-    y = here.state.copy()
-    record = np.zeros(1, recording.MOTION)[0]
-    record["period"] = 1
-    log = _blank(len(draws))
-    rest = np.empty((max(longest_hold, settling.limit) + 2, 5))
-    path, strobe = [], 0.0
-
-    def leg(before, after, phase, place, limit):
-        nonlocal strobe
-        wait = phase * max(int(record["period"]), 1)
-        instant = strobe + wait
-        strobe = switching.leg(
-            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, record
-        )
-        path.append(rest[: record["periods_run"] + 2].copy())
-        return instant
-
-    for entry, draw in zip(log, draws, strict=True):
-        entry["on_time"] = leg(here.off, here.on, draw[0], 2 * draw[1] - 1, longest_hold)
-        entry["released_period"] = record["period"]
-        entry["released_displacement"] = record["maximum_displacement"]
-        entry["off_time"] = leg(here.on, here.off, draw[2], 0.0, settling.limit)
-        entry["end_time"] = strobe
-        entry["destination"] = destination(here.known, record)
-        entry["destination_displacement"] = record["maximum_displacement"]
-        if entry["destination"] == FREE_MOTION["non_resonance"] or strobe >= periods:
-            break
-    return np.concatenate(path), log
-
-
-def _trace(here, path, log, tolerance):
-    """Times T and Z1 along a run, and MARGIN periods before its first strobe and after its end.
-
-    Each stretch between two rows of the path is integrated by itself, so that a chaotic motion
-    is the very one that was controlled.
-    """
-    period = 2 * np.pi / here.on[0]
-    path = np.vstack([np.append(-MARGIN, here.state), path])
-    ends = np.append(path[1:, 0], path[-1, 0] + MARGIN)
-    times = np.arange(-MARGIN * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
-    log = log[log["destination"] != FREE_MOTION["none"]]
-    switched = np.stack([log["on_time"], log["off_time"]], axis=-1).ravel()
-    damped = np.searchsorted(switched, (path[:, 0] + ends) / 2) % 2 == 1
-    cuts = np.searchsorted(times, np.append(path[:, 0], ends[-1]))
-    states = np.empty((len(times), 4))
-    for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False):
-        recording.trace(
-            here.on if on else here.off,
-            row[1:].copy(),
-            (row[0] + 0.25) * period,
-            (times[first:last] + 0.25) * period,
-            tolerance,
-            states[first:last],
-            np.empty((0, 5)),
-        )
-    return (times + 0.25) * period, states[:, 0]
-
-
-def _log_data(logs, here):
-    """Registered variables of each switching, over (..., switching)."""
-    period = 2 * np.pi / here.on[0]
-    kind = kinds(logs["released_period"], logs["released_displacement"], here.known)
-    absent = logs["destination"] == FREE_MOTION["none"]
-    data = {name: (logs[name] + 0.25) * period for name in ("on_time", "off_time", "end_time")}
-    data["released_from"] = np.where(absent, DAMPED_MOTION["none"], kind)
-    return data | {name: logs[name] for name in SWITCHING.names[3:]}
-
-
-def _totals(logs):
-    """Registered variables of whole runs, in forcing periods from the first switching."""
-    first = logs["on_time"][..., 0]
-    reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
-    return {
-        "trial_outcome": np.where(
-            reached, flag("trial_outcome", "reached"), flag("trial_outcome", "not_reached")
-        ),
-        "switchings": np.sum(logs["destination"] != FREE_MOTION["none"], axis=-1),
-        "damper_time": np.nansum(logs["off_time"] - logs["on_time"], axis=-1),
-        "release_time": np.nanmax(logs["off_time"], axis=-1) - first,
-        "total_time": np.nanmax(logs["end_time"], axis=-1) - first,
-    }
 
 
 def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
@@ -212,12 +93,12 @@ def migrate(
     here, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )
-    path, log = _control(here, _draws(seed, switchings), longest_hold, settling, periods)
-    totals = _totals(log)
+    path, log = control(here, draw(seed, switchings), longest_hold, settling, periods)
+    totals = run_totals(log)
     log = log[: totals["switchings"]]
-    times, displacement = _trace(here, path, log, settling.tolerance)
+    times, displacement = course(here, path, log, settling.tolerance)
     data = {"displacement": displacement}
-    data |= {name: ("switching", values) for name, values in _log_data(log, here).items()}
+    data |= {name: ("switching", values) for name, values in switching_data(log, here).items()}
     data |= {name: ((), value) for name, value in totals.items()}
     return dataset(data, {"time": times}, made, "Migration control, one run")
 
@@ -314,20 +195,20 @@ def trials(
             np.random.SeedSequence(seed).spawn(2), (trials, releases), strict=True
         )
     )
-    draws = np.array([_draws(child, switchings) for child in runs])
-    logs = _blank(draws.shape[:2])
+    draws = np.array([draw(child, switchings) for child in runs])
+    logs = blank(draws.shape[:2])
 
     def work(part):
         for i in range(part.start, part.stop):
-            _, logs[i] = _control(here, draws[i], longest_hold, settling, periods)
+            _, logs[i] = control(here, draws[i], longest_hold, settling, periods)
 
     ensemble.run_chunks(work, trials, workers, progress)
-    totals = _totals(logs)
+    totals = run_totals(logs)
     logs = logs[:, : np.max(totals["switchings"])]
-    data = _log_data(logs, here)
+    data = switching_data(logs, here)
     example = _example(totals)
-    path, log = _control(here, draws[example], longest_hold, settling, periods)
-    times, displacement = _trace(here, path, log, settling.tolerance)
+    path, log = control(here, draws[example], longest_hold, settling, periods)
+    times, displacement = course(here, path, log, settling.tolerance)
     data |= totals | _summary(data, totals) | {"example": example, "displacement": displacement}
     lives, motions, entries = watch(here, watched, lifetime, settling, workers, progress)
     life, coordinates = transient_data(lives, motions, lifetime, here.known)

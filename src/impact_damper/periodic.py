@@ -3,19 +3,16 @@
 Orbits may be stable or not, of any period, and touch the walls in any sequence.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import xarray as xr
 
 from impact_damper.branches import SAME, follow_branch
 from impact_damper.continuation import Problem
 from impact_damper.datasets import dataset, flag
+from impact_damper.families import LINEAR, family_of
 from impact_damper.motions import COMPONENTS, check_state, phase_of
 from impact_damper.parameters import (
     FREQUENCY_RANGE,
-    Damper,
-    Oscillator,
     check_count,
     check_number,
     check_span,
@@ -28,17 +25,6 @@ from impact_damper.shooting import STROBE, find_orbit
 NEARBY = 0.02
 # At a slower contact the 3/2-power term of the map at grazing is felt.
 SLOW = 0.01
-# Owner of each parameter that a branch can be followed in; all but the frequency and the
-# restitution are followed by their logarithm.
-PARAMETERS = {
-    "frequency": None,
-    "damping": Oscillator,
-    "mass_ratio": Damper,
-    "clearance": Damper,
-    "restitution": Damper,
-    "contact_stiffness": Damper,
-}
-LINEAR = ("frequency", "restitution")
 
 
 def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STROBE):
@@ -179,55 +165,6 @@ def _found(oscillator, damper, frequency, state, period, phase):
             f"{orbit.residual:.2g}; a state closer to it, or another period, is needed"
         )
     return orbit
-
-
-def family_of(oscillator, damper, frequency, parameter, span):
-    """Packed parameters by the parameter's coordinate along a branch, and that of the values.
-
-    Raises
-    ------
-    ValueError
-        If there is no such parameter, or its value lies outside the span.
-    """
-    pack(oscillator, damper, frequency)
-    if not isinstance(parameter, str) or parameter not in PARAMETERS:
-        allowed = ", ".join(PARAMETERS)
-        raise ValueError(f"parameter = {shown(parameter)}: must be one of {allowed}")
-    owner = PARAMETERS[parameter]
-    if owner is Damper and damper is None:
-        raise ValueError(f"parameter = {parameter!r}: there is no damper to change")
-    given = {None: None, Oscillator: oscillator, Damper: damper}[owner]
-    value = frequency if owner is None else getattr(given, parameter)
-    least, most = check_span("span", span)
-    if not least <= value <= most:
-        raise ValueError(f"span = {shown(span)}: must hold {parameter} = {value:g}")
-    pack_at = _pack_by(oscillator, damper, frequency, parameter)
-    try:
-        for bound in (least, most):
-            pack_at(bound)
-    except ValueError as error:
-        raise ValueError(f"span = {shown(span)}: {error}") from None
-    if parameter in LINEAR:
-        return pack_at, value, (least, most)
-    return (lambda x: pack_at(np.exp(x))), np.log(value), (np.log(least), np.log(most))
-
-
-def _pack_by(oscillator, damper, frequency, parameter):
-    """Packed parameters as a function of one of them."""
-
-    def pack_at(value):
-        if parameter == "frequency":
-            return pack(oscillator, damper, value)
-        if parameter == "damping":
-            return pack(replace(oscillator, damping=value), damper, frequency)
-        if parameter == "restitution":
-            # Its derivative at 1 is taken from both sides.
-            p = pack(oscillator, replace(damper, restitution=min(value, 2 - value)), frequency)
-            p[6] *= np.sign(1 - value)
-            return p
-        return pack(oscillator, replace(damper, **{parameter: value}), frequency)
-
-    return pack_at
 
 
 def _seeds(motions, damper):
