@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from pointed import pointed
 
 import impact_damper
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import aligned, kernel
 from impact_damper.straight import straight
 from impact_damper.widths import instance
 
@@ -39,7 +39,13 @@ def four_columns(a, d):
         d[4 + i] = a[1] * d[0 + i] + 1.0
 
 
-one, sixteen, four = straight(one_lane), straight(sixteen_lanes), straight(four_columns)
+def two_constants(a):
+    for i in range(2):
+        a[0 + i] = (3.0, -0.5)[i] * a[2] + a[0 + i]
+
+
+one, two = straight(one_lane), straight(two_constants)
+sixteen, four = straight(sixteen_lanes), straight(four_columns)
 
 
 @kernel
@@ -57,9 +63,15 @@ def four_compiled(a, d):
     four(a, d)
 
 
+@kernel
+def two_compiled(a):
+    two(a)
+
+
 @pytest.mark.parametrize(
     ("compiled", "function", "sizes"),
     [
+        (two_compiled, two_constants, [3]),
         (one_compiled, one_lane, [3]),
         (sixteen_compiled, sixteen_lanes, [48]),
         (four_compiled, four_columns, [2, 8]),
@@ -104,6 +116,25 @@ def test_forcing_near_a_known_one(time, shift):
         rtol=0,
         atol=1e-15 * (1 + time),
     )
+
+
+def test_forcing_of_lanes():
+    """Each lane at its own time and frequency."""
+    module, random = instance(16), np.random.default_rng(1995)
+    a = np.zeros((module.SIZE // 16, 16))
+    time, frequency = random.uniform(0, 100, 16), random.uniform(0, 3, 16)
+    a[module.TIME // 16], a[module.FREQUENCY // 16] = time, frequency
+    pointed(module.forcing)(a.ravel())
+    assert_allclose(a[module.COSINE // 16], np.cos(frequency * time), rtol=0, atol=1e-13)
+    assert_allclose(a[module.SINE // 16], np.sin(frequency * time), rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("count", [1, 100, 4096])
+def test_aligned_arrays_begin_at_cache_lines(count):
+    for _ in range(20):
+        array = aligned(count)
+        assert array.ctypes.data % 64 == 0
+        assert_array_equal(array, np.zeros(count))
 
 
 @pytest.mark.parametrize("name", ["series", "sums", "straight", "forcing", "release", "step"])

@@ -53,23 +53,25 @@ def bent(first, bend):
 
 
 @kernel
+def is_last(a, i, move, rate):
+    """Whether what a move leaves out is far below the tolerance, of a gap that bends at a rate."""
+    turn = max(rate, 2.0 / a[LENGTH + i]) * move
+    return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
+
+
+@kernel
 def close_in(a, i, t, f, first, bend, rate, fine):
     """Next move and mode between LOW and HIGH, where a gap is positive and where not; f at t is.
 
     There is one root between them; or at most one, if HIGH is FAR, before the end.
-
-    The move is the last where what it leaves out, of a gap that changes at this rate, is far
-    below the tolerance.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
     length = a[LENGTH + i]
-    allowance = max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
     move = bent(first, bend)
     inside = low < t + move and t + move < high
-    turn = max(max(rate, 2.0 / length), abs(bend)) * move
     past = high == FAR and not t + move < length
-    last = inside and not past and abs(turn * turn * turn) <= allowance
+    last = inside and not past and is_last(a, i, move, max(rate, abs(bend)))
     if abs(f) <= fine:
         return 0.0, MET
     if f > 0.0 and not t < length:
@@ -110,78 +112,138 @@ def loose_mass(a, i, t):
 
 
 @kernel
-def find_contact(a):
-    """Move T to the first time in [0, LENGTH] at which |Z2| reaches the clearance from inside.
+def first_guess(a, i):
+    """When a wall would be met by the first terms of the gap's series."""
+    gap = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
+    speed = abs(a[Y3 + i])
+    bend = a[WALL + i] * a[G + i]
+    return 2.0 * gap / (speed + math.sqrt(max(speed * speed + 2.0 * bend * gap, 0.0)))
 
-    At first T is the LENGTH, and Z1 and its slope are known there. WALL becomes the wall and MODE
-    becomes MET; or T the LENGTH and MODE MISSED, when there is certainly none. END_Z1 and
-    END_Z1_SLOPE are of Z1 at T.
+
+@kernel
+def gap_ahead(a, i, t):
+    """The gap to the WALL at t, a step of second order to where it closes, and its relative bend.
+
+    From Z1, its slope and curve there.
+    """
+    z, w = loose_mass(a, i, t)
+    closing = a[WALL + i] * w
+    gap = min(a[CLEARANCE + i], FAR) - a[WALL + i] * z
+    return gap, gap / closing, a[WALL + i] * a[Z1_CURVE + i] / closing
+
+
+@kernel
+def expect_contact(a):
+    """Move T from LENGTH to where a contact may be expected before it.
+
+    By the first terms of the series, and then by half of them: the others need not be waited for.
+    """
+    expected = 0
+    for i in range(LANES):
+        length = a[LENGTH + i]
+        wall = a[WALL + i] = 1.0 if a[Y3 + i] > 0.0 else -1.0
+        reached = wall * (a[Y2 + i] + length * (a[Y3 + i] + 0.5 * length * a[G + i]))
+        a[MODE + i] = BRACKET if reached > a[CLEARANCE + i] else MISSED
+        expected += 1 if reached > a[CLEARANCE + i] else 0
+    if expected > 0:
+        guess_contact(a)
+
+
+@kernel
+def guess_contact(a):
+    """Move T to where trajectories whose MODE is BRACKET may meet a wall; others' to LENGTH."""
+    for i in range(LANES):
+        a[T + i] = min(first_guess(a, i), a[LENGTH + i])
+    flight_early(a)
+    for i in range(LANES):
+        _, first, bend = gap_ahead(a, i, a[T + i])
+        t = a[T + i] + bent(first, bend)
+        within = a[MODE + i] == BRACKET and 0.0 < t and t < a[LENGTH + i]
+        a[T + i] = t if within else a[LENGTH + i]
+
+
+@kernel
+def find_contact(a):
+    """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
+
+    Z1 and its slope are known at T. WALL becomes the wall and MODE becomes MET; or T stays and
+    MODE becomes MISSED, when there is certainly none. END_Z1 and END_Z1_SLOPE are of Z1 at T.
+    Where T is before LENGTH a contact is expected at it, and may be a little later.
 
     The terms of Z1' but the first come to CHANGE at most. Each term of Z1 stays within SAG times
-    its share of CHANGE LENGTH of its chord; so does Z2. From a wall behind, Z2 stays off where the
+    its share of CHANGE T of its chord; so does Z2. From a wall behind, Z2 stays off where the
     mean of two bounds is positive: by the chord, and by what the first speed is changed to.
     Likewise the speed keeps its sign where the mean of its bounds from both ends does: then only
     one wall can be met, and once.
     """
     unsettled = 0
+    expected = 0
     for i in range(LANES):
-        length = a[LENGTH + i]
+        t = a[T + i]
         clearance = min(a[CLEARANCE + i], FAR)
         speed = abs(a[Y3 + i])
         change = a[CHANGE + i]
         wall = 1.0 if a[Y3 + i] > 0.0 else -1.0
-        z, final = loose_mass(a, i, length)
+        z, final = loose_mass(a, i, t)
         ahead = clearance - wall * z
         behind = clearance + wall * z
-        sag = SAG * change * length
+        sag = SAG * change * t
         clear = min(clearance - wall * a[Y2 + i], ahead) > sag
-        left = behind + speed * length > 0.5 * change * length
+        left = behind + speed * t > 0.5 * change * t
         certain = speed + wall * final > change
-        missed = (clear and left) or (certain and ahead > 0.0)
+        awaited = certain and t < a[LENGTH + i]
+        missed = not awaited and ((clear and left) or (certain and ahead > 0.0))
         a[WALL + i] = wall
         a[MODE + i] = MISSED if missed else (BRACKET if certain else MARCH)
         a[END_Z1 + i] = a[Z1 + i]
         a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
+        expected += 1 if awaited else 0
         unsettled += 0 if missed else 1
+    if expected > 0:
+        unsettled = meet_expected(a)
     if unsettled > 0:
         search_contact(a)
 
 
 @kernel
-def search_contact(a):
-    """`find_contact` for trajectories that meet a wall in the step, or may do so.
-
-    Where a wall is certainly met, the first terms of the series give a guess. They do not wait
-    for the others.
-    """
-    for i in range(LANES):
-        # Where the gap would close by the first terms of its series.
-        gap = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
-        speed = abs(a[Y3 + i])
-        bend = a[WALL + i] * a[G + i]
-        guess = 2.0 * gap / (speed + math.sqrt(max(speed * speed + 2.0 * bend * gap, 0.0)))
-        length = a[LENGTH + i]
-        a[LOW + i] = 0.0
-        a[HIGH + i] = FAR
-        if a[MODE + i] != MISSED:
-            a[T + i] = min(guess, length) if a[MODE + i] == BRACKET else 0.0
-    flight_early(a)
-    uncertain = 0
+def meet_expected(a):
+    """`find_contact` where T is before LENGTH, at a wall neared all the time, nearly."""
+    flight_curve(a)
+    unsettled = 0
     for i in range(LANES):
         t = a[T + i]
-        z, w = loose_mass(a, i, t)
-        closing = a[WALL + i] * w
-        f = min(a[CLEARANCE + i], FAR) - a[WALL + i] * z
-        t += bent(f / closing, a[WALL + i] * a[Z1_CURVE + i] / closing)
-        certain = a[MODE + i] == BRACKET
-        a[T + i] = t if certain and 0.0 < t < a[LENGTH + i] else a[T + i]
+        awaited = a[MODE + i] == BRACKET and t < a[LENGTH + i]
+        gap, first, bend = gap_ahead(a, i, t)
+        move = bent(first, bend)
+        inside = 0.0 < t + move and t + move <= a[LENGTH + i]
+        met = awaited and inside and is_last(a, i, move, abs(bend))
+        otherwise = MISSED if awaited and gap > 0.0 else a[MODE + i]
+        a[MODE + i] = MET if met else otherwise
+        a[T + i] = t + move if met else t
+        end_at(a, i, Z1, END_Z1, move, met)
+        unsettled += 1 if a[MODE + i] < MET else 0
+    return unsettled
+
+
+@kernel
+def search_contact(a):
+    """`find_contact` for trajectories that meet a wall in the step, or may do so."""
+    for i in range(LANES):
+        a[LENGTH + i] = a[T + i]
+        a[LOW + i] = 0.0
+        a[HIGH + i] = FAR
+    guess_contact(a)
+    uncertain = 0
+    for i in range(LANES):
+        a[T + i] = 0.0 if a[MODE + i] == MARCH else a[T + i]
         uncertain += 1 if a[MODE + i] == MARCH else 0
     look_ahead(a)
     if uncertain > 0:
         flight_bound(a)
     running = 1
     while running > 0:
-        flight_values(a)
+        flight_slope(a)
+        flight_curve(a)
         running = 0
         for i in range(LANES):
             t = a[T + i]
@@ -203,9 +265,8 @@ def search_contact(a):
                 # At rest on a wall the acceleration decides, a little later.
                 t, mode = march(t, clearance - wall * z, wall * w > 0.0, ahead, a[LENGTH + i], fine)
             elif mode == BRACKET:
-                f = clearance - wall * z
-                first, bend = f / (wall * w), wall * a[Z1_CURVE + i] / (wall * w)
-                move, mode = close_in(a, i, t, f, first, bend, 0.0, fine)
+                gap, first, bend = gap_ahead(a, i, t)
+                move, mode = close_in(a, i, t, gap, first, bend, 0.0, fine)
                 t += move
             elif mode == ENDING:
                 mode = MISSED

@@ -7,7 +7,7 @@ flight, +1). Tangents are carried along if there are any.
 import numpy as np
 
 from impact_damper import widths
-from impact_damper.accelerate import kernel, pointer
+from impact_damper.accelerate import aligned, kernel, pointer
 
 _ONE = widths.instance(1)
 drive_series = _ONE.drive_series
@@ -27,7 +27,7 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 @kernel
 def workspace():
     """Arrays for the numbers of one trajectory and of its tangents, as `step` keeps them."""
-    return np.zeros(SIZE), np.zeros(TANGENT_SIZE)
+    return aligned(SIZE), aligned(TANGENT_SIZE)
 
 
 @kernel

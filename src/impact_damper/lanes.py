@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper import widths
-from impact_damper.accelerate import kernel, pointer
+from impact_damper.accelerate import aligned, kernel, pointer
 
 LANES = 16
 # Trajectories in a pool: enough for a full step to be found nearly always.
@@ -68,8 +68,8 @@ def make_pool(size):
         np.zeros((4, size), np.int64),
         np.zeros(4, np.int64),
         np.zeros(size, np.int64),
-        np.zeros(SIZE),
-        np.zeros(TANGENT_SIZE),
+        aligned(SIZE),
+        aligned(TANGENT_SIZE),
     )
 
 

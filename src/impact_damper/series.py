@@ -28,23 +28,29 @@ PARAMETERS = "FREQUENCY DAMPING STIFFNESS CLEARANCE CONTACT INVERSE_MASS DASHPOT
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
-    "COSINE SINE KNOWN T Z1 Z1_SLOPE Z1_CURVE Z1_JERK DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK "
-    "BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH NATURAL "
-    "END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE"
+    "COSINE SINE KNOWN TURNS ANGLE T Z1 Z1_SLOPE Z1_CURVE Z1_JERK "
+    "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
+    "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE"
 ).split()
 SINGLE = PARAMETERS + STATE + STEP + SCRATCH
 SERIES = "X V Q W G S E".split()
 TANGENT_SERIES = "DX DV DQ DW".split()
+# Most sums that are made at once.
+SUMS = 6
 
 
 def rows(flight_order, contact_order):
-    """Numbers of the rows by name; `ROWS` and `TANGENT_ROWS` are how many there are."""
+    """Numbers of the rows by name; `ROWS` and `TANGENT_ROWS` are how many there are.
+
+    From `PARTS` on stand the parts of sums.
+    """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
     series = {name: len(SINGLE) + length * j for j, name in enumerate(SERIES)}
     tangent = {name: len(STATE) + length * j for j, name in enumerate(TANGENT_SERIES)}
     ends = {
-        "ROWS": len(SINGLE) + length * len(SERIES),
+        "PARTS": len(SINGLE) + length * len(SERIES),
+        "ROWS": len(SINGLE) + length * len(SERIES) + 4 * SUMS,
         "TANGENT_ROWS": len(STATE) + length * len(TANGENT_SERIES),
     }
     return single | series | tangent | ends
@@ -72,14 +78,17 @@ class Writer:
         """A number of a tangent; rows 0 to 3 are the tangent itself."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
-    def function(self, name, lines, tangent=False):
-        """A kernel that does the lines for each lane."""
+    def function(self, name, lines, tangent=False, first=(), side_by_side=4):
+        """A kernel that does lines for each lane, and before them others, side by side."""
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
-        body = "\n".join(f"        {line}" for line in lines)
-        return (
-            f"@straight\ndef {name}_lines({arguments}):\n    for i in range({lanes}):\n{body}\n"
-            f"\n\n@kernel\ndef {name}({arguments}):\n    {name}_lines({arguments})\n"
-        )
+        text, calls = "", ""
+        for part, count, body in (("first", side_by_side, first), ("lines", lanes, lines)):
+            if body:
+                text += f"@straight\ndef {name}_{part}({arguments}):\n"
+                text += f"    for i in range({count}):\n"
+                text += "".join(f"        {line}\n" for line in body) + "\n\n"
+                calls += f"    {name}_{part}({arguments})\n"
+        return f"{text}@kernel\ndef {name}({arguments}):\n{calls}"
 
     def filled(self, phase):
         """The series that a step fills, and their orders."""

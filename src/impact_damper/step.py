@@ -70,13 +70,14 @@ def limit_length(a, series, order, excess):
 
 @kernel
 def foresee_length(a):
-    """Move T to where the last terms of the series of Z1' may be expected below the tolerance.
+    """Find a LENGTH in which the last terms of the series of Z1' may be expected to stay small.
 
     Not beyond LONGEST. By three terms from EARLY on, as if all fell from SCALE at one rate; the
     next step and its forcing need not wait for the last ones then.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
+        a[SCALE + i] = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
         fall = ((bits(SAFETY * a[TOLERANCE + i]) - ONE) >> 28) * ((1 << 28) // last)
         top = bits(a[SCALE + i])
         first = (top - bits(abs(a[V + EARLY * LANES + i]))) >> 28
@@ -86,25 +87,21 @@ def foresee_length(a):
         second *= (1 << 28) // (EARLY + 1)
         third *= (1 << 28) // (EARLY + 2)
         length = number(ONE + fall + min(first, min(second, third)))
-        a[T + i] = min(a[LONGEST + i], length)
+        a[LENGTH + i] = min(a[LONGEST + i], length)
+        a[T + i] = a[LENGTH + i]
 
 
 @kernel
 def end_flight(a):
-    """Find how long a flight can be, LENGTH and T, and Z1 and its slope at its end."""
-    for i in range(LANES):
-        a[SCALE + i] = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
-    foresee_length(a)
-    look_ahead(a)
+    """Find Z1 and its slope at T, which is moved back where the last terms are too large there."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
-        a[LENGTH + i] = a[T + i]
         beyond += 1 if a[TAIL + i] > BEYOND * allowed(a, i) else 0
     if beyond > 0:
         limit_length(a, V, FLIGHT_ORDER - 1, BEYOND)
         for i in range(LANES):
-            a[T + i] = a[LENGTH + i]
+            a[T + i] = min(a[T + i], a[LENGTH + i])
         flight_slope(a)
 
 
@@ -113,11 +110,15 @@ def flight_step(a):
     """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
     forcing(a)
     flight_series(a)
-    end_flight(a)
+    foresee_length(a)
     walls = 0
     for i in range(LANES):
         a[CHANGE + i] = 0.0
         walls += 1 if a[CLEARANCE + i] < math.inf else 0
+    if walls > 0:
+        expect_contact(a)
+    look_ahead(a)
+    end_flight(a)
     if walls > 0:
         flight_change(a)
     find_contact(a)

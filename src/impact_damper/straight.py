@@ -31,7 +31,7 @@ def straight(function):
         Of one argument or two, pointers to numbers. Its body is a loop `for i in range(lanes)`, of
         a multiple of WIDTH or fewer, over assignments. Their left sides are names, or numbers
         `a[1]` or `a[1 + i]` of an argument, and their right sides sums, differences, products and
-        quotients of such, of constants, and of `abs` and `max`.
+        quotients of such, of constants, of tuples of constants at `[i]`, and of `abs` and `max`.
 
     Returns
     -------
@@ -101,6 +101,8 @@ class _Lines(ast.NodeVisitor):
         self.builder.store(value, self.builder.bitcast(pointer, self.type.as_pointer()), align=8)
 
     def visit_Subscript(self, node):
+        if isinstance(node.value, ast.Tuple):
+            return ir.Constant(self.type, list(map(float, ast.literal_eval(node.value))))
         pointer, own = self.place(node)
         if own:
             pointer = self.builder.bitcast(pointer, self.type.as_pointer())

@@ -1,7 +1,13 @@
 """Values of the series of a step at a time in it, and bounds on them."""
 
+import math
+
 from impact_damper.series import Writer
 from impact_damper.straight import straight
+
+# Series of cosine and sine, without their first terms.
+COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
+SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 class Source(Writer):
@@ -10,21 +16,27 @@ class Source(Writer):
     def text(self):
         """The module."""
         slope = {"Z1": "X", "Z1_SLOPE": "V"}
-        curve = slope | {"Z1_CURVE": "G"}
+        curve = {"Z1_CURVE": "G"}
         jerk = curve | {"Z1_JERK": "G'"}
         depth = {"DEPTH": "Q", "DEPTH_SLOPE": "W"}
+        bound = {"BOUND": "|G|"}
+        early = max(4, self.orders["flight"] // 2)
+        changed = [f"{self.at('CHANGE')} = t * {self.at('CHANGE')}"]
         functions = [
             *([self.drive()] if self.lanes == 1 else []),
+            self.circular(),
             *(self.series(phase) for phase in self.orders),
             *(self.tangent_series(phase) for phase in self.orders),
             *(self.tangent_value(phase) for phase in self.orders),
-            self.values("flight_slope", "flight", slope, self._tail("flight", "V")),
-            self.values("flight_early", "flight", curve, terms=max(4, self.orders["flight"] // 2)),
-            self.values("flight_values", "flight", jerk),
-            self.values("contact_values", "contact", jerk | depth, self._wall()),
-            self.bound("flight"),
-            self.bound("contact", self._tail("contact", "VW")),
-            self.change(),
+            self.sums("flight_slope", "flight", "T", slope, self._tail("flight", "V")),
+            self.sums("flight_early", "flight", "T", slope | curve, terms=early),
+            self.sums("flight_curve", "flight", "T", jerk),
+            self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
+            # On |g|, which in flight is |Z1''|.
+            self.sums("flight_bound", "flight", "LENGTH", bound),
+            self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact", "VW")),
+            # What the terms of Z1' but the first come to, at most.
+            self.sums("flight_change", "flight", "T", {"CHANGE": "|V|"}, changed, begin=1),
         ]
         imports = [
             "from impact_damper.accelerate import kernel",
@@ -32,19 +44,55 @@ class Source(Writer):
         ]
         return "\n".join(imports) + "\n\n" + "\n\n".join(functions)
 
-    def values(self, name, phase, results, then=(), terms=99):
-        """Sums of series at T, and what follows; `results` gives each sum's row, and its series.
+    def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
+        """Sums of series at the time in a row, and what follows; `results` gives each its series.
 
-        The slope of a series is written with a prime. Of each series only so many terms are taken.
+        The slope of a series is written with a prime, its terms without their signs between bars.
+        Of each series only so many terms are taken, from `begin` on. With one lane, the four parts
+        of a sum stand side by side in a register.
         """
-        lines = [*self._time("T", phase)]
-        for result, row in results.items():
-            count = min(self.filled(phase)[row[0]] + 1, terms)
-            coefficients = [self.at(row[0], k) for k in range(count)]
-            if row.endswith("'"):
-                coefficients = [f"{float(k)} * {c}" for k, c in enumerate(coefficients)][1:]
-            lines += _sum(coefficients, self.at(result))
-        return self.function(name, [*lines, *then])
+        lines = [*self._time(time, phase)]
+        first = list(lines)
+        for number, (result, series) in enumerate(results.items()):
+            start = max(begin, 1 if series.endswith("'") else 0)
+            orders = range(start, self.filled(phase)[series.strip("'|")] + 1)[:terms]
+            fours = orders[: len(orders) // 4 * 4 : 4] if self.lanes == 1 else []
+            parts = [f"a[{self.rows['PARTS'] + 4 * number + j}]" for j in range(4)]
+            for k in fours:
+                four = self._coefficient(series, *range(k, k + 4))
+                so_far = f"part + {four} * t{k - start}" if k > start else four
+                first.append(f"part = {so_far}")
+            first.append(f"{self._four(parts[0])} = part")
+            coefficients = [self._coefficient(series, k) for k in orders]
+            lines += _sum(coefficients, self.at(result), parts, 4 * len(fours))
+        return self.function(name, [*lines, *then], first=first if self.lanes == 1 else ())
+
+    def circular(self):
+        """COSINE and SINE become the series of ANGLE without their first terms.
+
+        With one lane they stand side by side in a register.
+        """
+        cosine, sine = self.at("COSINE"), self.at("SINE")
+        angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
+        if self.lanes == 1:
+            both = list(map(_constants, COSINES, SINES))
+            first = [*angle, _paired(both, self._four(cosine))]
+            return self.function("circular_series", [], first=first, side_by_side=2)
+        lines = [*angle, _paired(COSINES, cosine), _paired(SINES, sine)]
+        return self.function("circular_series", lines)
+
+    def _coefficient(self, series, *orders):
+        """A coefficient of a series, or four of them side by side."""
+        number = self.at(series.strip("'|"), orders[0])
+        if len(orders) > 1:
+            number = self._four(number)
+        if series.endswith("'"):
+            return f"{_constants(*map(float, orders))} * {number}"
+        return f"abs({number})" if series.startswith("|") else number
+
+    def _four(self, number):
+        """A number and the three behind it."""
+        return number.replace("]", " + i]")
 
     def _wall(self):
         """What the wall adds: to G and its slope, for those of Z1 and of the penetration."""
@@ -71,19 +119,6 @@ class Source(Writer):
         factors += (["t2"] if power % 4 > 1 else []) + (["t"] if power % 2 else [])
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
 
-    def bound(self, phase, then=()):
-        """BOUND on |g| over the LENGTH of the step, which in flight is a bound on |Z1''|."""
-        coefficients = [f"abs({self.at('G', k)})" for k in range(self.orders[phase] - 1)]
-        lines = [*self._time("LENGTH", phase), *_sum(coefficients, self.at("BOUND")), *then]
-        return self.function(f"{phase}_bound", lines)
-
-    def change(self):
-        """CHANGE: what the terms of Z1' but the first come to, at most, over a flight's LENGTH."""
-        coefficients = [f"abs({self.at('V', k)})" for k in range(1, self.orders["flight"])]
-        lines = [*self._time("LENGTH", "flight")]
-        lines += [*_sum(coefficients, "change"), f"{self.at('CHANGE')} = change * t"]
-        return self.function("flight_change", lines)
-
     def tangent_value(self, phase):
         """The tangent at T."""
         lines = [*self._time("T", phase)]
@@ -102,13 +137,25 @@ class Source(Writer):
             yield f"t{k} = t{half} * t{k - half}"
 
 
-def _sum(c, result):
+def _constants(*numbers):
+    """A constant, or one for each place side by side."""
+    return f"{numbers}[i]" if len(numbers) > 1 else repr(numbers[0])
+
+
+def _paired(c, result):
+    """A line that adds up eight terms in u, whose square is v, pair by pair."""
+    low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
+    return f"{result} = ({low}) + ({high}) * (v * v)"
+
+
+def _sum(c, result, parts=(), done=0):
     """Lines that add up a series at t: every fourth power apart, side by side, then together.
 
-    From the first terms on: the last coefficients of a step are the last to be known.
+    From the first terms on: the last coefficients of a step are the last to be known. The parts
+    may have so many terms already.
     """
     for j in range(4):
-        yield f"part{j} = {c[j]}"
-        for k in range(j + 4, len(c), 4):
+        yield f"part{j} = {parts[j] if done else c[j]}"
+        for k in range(done + j if done else 4 + j, len(c), 4):
             yield f"part{j} = part{j} + {c[k]} * t{k - j}"
     yield f"{result} = (part0 + t * part1) + t2 * (part2 + t * part3)"
