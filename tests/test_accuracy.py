@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from impact_damper import accuracy, orbit_models, recording, runs, statistics
+from impact_damper.accelerate import kernel
 from impact_damper.accuracy_tables import models
 from impact_damper.choice import METHODS, choice, loosest_tolerance
 from impact_damper.datasets import flag
@@ -67,9 +68,18 @@ def with_loops(values, order):
     return math.cos(total) if order > 3 else total
 
 
+compiled = kernel(straight)
+
+
+def calling(a):
+    return compiled(a + 1.0, a)
+
+
 def test_operations_are_counted_as_by_hand():
     assert operations(straight) == 5
     # ten rounds of a product and a sum; three of a product, a sum and an exponential; a cosine
+    assert operations(calling) == 1 + operations(compiled)
+    assert operations(calling, without=("straight",)) == 1
     assert operations(with_loops, 3, order=10) == 10 * 2 + 3 * (2 + ELEMENTARY) + ELEMENTARY
 
 
@@ -78,13 +88,21 @@ def test_a_loop_of_unknown_length_is_told():
         operations(with_loops)
 
 
-@pytest.mark.parametrize("side", [0, 1])
-def test_a_step_costs_what_the_recurrence_does(side):
+@pytest.mark.parametrize("kind", [runs.FLIGHT, runs.MEETING, runs.CONTACT])
+def test_a_step_costs_what_the_recurrence_does(kind):
     # Products of the square and the cube of order N: about N^2/4 and N^2/2, and as many sums;
     # linear in N are the other terms, of two series in contact, and the search for the event.
-    order = CONTACT_ORDER if side else FLIGHT_ORDER
-    assert 1.0 < runs.step_work(side) / (1.5 * order**2 + 20 * order) < 2.0
-    assert runs.step_work(side, 1) > runs.step_work(side)
+    order = CONTACT_ORDER if kind == runs.CONTACT else FLIGHT_ORDER
+    assert 1.0 < runs.step_work(kind) / (1.5 * order**2 + 20 * order) < 2.0
+    assert runs.step_work(kind, 1) > runs.step_work(kind)
+
+
+def test_a_contact_that_is_expected_costs_its_step_more():
+    assert runs.step_work(runs.MEETING) > runs.step_work(runs.FLIGHT)
+    given = scene("design")
+    begin = strobe_time(given.p)
+    counts = runs.taylor_steps(given.p, np.array(given.state), begin, 3, 1e-9)
+    assert counts[runs.MEETING] == counts[runs.CONTACT] == 6
 
 
 def test_what_is_read_off_samples_agrees_with_the_series_and_its_events():

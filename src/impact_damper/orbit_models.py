@@ -25,7 +25,7 @@ from impact_damper import fourier, harmonic_balance, harmonics, multiharmonic
 from impact_damper.orbits import POLISH_TOLERANCE, strobe_time
 from impact_damper.parameters import pack
 from impact_damper.rigid_orbit import mended, mended_orbit, rigid_orbit
-from impact_damper.runs import rigid, step_work, taylor_steps
+from impact_damper.runs import FLIGHT, rigid, step_work, steps_work, taylor_steps
 from impact_damper.shooting import find_orbit
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
@@ -180,7 +180,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
         return dict.fromkeys(models, without("failed", work))
     p = pack(oscillator, damper, frequency)
     run = rigid(p, damper.restitution, orbit.state, strobe_time(p), 1, POLISH_TOLERANCE)
-    each = run.operations / step_work(0) * step_work(0, 4)
+    each = run.operations / step_work(FLIGHT) * step_work(FLIGHT, 4)
     work += orbit.maps * each
     phases = _phases(p, run)
     models["rigid"] = Model("ended", work, orbit.state, phases, orbit.displacement)
@@ -204,8 +204,7 @@ def shooting(oscillator, damper, frequency, start):
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
     begin = strobe_time(p)
-    flights, contacts = taylor_steps(p, start.state, begin, 1, POLISH_TOLERANCE)
-    each = flights * step_work(0, 4) + contacts * step_work(1, 4)
+    each = steps_work(taylor_steps(p, start.state, begin, 1, POLISH_TOLERANCE), 4)
     work = start.operations + orbit.maps * each
     if not orbit.converged:
         return without("failed", work)

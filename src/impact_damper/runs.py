@@ -2,9 +2,9 @@
 
 The work of a run is in floating-point operations (`work.operations`):
 
-- Taylor series: steps in flight and in contact times the operations of one, the generated series
-  included. Of the search for an event all counts in each step but its loop, which most steps do
-  not enter.
+- Taylor series: steps in flight, those that end in a contact, and steps in contact, times the
+  operations of one, the generated series included. The search for a contact that is met where it
+  is not expected, and the loops of searches, do not count: hardly any step enters them.
 - Runge-Kutta-Merson: steps tried, those of locating contacts included, times the operations of
   one: five evaluations of the rate, the combinations of them, and the estimate of the error.
 - SciPy's methods: evaluations of the rate times its operations and those of combining it with the
@@ -27,6 +27,10 @@ from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
 from impact_damper.work import operations
 
+# Kinds of steps of the Taylor series: in flight, in flight until a contact, and in contact.
+FLIGHT, MEETING, CONTACT = range(3)
+# What such steps in flight hardly ever call.
+NOT_CALLED = [("search_contact", "guess_contact", "meet_expected"), ("search_contact",)]
 MOST_CONTACTS = 100_000
 SAMPLES = 64
 MOST_ENDS = 400_000
@@ -88,8 +92,7 @@ def taylor(p, start, t, periods, tolerance):
     states, log = np.empty((len(times), 4)), np.empty((MOST_CONTACTS, 5))
     y = start.copy()
     count = trace(p, y, t, times, tolerance, states, log)
-    flights, contacts = taylor_steps(p, start, t, periods, tolerance)
-    work = flights * step_work(0) + contacts * step_work(1)
+    work = steps_work(taylor_steps(p, start, t, periods, tolerance))
     largest = float(measured(p, start, periods, tolerance)["maximum_displacement"])
     if count > len(log) or not np.isfinite(states).all():
         return stopped("failed", work)
@@ -98,25 +101,33 @@ def taylor(p, start, t, periods, tolerance):
 
 
 def taylor_steps(p, start, t, periods, tolerance):
-    """Steps of the Taylor series in flight and in contact."""
+    """Numbers of steps of the Taylor series, of each kind."""
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
-    side, counts = side_of(p, y), [0, 0]
+    side, counts = side_of(p, y), [0, 0, 0]
     period = 2 * math.pi / p[0]
     for _ in range(periods):
         now, end = t, t + period
         while now < end:
-            counts[side != 0] += 1
-            length, side = step(p, y, none, side, now, end - now, tolerance, work)
+            before = side
+            length, side = step(p, y, none, before, now, end - now, tolerance, work)
             now = end if length >= end - now else now + length
+            counts[CONTACT if before != 0 else (MEETING if side != 0 else FLIGHT)] += 1
     return tuple(counts)
 
 
-def step_work(side, tangents=0):
+def steps_work(counts, tangents=0):
+    """Operations of so many steps of each kind."""
+    return sum(count * step_work(kind, tangents) for kind, count in enumerate(counts))
+
+
+def step_work(kind, tangents=0):
     """Operations of one step of the Taylor series with so many tangents."""
-    if side == 0:
-        state, each = operations(kernel.flight_step, 0), kernel.flight_tangents
+    if kind == CONTACT:
+        state = operations(kernel.contact_step, 0)
+        each = kernel.contact_tangents
     else:
-        state, each = operations(kernel.contact_step, 0), kernel.contact_tangents
+        state = operations(kernel.flight_step, 0, NOT_CALLED[kind])
+        each = kernel.flight_tangents
     return state + tangents * operations(each) // kernel.COLUMNS
 
 
@@ -128,24 +139,24 @@ def rigid(p, restitution, start, t, periods, tolerance):
     p = p.copy()
     p[6] = 0.0
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
-    period, steps = 2 * math.pi / p[0], 0
+    period, counts = 2 * math.pi / p[0], [0, 0, 0]
     began, peaks = [], []
     for k in range(periods):
         _, _, impacts, _, _, largest = rigid_map(p, restitution, y, tolerance)
         peaks.append(largest)
         if impacts == MOST_IMPACTS:
-            return stopped("failed", steps * step_work(0))
+            return stopped("failed", steps_work(counts))
         now, end = t, t + period
         while now < end:
             length, side = step(p, y, none, 0, now, end - now, tolerance, work)
             now = end if length >= end - now else now + length
-            steps += 1
+            counts[FLIGHT if side == 0 else MEETING] += 1
             if side != 0:
                 began.append(now + k * period)
                 rebound(p, restitution, y, none, now)
     middles = t + period * (np.arange(periods) + 0.5)
     peaks = np.array(peaks)
-    done = steps * step_work(0), y, np.array(began), middles, peaks, float(np.max(peaks))
+    done = steps_work(counts), y, np.array(began), middles, peaks, float(np.max(peaks))
     return Run("ended", *done)
 
 

@@ -21,7 +21,7 @@ class _Returned(Exception):
 
 
 @cache
-def operations(function, rounds=1, **arguments):
+def operations(function, rounds=1, without=(), **arguments):
     """Floating-point operations of one call.
 
     Parameters
@@ -30,6 +30,8 @@ def operations(function, rounds=1, **arguments):
         A Python function, compiled or not; the functions it calls count as well.
     rounds : int
         How often the body of a `while` loop is counted, wherever it stands.
+    without : tuple of str
+        Names of functions that are taken not to be called.
     **arguments
         Values of arguments that lengths of loops and the choice of branches depend on.
 
@@ -45,7 +47,7 @@ def operations(function, rounds=1, **arguments):
     local = set(function.__code__.co_varnames)
     known = {name: value for name, value in function.__globals__.items() if name not in local}
     known |= {name: value for name, value in arguments.items() if name not in changing}
-    counter = _Counter(known, rounds)
+    counter = _Counter(known, rounds, without)
     try:
         for statement in body:
             counter.visit(statement)
@@ -65,8 +67,8 @@ def _body(function):
 class _Counter(ast.NodeVisitor):
     """Counts the operations of statements, with the values of what is known."""
 
-    def __init__(self, known, rounds):
-        self.known, self.rounds, self.count = known, rounds, 0
+    def __init__(self, known, rounds, without):
+        self.known, self.rounds, self.without, self.count = known, rounds, without, 0
 
     def value(self, node):
         """The value of an expression, or None where it is not known."""
@@ -77,7 +79,7 @@ class _Counter(ast.NodeVisitor):
 
     def within(self, statements):
         """Operations of a block by itself."""
-        counter = _Counter(self.known, self.rounds)
+        counter = _Counter(self.known, self.rounds, self.without)
         for statement in statements:
             counter.visit(statement)
         return counter.count
@@ -131,10 +133,10 @@ class _Counter(ast.NodeVisitor):
             self.count += 1
         elif getattr(called, "__module__", None) == "math":
             self.count += ELEMENTARY if called.__name__ in FUNCTIONS else 0
-        elif callable(called) and hasattr(called, "py_func"):
+        elif hasattr(called, "py_func") and called.py_func.__name__ not in self.without:
             names = inspect.signature(called.py_func).parameters
             values = map(self.value, node.args)
             given = {
                 name: each for name, each in zip(names, values, strict=False) if each is not None
             }
-            self.count += operations(called, self.rounds, **given)
+            self.count += operations(called, self.rounds, self.without, **given)
