@@ -127,8 +127,9 @@ def test_straight_flight_ratio_is_the_limit_of_rigid_walls_at_high_frequency(
     damper = {"mass_ratio": mass_ratio, "restitution": restitution, "contact_stiffness": 1e8}
     frequency = 30.0
     clearances = np.linspace(0.4, 1.6, 7) / (mass_ratio * frequency**2)
+    # Of elastic starts one in twenty comes to the quiet motion.
     sweep = clearance_sweep(
-        Oscillator(0.1), damper, frequency, clearances, starts=8, radius=2 * clearances[-1]
+        Oscillator(0.1), damper, frequency, clearances, starts=32, radius=2 * clearances[-1]
     )
     assert_allclose(sweep.optimum_ratio, sweep.straight_flight_ratio, rtol=0.01)
     assert_allclose(sweep.straight_flight_share, 1, atol=0.06)

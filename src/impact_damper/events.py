@@ -167,8 +167,8 @@ def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
     Z1 and its slope are known at T. WALL becomes the wall and MODE becomes MET; or T stays and
-    MODE becomes MISSED, when there is certainly none. END_Z1 and END_Z1_SLOPE are of Z1 at T.
-    Where T is before LENGTH a contact is expected at it, and may be a little later.
+    MODE becomes MISSED, when there is certainly none. END_Z1 and END_Z1_SLOPE remain those of Z1
+    at T. Where T is before LENGTH a contact is expected at it, and may be a little later.
 
     The terms of Z1' but the first come to CHANGE at most. Each term of Z1 stays within SAG times
     its share of CHANGE T of its chord; so does Z2. From a wall behind, Z2 stays off where the
@@ -195,8 +195,6 @@ def find_contact(a):
         missed = not awaited and ((clear and left) or (certain and ahead > 0.0))
         a[WALL + i] = wall
         a[MODE + i] = MISSED if missed else (BRACKET if certain else MARCH)
-        a[END_Z1 + i] = a[Z1 + i]
-        a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
         expected += 1 if awaited else 0
         unsettled += 0 if missed else 1
     if expected > 0:

@@ -93,7 +93,10 @@ def foresee_length(a):
 
 @kernel
 def end_flight(a):
-    """Find Z1 and its slope at T, which is moved back where the last terms are too large there."""
+    """Find Z1 and its slope at T, where the step may END.
+
+    T is moved back where the last terms are too large there.
+    """
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
@@ -103,6 +106,9 @@ def end_flight(a):
         for i in range(LANES):
             a[T + i] = min(a[T + i], a[LENGTH + i])
         flight_slope(a)
+    for i in range(LANES):
+        a[END_Z1 + i] = a[Z1 + i]
+        a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
 
 
 @kernel
@@ -113,7 +119,7 @@ def flight_step(a):
     foresee_length(a)
     walls = 0
     for i in range(LANES):
-        a[CHANGE + i] = 0.0
+        a[MODE + i] = MISSED
         walls += 1 if a[CLEARANCE + i] < math.inf else 0
     if walls > 0:
         expect_contact(a)
@@ -121,7 +127,7 @@ def flight_step(a):
     end_flight(a)
     if walls > 0:
         flight_change(a)
-    find_contact(a)
+        find_contact(a)
     for i in range(LANES):
         t = a[T + i]
         met = a[MODE + i] == MET
