@@ -1,9 +1,9 @@
 """All numba settings in one place: how kernels are compiled and where they are kept.
 
 Compiled kernels are cached in a directory named by the digest of all modules that hold kernels
-or write them, which are those that name this one or the decorator. Numba notices an edit only in
-the file of the function itself, so a kernel that calls into another module would otherwise go on
-with the old code. What a kernel uses, constants too, must therefore stand in such a module.
+or write them, which are those that name this one or a decorator of it. Numba notices an edit only
+in the file of the function itself, so a kernel that calls into another module would otherwise go
+on with the old code. What a kernel uses, constants too, must therefore stand in such a module.
 """
 
 import hashlib
@@ -19,6 +19,8 @@ from numba import types
 from numba.core.codegen import get_host_cpu_features
 from numba.extending import intrinsic
 
+MARKS = b"impact_damper.accelerate", b"@kernel", b"@within"
+
 
 def source_digest() -> str:
     """Digest of every module that holds or writes kernels, and of numba's version."""
@@ -26,7 +28,7 @@ def source_digest() -> str:
     root = Path(__file__).parent
     for path in sorted(root.rglob("*.py")):
         source = path.read_bytes()
-        if b"impact_damper.accelerate" in source or b"@kernel" in source or path == Path(__file__):
+        if any(mark in source for mark in MARKS) or path == Path(__file__):
             digest.update(path.relative_to(root).as_posix().encode() + b"\0" + source)
     return digest.hexdigest()[:16]
 
@@ -54,7 +56,11 @@ if "+avx512f" in get_host_cpu_features():
 # spread them over cores without a parallel compilation of their own.
 CONTRACT = ("contract",)
 SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_model": "numpy"}
-kernel = partial(numba.njit, **SETTINGS)
+# Without a wrapper for C, which nothing calls: with each wrapper compiling takes a tenth longer.
+kernel = partial(numba.njit, no_cfunc_wrapper=True, **SETTINGS)
+
+# For a function that only kernels call: no way in from Python, kept as part of its callers.
+within = partial(kernel, no_cpython_wrapper=True, cache=False)
 
 # For a function with few callers: compiled as part of them and not by itself as well.
 inlined = partial(kernel, inline="always")

@@ -7,7 +7,7 @@ flight, +1). Tangents are carried along if there are any.
 import numpy as np
 
 from impact_damper import widths
-from impact_damper.accelerate import aligned, kernel, pointer
+from impact_damper.accelerate import aligned, kernel, pointer, within
 
 _ONE = widths.instance(1)
 drive_series = _ONE.drive_series
@@ -65,7 +65,7 @@ def load(p, y, tangents, side, tolerance, a, d):
                 d[COLUMNS * j + i] = tangents[i, j] if i < len(tangents) else 0.0
 
 
-@kernel
+@within
 def unload(y, tangents, a, d):
     """Take the state and the tangents out of the workspace."""
     for i in range(4):
@@ -75,7 +75,7 @@ def unload(y, tangents, a, d):
             tangents[i, j] = d[COLUMNS * j + i]
 
 
-@kernel
+@within
 def step_loaded(count, t, longest, a, d):
     """`step` of a trajectory that stays in the workspace, and of so many tangents."""
     a[TIME] = t

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper import widths
-from impact_damper.accelerate import aligned, kernel, pointer
+from impact_damper.accelerate import aligned, kernel, pointer, within
 
 LANES = 16
 # Trajectories in a pool: enough for a full step to be found nearly always.
@@ -95,7 +95,7 @@ def send(pool, m, t, end, with_tangent):
     enqueue(pool.queues, pool.waiting, m, phase + (FLIGHT_WITH_TANGENT if with_tangent else 0))
 
 
-@kernel
+@within
 def enqueue(queues, waiting, m, kind):
     """Let a trajectory wait for a step."""
     queues[kind, waiting[kind]] = m
@@ -117,7 +117,7 @@ def choose(pool, chosen):
     return count, kind
 
 
-@kernel
+@within
 def gather(pool, chosen, kind):
     """Fill the lanes; where fewer wait, the last trajectory stands in several."""
     for lane in range(LANES):
@@ -131,7 +131,7 @@ def gather(pool, chosen, kind):
                 pool.d[row * LANES + lane] = pool.tangents[m, row]
 
 
-@kernel
+@within
 def scatter(pool, chosen, count, kind, arrived):
     """Put the trajectories back. Returns how many are at their ends; `arrived` has their places."""
     ended = 0

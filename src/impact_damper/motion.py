@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import inlined, kernel
+from impact_damper.accelerate import inlined, kernel, within
 from impact_damper.kernel import assign, side_of
 from impact_damper.lanes import (
     LANES,
@@ -59,7 +59,7 @@ SEEN = np.dtype(
 )
 
 
-@kernel
+@within
 def nearby_period(ring, k, weight, floor, tolerance):
     """Period of an orbit that the motion approaches and is within `tolerance` of, or 0.
 
@@ -104,7 +104,7 @@ def land(p, y, periods, near, out):
     return True
 
 
-@kernel
+@within
 def follow_tangent(tangent, growth):
     """Renormalise a tangent after a period and add its growth to its batch of BLOCK periods.
 

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import inlined, kernel
+from impact_damper.accelerate import inlined, kernel, within
 from impact_damper.kernel import advance, assign, side_of, workspace
 
 CONVERGED = 1e-9
@@ -31,7 +31,7 @@ def one_period(p, y, tangents, side, tolerance, work):
     return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[0], tolerance, work)
 
 
-@kernel
+@within
 def speed_weight(p, side):
     """Weight of Z2' in `distance`: 1 in flight; in contact it moves faster than Z2 by 1/weight."""
     return 1.0 / math.sqrt(1.0 + p[4] * (1.0 + p[5])) if side != 0 else 1.0

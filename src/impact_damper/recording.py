@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import kernel, within
 from impact_damper.kernel import Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.orbits import distance, speed_weight, strobe_time
 from impact_damper.widths import CONTACT_ORDER, FLIGHT_ORDER
@@ -50,7 +50,7 @@ def extremum(c, order, length, start):
     return best
 
 
-@kernel
+@within
 def series_of_step(work, side, y, t):
     """Z1, its rate, Z2 or the signed penetration, and its rate, at time t into a step from y."""
     if side == 0:
@@ -152,7 +152,7 @@ def trace(p, y, t, times, tolerance, states, log):
     return contacts
 
 
-@kernel
+@within
 def record_beginning(log, contacts, side, t, speed):
     """Open a row of the contact log; returns the number of contacts."""
     if contacts < len(log):

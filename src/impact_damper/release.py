@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import within
 
 LANES: int
 
@@ -17,7 +17,7 @@ LANES: int
 DEEPER, BACK, TURNING = 0.55, 0.4, 0.25
 
 
-@kernel
+@within
 def fast_exp2(y):
     """Power of 2, to 0.3 %."""
     whole = np.floor(y)
@@ -26,7 +26,7 @@ def fast_exp2(y):
     return power * (1.0 + part * (0.6565 + 0.3435 * part))
 
 
-@kernel
+@within
 def swing(f, slope, natural):
     """Time, nearly, in which what swings at a natural frequency with f and this slope is at zero.
 
@@ -37,7 +37,7 @@ def swing(f, slope, natural):
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
 
-@kernel
+@within
 def foresee_release(a):
     """NATURAL frequency, LENGTH, and a guess at T in it where the contact ends.
 
@@ -69,7 +69,7 @@ def foresee_release(a):
         a[T + i] = guess if 0.0 < guess < length else length
 
 
-@kernel
+@within
 def find_release(a):
     """Move T to the first time in [0, LENGTH] at which the penetration returns to zero.
 

@@ -88,7 +88,7 @@ class Writer:
                 text += f"    for i in range({count}):\n"
                 text += "".join(f"        {line}\n" for line in body) + "\n\n"
                 calls += f"    {name}_{part}({arguments})\n"
-        return f"{text}@kernel\ndef {name}({arguments}):\n{calls}"
+        return f"{text}@within\ndef {name}({arguments}):\n{calls}"
 
     def filled(self, phase):
         """The series that a step fills, and their orders."""

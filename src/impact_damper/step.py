@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import within
 
 LANES: int
 TANGENTS: int
@@ -33,25 +33,25 @@ SAFETY = 0.05
 BEYOND = 4.0
 
 
-@kernel
+@within
 def bits(x):
     """The bits of a number: if positive, about 2^52 times its logarithm to base 2, plus ONE."""
     return np.float64(x).view(np.int64)
 
 
-@kernel
+@within
 def number(x):
     """The number of some bits."""
     return np.int64(x).view(np.float64)
 
 
-@kernel
+@within
 def allowed(a, i):
     """How large the last terms of the series may be."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
-@kernel
+@within
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series stay below the tolerance.
 
@@ -68,7 +68,7 @@ def limit_length(a, series, order, excess):
         a[LENGTH + i] = shorter if a[TAIL + i] > excess * allowed(a, i) else a[LENGTH + i]
 
 
-@kernel
+@within
 def foresee_length(a):
     """Find a LENGTH in which the last terms of the series of Z1' may be expected to stay small.
 
@@ -91,7 +91,7 @@ def foresee_length(a):
         a[T + i] = a[LENGTH + i]
 
 
-@kernel
+@within
 def end_flight(a):
     """Find Z1 and its slope at T, where the step may END.
 
@@ -111,7 +111,7 @@ def end_flight(a):
         a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
 
 
-@kernel
+@within
 def flight_step(a):
     """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
     forcing(a)
@@ -142,7 +142,7 @@ def flight_step(a):
         a[LENGTH + i] = t
 
 
-@kernel
+@within
 def flight_tangents(a, d):
     """Carry tangents through the flight that `flight_step` has just made."""
     flight_tangent_series(a, d)
@@ -156,7 +156,7 @@ def flight_tangents(a, d):
     dashpot_jump(a, d, -1.0)
 
 
-@kernel
+@within
 def contact_tangents(a, d):
     """Carry tangents through the contact that `contact_step` has just made."""
     contact_tangent_series(a, d)
@@ -164,7 +164,7 @@ def contact_tangents(a, d):
     dashpot_jump(a, d, 1.0)
 
 
-@kernel
+@within
 def dashpot_jump(a, d, direction):
     """Jump of tangents where the dashpot's force has set in (-1) or ended (+1).
 
@@ -180,7 +180,7 @@ def dashpot_jump(a, d, direction):
         d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS + j])
 
 
-@kernel
+@within
 def contact_step(a):
     """Step of trajectories in contact, whose SIDE becomes 0 where it ends."""
     forcing(a)

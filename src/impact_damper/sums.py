@@ -39,7 +39,7 @@ class Source(Writer):
             self.sums("flight_change", "flight", "T", {"CHANGE": "|V|"}, changed, begin=1),
         ]
         imports = [
-            "from impact_damper.accelerate import kernel",
+            "from impact_damper.accelerate import within",
             f"from {straight.__module__} import {straight.__name__}\n",
         ]
         return "\n".join(imports) + "\n\n" + "\n\n".join(functions)

@@ -6,7 +6,7 @@ at zero penetration, and the dashpot's force jumps at both ends.
 
 import math
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import kernel, within
 
 
 @kernel
@@ -25,7 +25,7 @@ def rate(p, side, t, y):
     return rate_under(p, side, math.cos(p[0] * t), y)
 
 
-@kernel
+@within
 def rate_under(p, side, drive, y):
     """`rate` under a known forcing."""
     x, v, z, w = y
@@ -34,7 +34,7 @@ def rate_under(p, side, drive, y):
     return v, a, w, a - p[5] * force
 
 
-@kernel
+@within
 def rate_by_position(p, drive, y):
     """`rate_under`, the wall chosen by the position: integration through the kink."""
     return rate_under(p, wall_at(p, y[2]), drive, y)
@@ -46,7 +46,7 @@ def moved(y, h, k):
     return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
 
 
-@kernel
+@within
 def largest_within(x, v, x_end, v_end, h):
     """Largest |Z1| over a step, with the rate taken as linear in it."""
     largest = max(abs(x), abs(x_end))

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.accelerate import kernel, within
 from impact_damper.rivals.equations import largest_within, moved, rate_by_position
 
 METHODS = ("heun", "verlet", "runge_kutta_4", "merson")
@@ -37,7 +37,7 @@ def forcing(p, t, h):
     )
 
 
-@kernel
+@within
 def heun_step(p, drives, h, y):
     """One step of Heun's method, order 2."""
     k1 = rate_by_position(p, drives[0], y)
@@ -45,7 +45,7 @@ def heun_step(p, drives, h, y):
     return moved(moved(y, 0.5 * h, k1), 0.5 * h, k2)
 
 
-@kernel
+@within
 def verlet_step(p, drives, h, y):
     """One step of velocity Verlet, order 2; forces that depend on speed take a predicted one."""
     k1 = rate_by_position(p, drives[0], y)
@@ -55,7 +55,7 @@ def verlet_step(p, drives, h, y):
     return x, y[1] + 0.5 * h * (k1[1] + k2[1]), z, y[3] + 0.5 * h * (k1[3] + k2[3])
 
 
-@kernel
+@within
 def runge_kutta_4_step(p, drives, h, y):
     """One step of the classical Runge-Kutta method, order 4."""
     k1 = rate_by_position(p, drives[0], y)
@@ -66,7 +66,7 @@ def runge_kutta_4_step(p, drives, h, y):
     return moved(moved(y, h / 3.0, k3), h / 6.0, k4)
 
 
-@kernel
+@within
 def merson_step(p, drives, h, y):
     """One step of the Runge-Kutta-Merson method, order 4 with five evaluations."""
     k1 = rate_by_position(p, drives[0], y)
