@@ -158,8 +158,8 @@ def guess_contact(a):
     for i in range(LANES):
         _, first, bend = gap_ahead(a, i, a[T + i])
         t = a[T + i] + bent(first, bend)
-        within = a[MODE + i] == BRACKET and 0.0 < t and t < a[LENGTH + i]
-        a[T + i] = t if within else a[LENGTH + i]
+        inside = a[MODE + i] == BRACKET and 0.0 < t and t < a[LENGTH + i]
+        a[T + i] = t if inside else a[LENGTH + i]
 
 
 @within

@@ -8,7 +8,7 @@ from impact_damper import orbits, recording
 from impact_damper.datasets import flag
 from impact_damper.motions import check_settling, random_states
 from impact_damper.parameters import pack
-from impact_damper.sweep import FREQUENCY, RESOLUTION, SAME, sweep
+from impact_damper.sweep import FREQUENCY, SAME, record_at, sweep
 
 SEARCHED = 81
 
@@ -41,12 +41,7 @@ class FreeSubharmonic(NamedTuple):
             return None
         k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))
         p, y = self.parameters[k].copy(), self.states[k].copy()
-        orbits.follow(p, y, 3, FREQUENCY, frequency, RESOLUTION, orbits.POLISH_TOLERANCE)
-        if p[FREQUENCY] != frequency:
-            return None
-        record = recording.measured(p, y, 3, orbits.POLISH_TOLERANCE)
-        record["state"] = y
-        return record
+        return record_at(p, y, 3, FREQUENCY, frequency)
 
 
 def free_subharmonic(

@@ -11,13 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper import ensemble, orbits, recording, switching
+from impact_damper import ensemble, recording, switching
 from impact_damper.datasets import is_settled
 from impact_damper.harmonic_balance import free_solutions, impacting_solutions
 from impact_damper.motions import random_states
 from impact_damper.parameters import FREQUENCY_RANGE, pack
 from impact_damper.survival import LEAD, escape_rate, survival, wilson
-from impact_damper.sweep import FREQUENCY, RESOLUTION, Catalogue
+from impact_damper.sweep import FREQUENCY, Catalogue, record_at
 from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION
 
 ALIKE = 1e-6
@@ -56,12 +56,7 @@ def _free_motion(oscillator, frequency, start, which, settling):
     if record["period"] != 1:
         return None
     y = record["state"].copy()
-    orbits.follow(p, y, 1, FREQUENCY, frequency, RESOLUTION, orbits.POLISH_TOLERANCE)
-    if p[FREQUENCY] != frequency:
-        return None
-    found = recording.measured(p, y, 1, settling.tolerance)
-    found["state"] = y
-    return found
+    return record_at(p, y, 1, FREQUENCY, frequency, settling.tolerance)
 
 
 def scene(oscillator, damper, frequency, settling) -> Scene:

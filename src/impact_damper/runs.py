@@ -25,12 +25,14 @@ from impact_damper.rigid import MOST_IMPACTS, rebound, rigid_map
 from impact_damper.rivals import scipy_methods
 from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
+from impact_damper.widths import instance
 from impact_damper.work import operations
 
 # Kinds of steps of the Taylor series: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
 # What such steps in flight hardly ever call.
-NOT_CALLED = [("search_contact", "guess_contact", "meet_expected"), ("search_contact",)]
+_ONE = instance(1)
+NOT_CALLED = [(_ONE.search_contact, _ONE.guess_contact, _ONE.meet_expected), (_ONE.search_contact,)]
 MOST_CONTACTS = 100_000
 SAMPLES = 64
 MOST_ENDS = 400_000

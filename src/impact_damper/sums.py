@@ -52,20 +52,26 @@ class Source(Writer):
         of a sum stand side by side in a register.
         """
         lines = [*self._time(time, phase)]
-        first = list(lines)
+        first = list(lines) if self.lanes == 1 else []
         for number, (result, series) in enumerate(results.items()):
             start = max(begin, 1 if series.endswith("'") else 0)
             orders = range(start, self.filled(phase)[series.strip("'|")] + 1)[:terms]
-            fours = orders[: len(orders) // 4 * 4 : 4] if self.lanes == 1 else []
-            parts = [f"a[{self.rows['PARTS'] + 4 * number + j}]" for j in range(4)]
-            for k in fours:
-                four = self._coefficient(series, *range(k, k + 4))
-                so_far = f"part + {four} * t{k - start}" if k > start else four
-                first.append(f"part = {so_far}")
-            first.append(f"{self._four(parts[0])} = part")
             coefficients = [self._coefficient(series, k) for k in orders]
-            lines += _sum(coefficients, self.at(result), parts, 4 * len(fours))
-        return self.function(name, [*lines, *then], first=first if self.lanes == 1 else ())
+            parts, done = coefficients[:4], 4
+            if self.lanes == 1:
+                parts = [f"a[{self.rows['PARTS'] + 4 * number + j}]" for j in range(4)]
+                done = len(orders) // 4 * 4
+                first += self._parts(series, orders[:done], parts)
+            lines += _sum(coefficients, self.at(result), parts, done)
+        return self.function(name, [*lines, *then], first=first)
+
+    def _parts(self, series, orders, parts):
+        """Lines that add up the four parts of a sum side by side."""
+        for k in orders[::4]:
+            four = self._coefficient(series, *range(k, k + 4))
+            power = k - orders[0]
+            yield f"part = part + {four} * t{power}" if power else f"part = {four}"
+        yield f"{_widened(parts[0])} = part"
 
     def circular(self):
         """COSINE and SINE become the series of ANGLE without their first terms.
@@ -76,7 +82,7 @@ class Source(Writer):
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
         if self.lanes == 1:
             both = list(map(_constants, COSINES, SINES))
-            first = [*angle, _paired(both, self._four(cosine))]
+            first = [*angle, _paired(both, _widened(cosine))]
             return self.function("circular_series", [], first=first, side_by_side=2)
         lines = [*angle, _paired(COSINES, cosine), _paired(SINES, sine)]
         return self.function("circular_series", lines)
@@ -85,14 +91,10 @@ class Source(Writer):
         """A coefficient of a series, or four of them side by side."""
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
-            number = self._four(number)
+            number = _widened(number)
         if series.endswith("'"):
             return f"{_constants(*map(float, orders))} * {number}"
         return f"abs({number})" if series.startswith("|") else number
-
-    def _four(self, number):
-        """A number and the three behind it."""
-        return number.replace("]", " + i]")
 
     def _wall(self):
         """What the wall adds: to G and its slope, for those of Z1 and of the penetration."""
@@ -124,7 +126,7 @@ class Source(Writer):
         lines = [*self._time("T", phase)]
         for place, (name, last) in enumerate(self.filled_of_tangent(phase).items()):
             coefficients = [self.at_tangent(f"D{name}", k) for k in range(last + 1)]
-            lines += _sum(coefficients, self.at_tangent("", place))
+            lines += _sum(coefficients, self.at_tangent("", place), coefficients[:4], 4)
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def _time(self, row, phase):
@@ -135,6 +137,11 @@ class Source(Writer):
         for k in range(8, self.orders[phase] + 1, 4):
             half = 4 * (k // 8)
             yield f"t{k} = t{half} * t{k - half}"
+
+
+def _widened(number):
+    """A number and those behind it, side by side."""
+    return number.replace("]", " + i]")
 
 
 def _constants(*numbers):
@@ -148,14 +155,14 @@ def _paired(c, result):
     return f"{result} = ({low}) + ({high}) * (v * v)"
 
 
-def _sum(c, result, parts=(), done=0):
+def _sum(c, result, parts, done):
     """Lines that add up a series at t: every fourth power apart, side by side, then together.
 
-    From the first terms on: the last coefficients of a step are the last to be known. The parts
-    may have so many terms already.
+    From the first terms on: the last coefficients of a step are the last to be known. So many
+    terms are in the four parts already.
     """
     for j in range(4):
-        yield f"part{j} = {parts[j] if done else c[j]}"
-        for k in range(done + j if done else 4 + j, len(c), 4):
+        yield f"part{j} = {parts[j]}"
+        for k in range(done + j, len(c), 4):
             yield f"part{j} = part{j} + {c[k]} * t{k - j}"
     yield f"{result} = (part0 + t * part1) + t2 * (part2 + t * part3)"

@@ -120,6 +120,19 @@ def _follow(here, there, index, settling, links, ends):
         )
 
 
+def record_at(p, y, periods, index, value, tolerance=orbits.POLISH_TOLERANCE):
+    """Record and state of a stable orbit followed to a value of parameter `index`.
+
+    None where it ends before. The parameters and the state given move with it.
+    """
+    orbits.follow(p, y, periods, index, value, RESOLUTION, orbits.POLISH_TOLERANCE)
+    if p[index] != value:
+        return None
+    record = recording.measured(p, y, periods, tolerance)
+    record["state"] = y
+    return record
+
+
 def _carried(record, p, target, index):
     """Parameters, state and multiplier of a motion followed as far as its orbit goes."""
     p, y, multiplier = p.copy(), record["state"].copy(), complex(np.nan)

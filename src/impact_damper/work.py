@@ -30,8 +30,8 @@ def operations(function, rounds=1, without=(), **arguments):
         A Python function, compiled or not; the functions it calls count as well.
     rounds : int
         How often the body of a `while` loop is counted, wherever it stands.
-    without : tuple of str
-        Names of functions that are taken not to be called.
+    without : tuple of callable
+        Compiled functions that are taken not to be called.
     **arguments
         Values of arguments that lengths of loops and the choice of branches depend on.
 
@@ -133,7 +133,7 @@ class _Counter(ast.NodeVisitor):
             self.count += 1
         elif getattr(called, "__module__", None) == "math":
             self.count += ELEMENTARY if called.__name__ in FUNCTIONS else 0
-        elif hasattr(called, "py_func") and called.py_func.__name__ not in self.without:
+        elif hasattr(called, "py_func") and called not in self.without:
             names = inspect.signature(called.py_func).parameters
             values = map(self.value, node.args)
             given = {
