@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks import scipy_runs
 from benchmarks.heyoka_runs import BATCH, Motions
 from impact_damper import lanes
-from impact_damper.kernel import advance, side_of, workspace
+from impact_damper.kernel import advance, workspace
 from impact_damper.rivals.merson import run_merson
 
 NO_TANGENTS = np.empty((0, 4))
@@ -33,13 +33,13 @@ class Method(NamedTuple):
 
 
 def single(scene, tolerance):
-    """The kernel, called from Python once a run."""
+    """The kernel from states in flight, called from Python once a run."""
     p, begin, end, work = scene.parameters, scene.begin, scene.end, workspace()
 
     def run(starts):
         states = starts.copy()
         for y in states:
-            advance(p, y, NO_TANGENTS, side_of(p, y), begin, end, tolerance, work)
+            advance(p, y, NO_TANGENTS, 0, begin, end, tolerance, work)
         return states
 
     return run

@@ -62,6 +62,9 @@ kernel = partial(numba.njit, no_cfunc_wrapper=True, **SETTINGS)
 # For a function that only kernels call: no way in from Python, kept as part of its callers.
 within = partial(kernel, no_cpython_wrapper=True, cache=False)
 
+# Numbers in a line of the processor's cache.
+LINE = 8
+
 # For a function with few callers: compiled as part of them and not by itself as well.
 inlined = partial(kernel, inline="always")
 
@@ -72,9 +75,8 @@ def aligned(count):
 
     A vector that lies across two lines takes twice as long to load; where arrays begin is chance.
     """
-    line = 64
-    numbers = np.zeros(count + line // 8)
-    before = -numbers.ctypes.data % line // 8
+    numbers = np.zeros(count + LINE)
+    before = -numbers.ctypes.data // 8 % LINE
     return numbers[before : before + count]
 
 

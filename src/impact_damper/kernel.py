@@ -7,13 +7,15 @@ flight, +1). Tangents are carried along if there are any.
 import numpy as np
 
 from impact_damper import widths
-from impact_damper.accelerate import aligned, kernel, pointer, within
+from impact_damper.accelerate import LINE, aligned, kernel, pointer, within
 
 _ONE = widths.instance(1)
 drive_series = _ONE.drive_series
 STEPS = widths.steps(1)
 flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
+# Where the tangents' numbers begin in a workspace: at a cache line.
+BEHIND = -(-SIZE // LINE) * LINE
 SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.SIDE,
     _ONE.TIME,
@@ -26,8 +28,8 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 
 @kernel
 def workspace():
-    """Arrays for the numbers of one trajectory and of its tangents, as `step` keeps them."""
-    return aligned(SIZE), aligned(TANGENT_SIZE)
+    """Array for the numbers of one trajectory and of its tangents, as `step` keeps them."""
+    return aligned(BEHIND + TANGENT_SIZE)
 
 
 @kernel
@@ -107,9 +109,9 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
         Wall in contact, -1 or 1, or 0 in flight.
     t, longest, tolerance : float
         Time (only its forcing phase counts), longest step, local error allowed.
-    work : tuple of arrays
-        `workspace()`. From X and Q on, its first array holds the series of Z1 and, in contact, of
-        Z2 -+ d0 over the step afterwards.
+    work : array
+        `workspace()`. From X and Q on it holds the series of Z1 and, in contact, of Z2 -+ d0 over
+        the step afterwards.
 
     Returns
     -------
@@ -118,7 +120,7 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     side : int
         Wall in contact after the step.
     """
-    a, d = pointer(work[0]), pointer(work[1])
+    a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, tangents, side, tolerance, a, d)
     length, side = step_loaded(len(tangents), t, longest, a, d)
     unload(y, tangents, a, d)
@@ -140,7 +142,7 @@ def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate from t to end. Returns the side after it, contacts begun and time in contact."""
     contacts = 0
     touching = 0.0
-    a, d = pointer(work[0]), pointer(work[1])
+    a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, tangents, side, tolerance, a, d)
     while t < end:
         before = side

@@ -54,10 +54,10 @@ def extremum(c, order, length, start):
 def series_of_step(work, side, y, t):
     """Z1, its rate, Z2 or the signed penetration, and its rate, at time t into a step from y."""
     if side == 0:
-        x, v = polynomial(work[0][X:], FLIGHT_ORDER, t)
+        x, v = polynomial(work[X:], FLIGHT_ORDER, t)
         return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
-    x, v = polynomial(work[0][X:], CONTACT_ORDER, t)
-    q, w = polynomial(work[0][Q:], CONTACT_ORDER, t)
+    x, v = polynomial(work[X:], CONTACT_ORDER, t)
+    q, w = polynomial(work[Q:], CONTACT_ORDER, t)
     return x, v, q, w
 
 
@@ -89,7 +89,7 @@ def measure(p, y, periods, tolerance, out):
         before = side
         length, side = step(p, state, none, side, t, stop - t, tolerance, work)
         order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
-        largest = extremum(work[0][X:], order, length, largest)
+        largest = extremum(work[X:], order, length, largest)
         contacts += before == 0 and side != 0
         while begin + sample * spacing < t + length and sample < periods * SAMPLES:
             x, _, z, _ = series_of_step(work, before, start, begin + sample * spacing - t)

@@ -91,7 +91,7 @@ def rigid_map(p, restitution, y, tolerance):
     while t < end and impacts < MOST_IMPACTS:
         length, side = step(p, state, tangents, flight, t, end - t, tolerance, work)
         # Z1 may be largest at an impact, where it turns without a stationary point
-        largest = max(extremum(work[0][X:], FLIGHT_ORDER, length, largest), abs(state[0]))
+        largest = max(extremum(work[X:], FLIGHT_ORDER, length, largest), abs(state[0]))
         t = end if length >= end - t else t + length
         if side != 0:
             if impacts == 0:

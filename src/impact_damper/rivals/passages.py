@@ -53,7 +53,7 @@ def largest_of_flight(p, y, t, end):
         length, _ = step(p, y, none, flight, t, end - t, TOLERANCE, work)
         # one by one: to assign arrays compiles the message for unlike shapes too, for 2 s
         for k in range(FLIGHT_ORDER + 1):
-            c[k] = work[0][X + k]
+            c[k] = work[X + k]
         c[0] += offset
         c[1] += drift
         for i in range(PIECES):
