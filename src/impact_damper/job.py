@@ -6,14 +6,14 @@ import threading
 import time
 from contextlib import suppress
 
-from impact_damper.warm import LOOK, hand_over
+from impact_damper.hand_over import AGAIN, LOOK, UNLOADED
 
 
 def begin(job) -> None:
     """Send what the job prints to its log, end it with its run, and tell files that stop it.
 
-    What stands after it in a script happens in a process that has imported its modules, if there
-    is one (`warm.hand_over`).
+    In a process that is to have the kernels loaded and has not, a job that needs them ends here, to
+    begin again (`warm`).
 
     A job outlives a Snakemake that is killed. It could then write what an older configuration
     gives over the results of a newer run, so it ends soon after the process that started it.
@@ -36,7 +36,8 @@ def begin(job) -> None:
                 print(f"Error: {error}", file=place)
 
     end_with_parent()
-    hand_over(compiled="kernels" in job.input.keys())
+    if UNLOADED in os.environ and "kernels" in job.input.keys():
+        sys.exit(AGAIN)
     sys.excepthook = tell
     sys.stdout = sys.stderr = open(job.log[0], "w", buffering=1)
 

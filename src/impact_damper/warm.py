@@ -2,15 +2,16 @@
 
 To import numpy, xarray and numba and to load the compiled kernels takes a job longer than most of
 them compute. `start` lets one process do so for a whole run, beside the first jobs; it ends with
-the run. The process that Snakemake starts for a job hands its script over, waits for the end and
-ends likewise (`hand_over`); if it is killed, so is the child. Where there is no such process, as
-on the nodes of a cluster, a job does all of it itself.
+the run. What Snakemake starts for a job hands its script over, waits for the end and ends likewise
+(`hand_over`); if it is killed, so is the child. Where there is no such process, as on the nodes of
+a cluster, a job does all of it itself.
 """
 
 import gc
 import json
 import os
 import runpy
+import shlex
 import shutil
 import signal
 import socket
@@ -21,7 +22,9 @@ import threading
 from contextlib import suppress
 from importlib import import_module
 
-ADDRESS = "IMPACT_DAMPER_WARM"
+from impact_damper import hand_over
+from impact_damper.hand_over import LOOK, UNLOADED
+
 # Between them they import what all jobs do. By name: what a module imports itself counts for the
 # workflow as what its jobs depend on.
 MODULES = [
@@ -34,18 +37,15 @@ MODULES = [
 ]
 # As Snakemake sets them for a job of one thread.
 THREADS = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
-# Seconds between two looks whether the run goes on, less than another takes to start a job.
-LOOK = 0.5
 LONGEST_SILENCE = 5.0  # seconds
 LONGEST_REQUEST = 2**16
 # Objects made before a garbage collection, and collections of a generation before one of the next:
 # more than by default. What is there when a child begins is passed over.
 GARBAGE_LIMITS = 50_000, 20, 50
-REFUSED = 255
 
 
-def start() -> None:
-    """Start the process, and tell the jobs of it by the environment variable ADDRESS.
+def start() -> str:
+    """Start the process; returns what hands jobs over to it, for Snakemake to put before commands.
 
     It can be reached once it is ready; the first jobs do not wait for it.
     """
@@ -57,39 +57,9 @@ def start() -> None:
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
-    os.environ[ADDRESS] = f"{folder}/jobs"
-
-
-def hand_over(compiled) -> None:
-    """Let the script of this process run in a child of the warm one; return if there is none.
-
-    Parameters
-    ----------
-    compiled : bool
-        Whether the kernels are compiled, so that they can be loaded.
-    """
-    address = os.environ.get(ADDRESS)
-    if address is None:
-        return
-    request = {
-        "script": os.path.abspath(sys.argv[0]),
-        "folder": os.getcwd(),
-        "python": sys.prefix,
-        "compiled": compiled,
-    }
-    try:
-        with _socket() as connection:
-            connection.connect(address)
-            socket.send_fds(connection, [json.dumps(request).encode()], [1, 2])
-            answer = connection.recv(1)
-    except OSError:
-        return
-    if not answer:
-        print(f"Error: the process that ran {request['script']} was killed.", file=sys.stderr)
-        sys.stderr.flush()
-        os._exit(1)
-    if answer[0] != REFUSED:
-        os._exit(answer[0])
+    words = [sys.executable, "-IS", hand_over.__file__, f"{folder}/jobs"]
+    # where Snakemake would fill in names
+    return shlex.join(words).replace("{", "{{").replace("}", "}}")
 
 
 def serve(folder, run) -> None:
@@ -100,11 +70,11 @@ def serve(folder, run) -> None:
     import_module("impact_damper.figures.style").draw_first()
     gc.set_threshold(*GARBAGE_LIMITS)
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
-    listener = _socket()
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     listener.settimeout(LOOK)
     listener.bind(f"{folder}/jobs")
     listener.listen(4096)
-    loaded = False
+    os.environ[UNLOADED] = "1"
     while os.getppid() == run:
         # A job that is killed before it has said what it wants closes the connection.
         with suppress(OSError, json.JSONDecodeError):
@@ -113,9 +83,8 @@ def serve(folder, run) -> None:
             request, files, _, _ = socket.recv_fds(connection, LONGEST_REQUEST, 2)
             connection.settimeout(None)
             request = json.loads(request)
-            if request["compiled"] and not loaded:
+            if request["kernels"] and os.environ.pop(UNLOADED, None):
                 _load_kernels()
-                loaded = True
             gc.freeze()
             if os.fork() == 0:
                 try:
@@ -141,11 +110,9 @@ def _run(connection, request, files):
     for file, place in zip(files, (1, 2), strict=True):
         os.dup2(file, place)
     threading.Thread(target=_end_with, args=(connection,), daemon=True).start()
-    code = REFUSED
-    if request["python"] == sys.prefix:
-        os.chdir(request["folder"])
-        sys.argv[:] = [request["script"]]
-        code = _code_of(request["script"])
+    os.chdir(request["folder"])
+    sys.argv[:] = [request["script"]]
+    code = _code_of(request["script"])
     with suppress(OSError):
         sys.stdout.flush()
         connection.send(bytes([code]))
@@ -168,10 +135,6 @@ def _code_of(script):
 def _end_with(connection):
     connection.recv(1)
     os._exit(1)
-
-
-def _socket():
-    return socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
 
 
 if __name__ == "__main__":
