@@ -52,7 +52,8 @@ def control(here, draws, longest_hold, settling, periods):
     the path is (forcing periods from the first strobe, state), at each strobe and switching.
     """
     y = here.state.copy()
-    record = np.zeros(1, recording.MOTION)[0]
+    records = np.zeros(1, recording.MOTION)
+    record = records[0]
     record["period"] = 1
     log = blank(len(draws))
     rest = np.empty((max(longest_hold, settling.limit) + 2, 5))
@@ -63,7 +64,7 @@ def control(here, draws, longest_hold, settling, periods):
         wait = phase * max(int(record["period"]), 1)
         instant = strobe + wait
         strobe = switching.leg(
-            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, record
+            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, records
         )
         path.append(rest[: record["periods_run"] + 2].copy())
         return instant

@@ -12,7 +12,7 @@ from tqdm import tqdm
 
 from impact_damper import motion
 from impact_damper.parameters import check_count, check_number
-from impact_damper.recording import MOTION
+from impact_damper.recording import MOTION, measure
 
 CHUNK = 128
 
@@ -109,9 +109,9 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
             settling.tolerance,
             settling.patience,
             settling.limit,
-            settling.watched,
             found[part],
         )
+        measure(parameters[part], settling.tolerance, settling.watched, found[part])
 
     run_chunks(work, len(states), workers, progress)
     return found

@@ -31,13 +31,12 @@ from impact_damper.orbits import (
     speed_weight,
     strobe_time,
 )
-from impact_damper.recording import measure
+from impact_damper.recording import CHAOTIC, DIVERGED, NON_COLLIDING, SETTLED, UNRESOLVED
 
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 BLOCK = 10
 RECENT = 5
-UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = 0, 1, 2, 3, 4
 CONFIDENCE = 4.0
 WEAK = 0.05
 NEAR = 1e-4
@@ -206,7 +205,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
 
 @kernel
-def settle_many(parameters, states, start, tolerance, patience, limit, watched, out):
+def settle_many(parameters, states, start, tolerance, patience, limit, out):
     """Run motions until each has settled, is certainly chaotic, or `limit` periods are gone.
 
     Parameters
@@ -216,11 +215,10 @@ def settle_many(parameters, states, start, tolerance, patience, limit, watched, 
     states : array, shape (m, 4)
     start : array, shape (m,)
         Times at which the states are given, at most the strobe's.
-    tolerance, patience, limit, watched
+    tolerance, patience, limit
         As of `ensemble.Settling`.
     out : array of recording.MOTION, shape (m,)
-        Gets what `watch` finds, the last state at a strobe or that on the orbit, and what
-        `measure` finds over a period of the motion, or `watched` periods if unsettled.
+        Gets what `watch` finds, and the last state at a strobe or that on the orbit.
     """
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
@@ -245,9 +243,6 @@ def settle_many(parameters, states, start, tolerance, patience, limit, watched, 
             ):
                 left -= 1
                 assign(out[i].state, y)
-                if out[i].outcome != DIVERGED:
-                    periods = out[i].period if out[i].period > 0 else watched
-                    measure(p, y, periods, tolerance, out[i])
                 take(pool, m, following, parameters, states, start, tolerance, seen, out)
                 following += 1
             else:

@@ -4,13 +4,15 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel, within
+from impact_damper.accelerate import inlined, kernel, within
 from impact_damper.kernel import Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.orbits import distance, speed_weight, strobe_time
 from impact_damper.widths import CONTACT_ORDER, FLIGHT_ORDER
 
 SAMPLES = 64
 
+# Outcomes of a motion that is run until it settles.
+UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = 0, 1, 2, 3, 4
 MOTION = np.dtype(
     [
         ("outcome", "i1"),
@@ -61,15 +63,9 @@ def series_of_step(work, side, y, t):
     return x, v, q, w
 
 
-@kernel
-def measure(p, y, periods, tolerance, out):
-    """Record of `periods` periods from a strobe on: extremum, contacts, symmetry, first harmonics.
-
-    `maximum_displacement` is the extremum of |Z1|; `contacts` is per forcing period;
-    `asymmetry` the distance of the state half the time later from the mirrored start, which
-    vanishes for a symmetric motion of odd period; the harmonics are complex amplitudes c of
-    Re(c exp(i W T)) in Z1 and Z2, by the trapezoidal rule.
-    """
+@inlined
+def measure_one(p, y, periods, tolerance, out):
+    """`measure` of one motion over so many forcing periods."""
     work = workspace()
     none = np.empty((0, 4))
     period = 2.0 * math.pi / p[0]
@@ -108,10 +104,28 @@ def measure(p, y, periods, tolerance, out):
     out.harmonic_relative = second * (2.0 / sample)
 
 
+@kernel
+def measure(parameters, tolerance, watched, out):
+    """Add to records what is found from their states at a strobe on, unless they have diverged.
+
+    Over a period of the motion, or over `watched` forcing periods where it has none.
+
+    `maximum_displacement` is the extremum of |Z1|; `contacts` is per forcing period;
+    `asymmetry` the distance of the state half the time later from the mirrored start, which
+    vanishes for a symmetric motion of odd period; the harmonics are complex amplitudes c of
+    Re(c exp(i W T)) in Z1 and Z2, by the trapezoidal rule.
+    """
+    for i in range(len(out)):
+        if out[i].outcome != DIVERGED:
+            periods = out[i].period if out[i].period > 0 else watched
+            measure_one(parameters[i], out[i].state, periods, tolerance, out[i])
+
+
 def measured(p, y, periods, tolerance):
     """Record of `measure` alone, for a state on an orbit."""
     records = np.zeros(1, MOTION)
-    measure(p, y, periods, tolerance, records[0])
+    records["state"] = y
+    measure(p[None], tolerance, periods, records)
     return records[0]
 
 

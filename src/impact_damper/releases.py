@@ -107,7 +107,7 @@ def destination(known, record):
 
 def _release(here, state, wait, settling, path, entry):
     """Switch the damper off `wait` forcing periods after a strobe, and see where that leads."""
-    record = np.zeros(1, recording.MOTION)[0]
+    records = np.zeros(1, recording.MOTION)
     switching.leg(
         here.on,
         here.off,
@@ -118,13 +118,13 @@ def _release(here, state, wait, settling, path, entry):
         settling.tolerance,
         settling.limit,
         path,
-        record,
+        records,
     )
     entry["phase"], entry["displacement"], entry["velocity"] = wait, path[0, 1], path[0, 2]
-    entry["destination"] = destination(here.known, record)
+    entry["destination"] = destination(here.known, records[0])
 
 
-def _watch_one(here, draws, lifetime, settling, path, record, entry):
+def _watch_one(here, draws, lifetime, settling, path, records, entry):
     """A run with the damper on, released once on its way. Returns its life.
 
     The draws give the phase of switching on, the place of the loose mass, the instant of the
@@ -141,11 +141,11 @@ def _watch_one(here, draws, lifetime, settling, path, record, entry):
         settling.tolerance,
         lifetime,
         path,
-        record,
+        records,
     )
     life = lifetime
-    if is_settled(record):
-        life = switching.life(here.on, path, record, settling.tolerance)
+    if is_settled(records[0]):
+        life = switching.life(here.on, path, records[0], settling.tolerance)
     if life > LEAD:
         k = LEAD + int(draws[2] * (life - LEAD))
         rest = np.empty((settling.limit + 2, 5))
@@ -166,7 +166,8 @@ def watch(here, seeds, lifetime, settling, workers, progress):
     def work(part):
         path = np.empty((lifetime + 2, 5))
         for i in range(part.start, part.stop):
-            lives[i] = _watch_one(here, draws[i], lifetime, settling, path, motions[i], entries[i])
+            motion = motions[i : i + 1]
+            lives[i] = _watch_one(here, draws[i], lifetime, settling, path, motion, entries[i])
 
     ensemble.run_chunks(work, len(draws), workers, progress)
     return lives, motions, entries

@@ -128,9 +128,7 @@ def record_at(p, y, periods, index, value, tolerance=orbits.POLISH_TOLERANCE):
     orbits.follow(p, y, periods, index, value, RESOLUTION, orbits.POLISH_TOLERANCE)
     if p[index] != value:
         return None
-    record = recording.measured(p, y, periods, tolerance)
-    record["state"] = y
-    return record
+    return recording.measured(p, y, periods, tolerance)
 
 
 def _carried(record, p, target, index):

@@ -34,7 +34,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
 
     `path` gets a row (forcing periods, state) at the start, `ahead` periods before the strobe
     numbered `strobe`, and at each strobe: at most limit + 2. To the record `out` go outcome,
-    period, periods_run and, of a settled motion, its orbit and what `measure` finds.
+    period, periods_run and, of a settled motion, its orbit.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -57,16 +57,14 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
             orbit = y.copy()
             if land(p, orbit, n, near, out):
                 assign(out.state, orbit)
-                measure(p, orbit, np.int64(out.period), tolerance, out)
                 break
             near = max(0.1 * near, NEAREST)
         if k < limit:
             side, _, _ = one_period(p, y, none, side, tolerance, work)
 
 
-@kernel
 def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
-    """Go on for `wait` forcing periods after a strobe, switch, and `run`.
+    """Go on for `wait` forcing periods after a strobe, switch, `run`, and measure what settles.
 
     Parameters
     ----------
@@ -81,8 +79,9 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
         rest relative to the primary; switched off, it is of no account.
     strobe : float
         Number of the first strobe.
-    tolerance, limit, path, out
+    tolerance, limit, path
         As in `run`.
+    out : array of recording.MOTION, shape (1,)
 
     Returns
     -------
@@ -98,24 +97,22 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
     else:
         y[2], y[3] = place * after[3], 0.0
     strobe += math.floor(wait) + 1.0
-    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, out)
-    return strobe + out.periods_run
+    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, out[0])
+    if out["period"] > 0:
+        measure(after[None], tolerance, 0, out)
+    return strobe + out["periods_run"][0]
 
 
-@kernel
-def life(p, path, out, tolerance):
+def life(p, path, record, tolerance):
     """Forcing periods until a run came within CAPTURE of the orbit it settled on, for good."""
-    work = workspace()
-    none = np.empty((0, 4))
-    orbit = np.empty((out.period, 4))
-    y = out.state.copy()
-    side = side_of(p, y)
-    for j in range(out.period):
-        assign(orbit[j], y)
-        side, _, _ = one_period(p, y, none, side, tolerance, work)
-    last = out.periods_run
-    for k in range(last, -1, -1):
-        there = orbit[(k - last) % out.period]
-        if max(abs(path[k + 1, 1] - there[0]), abs(path[k + 1, 2] - there[1])) > CAPTURE:
-            return k + 1
-    return 0
+    work, none = workspace(), np.empty((0, 4))
+    orbit = np.empty((record["period"], 4))
+    y = record["state"].copy()
+    side, t = side_of(p, y), strobe_time(p)
+    for state in orbit:
+        state[:] = y
+        side, _, _ = advance(p, y, none, side, t, t + 2.0 * math.pi / p[0], tolerance, work)
+    last = record["periods_run"]
+    there = orbit[np.arange(-last, 1) % len(orbit), :2]
+    far = np.any(np.abs(path[1 : last + 2, 1:3] - there) > CAPTURE, axis=1)
+    return int(np.max(np.flatnonzero(far), initial=-1)) + 1

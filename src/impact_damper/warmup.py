@@ -26,20 +26,20 @@ def warm_up() -> None:
 
 
 def warm_up_orbits() -> None:
-    """`warm_up` of what follows orbits and switches the damper; what both halves need first."""
+    """`warm_up` of what takes one motion after the other; what both halves need first."""
     for each in kernel.STEPS:
         each.compile()
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     orbits.follow(on.copy(), np.zeros(4), 1, CLEARANCE, on[CLEARANCE], 1e-3, 1e-9)
     orbits.flow_map(on, np.zeros(4), strobe_time(on), 1, False, 1e-9)
-    path, record = np.zeros((4, 5)), np.zeros(1, MOTION)[0]
-    record["period"] = 1
-    switching.life(on, path, record, 1e-9)
-    switching.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, record)
+    path, records = np.zeros((4, 5)), np.zeros(1, MOTION)
+    switching.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, records)
+    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
+    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
 
 
 def warm_up_settling() -> None:
-    """`warm_up` of what takes many motions until they settle, and of recordings."""
+    """`warm_up` of what takes many motions until they settle, and measures them."""
     for each in lanes.STEPS:
         each.compile()
     pool, places = lanes.make_pool(1), np.zeros(lanes.LANES, np.int64)
@@ -50,9 +50,6 @@ def warm_up_settling() -> None:
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
     )
-    # the step that these take is by now compiled in the other half
-    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
-    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
 
 
 def warm_up_rivals() -> None:
