@@ -50,7 +50,7 @@ include: "workflow/rules/tables.smk"
 onstart:
     check_writable(Path(config["results"]))
     if workflow.is_main_process and workflow.local_exec:
-        shell.prefix(f"set -euo pipefail; {start_warm_process()} ")
+        before_commands(start_warm_process())
         # Snakemake's own limit on jobs a second is for queues. To keep it, all that is ready is
         # looked at once a second for each job that has ended: in the end that took a core.
         limit = workflow.scheduling_settings.max_jobs_per_timespan

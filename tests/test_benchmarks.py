@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from conftest import DESIGN, PAPER
 
-from benchmarks import accuracy, chart, costs, machine, ratios, scaling, scenes, stages
+from benchmarks import accuracy, chart, costs, machine, overhead, ratios, scaling, scenes, stages
 from benchmarks.heyoka_runs import BATCH, SETTINGS
 from benchmarks.methods import METHODS, heyoka, starts_of
 from impact_damper import table_files
@@ -117,3 +117,7 @@ def test_stages_are_gathered_from_the_pipelines_timings(tmp_path):
     assert table.loc["total", ["seconds", "cpu_seconds", "memory_mb"]].tolist() == [10, 4, 250]
     table_files.save(table.reset_index(), tmp_path / "t.csv", tmp_path / "t.md")
     assert stages.table(tmp_path / "nothing").empty
+
+
+def test_the_start_of_a_job_is_handed_over():
+    assert overhead.start_up_of_a_job() > 0

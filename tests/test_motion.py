@@ -8,7 +8,7 @@ from conftest import DESIGN, PAPER
 from numpy.testing import assert_allclose
 from sampling import sample
 
-from impact_damper import ensemble, kernel, motion, orbits, recording
+from impact_damper import ensemble, kernel, orbits, recording
 from impact_damper.parameters import Damper, pack
 
 NONE = np.empty((0, 4))
@@ -63,7 +63,7 @@ def divergence_of_neighbours(p, state, periods, skipped=100, apart=1e-7, batches
 def test_free_motions_settle(state, period, largest):
     p = pack(PAPER, None, 2.0)
     record = settled(p, np.tile(state, 2) + 0.01)
-    assert record["outcome"] == motion.SETTLED
+    assert record["outcome"] == recording.SETTLED
     assert record["period"] == period
     assert record["contacts"] == 0
     assert abs(record["multiplier"]) < 1
@@ -78,7 +78,7 @@ def test_free_motions_settle(state, period, largest):
 
 def test_scenes_settle(scene):
     record = settled(scene.parameters, scene.state + 1e-3)
-    assert record["outcome"] == motion.SETTLED
+    assert record["outcome"] == recording.SETTLED
     assert record["period"] == 1
     assert record["contacts"] == (2 if scene.damper else 0)
     assert record["residual"] < 1e-8
@@ -100,7 +100,7 @@ def test_mass_that_drifts_is_not_taken_for_settled():
     p = pack(PAPER, Damper(0.12, 2.0), 2.0)
     y = np.array([0.02716339, 0.4994648, 0.02716339, 0.4994648 + 1e-5])
     record = settled(p, y, patience=100, limit=200)
-    assert record["outcome"] == motion.NON_COLLIDING
+    assert record["outcome"] == recording.NON_COLLIDING
 
 
 # a start of the violent regime below the band
@@ -111,7 +111,7 @@ def test_chaos_and_its_exponent():
     """Against the divergence of two neighbours, which needs no variational equations."""
     p, state = VIOLENT
     record = settled(p, state, patience=1000, limit=3000)
-    assert record["outcome"] == motion.CHAOTIC
+    assert record["outcome"] == recording.CHAOTIC
     assert record["period"] == 0
     mean, error = divergence_of_neighbours(p, state, 2100)
     assert abs(record["lyapunov_exponent"] - mean) < 4 * math.hypot(record["lyapunov_error"], error)
@@ -122,9 +122,9 @@ def test_chaos_and_its_exponent():
 def test_chaos_without_time_to_be_sure_is_unresolved():
     p, state = VIOLENT
     record = settled(p, state, patience=100, limit=100)
-    assert record["outcome"] == motion.UNRESOLVED
+    assert record["outcome"] == recording.UNRESOLVED
     assert record["periods_run"] == 99
-    assert settled(p, state, patience=1000, limit=2000)["outcome"] == motion.CHAOTIC
+    assert settled(p, state, patience=1000, limit=2000)["outcome"] == recording.CHAOTIC
 
 
 def test_error_of_the_exponent_shrinks_with_the_run():
@@ -185,7 +185,7 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
     for distance in (1e-3, -1e-3):
         p[0] = end + inward * distance
         record = settled(p, y, limit=5000)
-        assert record["outcome"] == motion.SETTLED
+        assert record["outcome"] == recording.SETTLED
         sizes.append(record["maximum_displacement"])
     here = recording.measured(np.array([end, *p[1:]]), y, 1, 1e-11)["maximum_displacement"]
     assert abs(sizes[0] - here) < 0.2
@@ -198,7 +198,7 @@ def test_follow_arrives(design):
     multiplier = orbits.follow(p, y, 1, 3, 1.9, 1e-8, 1e-12)
     assert p[3] == 1.9
     record = settled(p, design.state)
-    assert record["outcome"] == motion.SETTLED and record["contacts"] == 2
+    assert record["outcome"] == recording.SETTLED and record["contacts"] == 2
     assert_allclose(y, record["state"], atol=1e-8)
     assert_allclose(multiplier, record["multiplier"], atol=1e-6)
 

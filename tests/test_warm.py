@@ -1,6 +1,6 @@
 """Jobs that are handed over to a process which has imported what they need."""
 
-import shlex
+import json
 import socket
 import subprocess
 import sys
@@ -9,11 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from impact_damper.hand_over import UNLOADED
+from impact_damper import warm
 
 # What stands for a run: it starts the process, says where, and waits.
 RUN = (
-    "import sys; from impact_damper import warm; print(warm.start(), flush=True); sys.stdin.read()"
+    "import json, sys; from impact_damper import warm; "
+    "print(json.dumps(warm.start()), flush=True); sys.stdin.read()"
 )
 JOB = """
 import os, sys, time
@@ -30,7 +31,7 @@ def through():
     """What hands over jobs to the process of a run, which afterwards is gone, with its folder."""
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([sys.executable, "-c", RUN], text=True, **pipes) as run:
-        words = shlex.split(run.stdout.readline())
+        words = json.loads(run.stdout.readline())
         address = Path(words[-1])
         wait_for(address.exists)
         yield words
@@ -54,7 +55,8 @@ def start(folder, code, through, needed=""):
 
 
 @pytest.mark.parametrize(
-    "code, expected", [("", 0), ("sys.exit(3)", 3), ("sys.exit('why')", 1), ("1 / 0", 1)]
+    "code, expected",
+    [("", 0), ("sys.exit(3)", 3), ("sys.exit(256)", 0), ("sys.exit('why')", 1), ("1 / 0", 1)],
 )
 def test_a_job_runs_where_the_modules_are(code, expected, through, tmp_path):
     assert start(tmp_path, code, through).wait() == expected
@@ -80,11 +82,20 @@ def test_other_commands_are_run_as_they_are(through):
     assert (ended.returncode, ended.stdout) == (3, "two words\n")
 
 
-def test_kernels_are_loaded_once_a_job_needs_them(through, tmp_path):
-    code = f"print(os.environ.get({UNLOADED!r}))"
-    for needed, expected in [("", "1"), ("kernels", "None"), ("", "None")]:
+def test_kernels_are_loaded_as_soon_as_a_job_needs_them(through, tmp_path):
+    code = "from impact_damper import kernel; print(len(kernel.step.signatures))"
+    for needed, expected in [("", "0"), ("kernels", "1"), ("", "1")]:
         assert start(tmp_path, code, through, needed).wait() == 0
         assert (tmp_path / "job.py.log").read_text().split("\n")[1] == expected
+
+
+def test_where_there_are_no_such_connections_nothing_is_handed_over(monkeypatch, tmp_path, capsys):
+    long = tmp_path / ("long" * 30)
+    long.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(long))
+    assert warm.start() == []
+    assert "imports for itself" in capsys.readouterr().err
+    assert not list(long.iterdir())
 
 
 def test_a_job_ends_with_the_process_that_handed_it_over(through, tmp_path):

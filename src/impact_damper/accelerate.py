@@ -62,11 +62,11 @@ kernel = partial(numba.njit, no_cfunc_wrapper=True, **SETTINGS)
 # For a function that only kernels call: no way in from Python, kept as part of its callers.
 within = partial(kernel, no_cpython_wrapper=True, cache=False)
 
-# Numbers in a line of the processor's cache.
-LINE = 8
-
 # For a function with few callers: compiled as part of them and not by itself as well.
 inlined = partial(kernel, inline="always")
+
+# Numbers in a line of the processor's cache.
+LINE = 8
 
 
 @kernel

@@ -6,14 +6,18 @@ import threading
 import time
 from contextlib import suppress
 
-from impact_damper.hand_over import AGAIN, LOOK, UNLOADED
+from impact_damper.hand_over import LOOK
+
+# Whether this process is to have the kernels loaded and has not yet (`warm`).
+kernels_missing = False
+
+
+class KernelsMissing(BaseException):
+    """Ends a job that needs the kernels where they are missing; it begins again with them."""
 
 
 def begin(job) -> None:
     """Send what the job prints to its log, end it with its run, and tell files that stop it.
-
-    In a process that is to have the kernels loaded and has not, a job that needs them ends here, to
-    begin again (`warm`).
 
     A job outlives a Snakemake that is killed. It could then write what an older configuration
     gives over the results of a newer run, so it ends soon after the process that started it.
@@ -36,8 +40,8 @@ def begin(job) -> None:
                 print(f"Error: {error}", file=place)
 
     end_with_parent()
-    if UNLOADED in os.environ and "kernels" in job.input.keys():
-        sys.exit(AGAIN)
+    if kernels_missing and "kernels" in job.input.keys():
+        raise KernelsMissing
     sys.excepthook = tell
     sys.stdout = sys.stderr = open(job.log[0], "w", buffering=1)
 

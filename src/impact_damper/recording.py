@@ -108,8 +108,7 @@ def measure_one(p, y, periods, tolerance, out):
 def measure(parameters, tolerance, watched, out):
     """Add to records what is found from their states at a strobe on, unless they have diverged.
 
-    Over a period of the motion, or over `watched` forcing periods where it has none.
-
+    Each is followed over its `period`, or over `watched` forcing periods where that is 0.
     `maximum_displacement` is the extremum of |Z1|; `contacts` is per forcing period;
     `asymmetry` the distance of the state half the time later from the mirrored start, which
     vanishes for a symmetric motion of odd period; the harmonics are complex amplitudes c of
@@ -122,7 +121,7 @@ def measure(parameters, tolerance, watched, out):
 
 
 def measured(p, y, periods, tolerance):
-    """Record of `measure` alone, for a state on an orbit."""
+    """Record of `measure` alone, over so many forcing periods from a state on an orbit."""
     records = np.zeros(1, MOTION)
     records["state"] = y
     measure(p[None], tolerance, periods, records)

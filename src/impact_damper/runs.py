@@ -30,8 +30,8 @@ from impact_damper.work import operations
 
 # Kinds of steps of the Taylor series: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
-# What such steps in flight hardly ever call.
 _ONE = instance(1)
+# What such steps in flight hardly ever call.
 NOT_CALLED = [(_ONE.search_contact, _ONE.guess_contact, _ONE.meet_expected), (_ONE.search_contact,)]
 MOST_CONTACTS = 100_000
 SAMPLES = 64

@@ -158,8 +158,8 @@ def _paired(c, result):
 def _sum(c, result, parts, done):
     """Lines that add up a series at t: every fourth power apart, side by side, then together.
 
-    From the first terms on: the last coefficients of a step are the last to be known. So many
-    terms are in the four parts already.
+    From the first terms on: the last coefficients of a step are the last to be known. The first
+    `done` terms are in the four parts already.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

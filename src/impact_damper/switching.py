@@ -1,4 +1,4 @@
-"""Kernels of migration control: legs of a run, with the damper switched on or off between them.
+"""Legs of a run of migration control, with the damper switched on or off between them.
 
 A run is looked at once a forcing period, at the strobe of `orbits`. A leg begins where the
 damper is switched, somewhere between two strobes; Z1 and Z1' go through it unchanged. It
@@ -16,12 +16,11 @@ from impact_damper.motion import (
     NEAR,
     NEAREST,
     RING,
-    UNRESOLVED,
     land,
     nearby_period,
 )
 from impact_damper.orbits import one_period, speed_weight, strobe_time
-from impact_damper.recording import measure
+from impact_damper.recording import UNRESOLVED, measure
 
 # A run counts as captured by an orbit after the last strobe at which (Z1, Z1') is farther from
 # it than this.
@@ -30,7 +29,7 @@ CAPTURE = 0.1
 
 @kernel
 def run(p, y, ahead, strobe, tolerance, limit, path, out):
-    """Run for `limit` strobes, or until near a stable orbit, which is measured.
+    """Run for `limit` strobes, or until near a stable orbit.
 
     `path` gets a row (forcing periods, state) at the start, `ahead` periods before the strobe
     numbered `strobe`, and at each strobe: at most limit + 2. To the record `out` go outcome,
@@ -82,6 +81,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
     tolerance, limit, path
         As in `run`.
     out : array of recording.MOTION, shape (1,)
+        Gets what `run` finds and, of a settled motion, what `measure` does.
 
     Returns
     -------

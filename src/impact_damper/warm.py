@@ -4,14 +4,13 @@ To import numpy, xarray and numba and to load the compiled kernels takes a job l
 them compute. `start` lets one process do so for a whole run, beside the first jobs; it ends with
 the run. What Snakemake starts for a job hands its script over, waits for the end and ends likewise
 (`hand_over`); if it is killed, so is the child. Where there is no such process, as on the nodes of
-a cluster, a job does all of it itself.
+a cluster and on macOS, a job does all of it itself.
 """
 
 import gc
 import json
 import os
 import runpy
-import shlex
 import shutil
 import signal
 import socket
@@ -22,8 +21,8 @@ import threading
 from contextlib import suppress
 from importlib import import_module
 
-from impact_damper import hand_over
-from impact_damper.hand_over import LOOK, UNLOADED
+from impact_damper import hand_over, job
+from impact_damper.hand_over import AGAIN, LOOK
 
 # Between them they import what all jobs do. By name: what a module imports itself counts for the
 # workflow as what its jobs depend on.
@@ -44,25 +43,32 @@ LONGEST_REQUEST = 2**16
 GARBAGE_LIMITS = 50_000, 20, 50
 
 
-def start() -> str:
-    """Start the process; returns what hands jobs over to it, for Snakemake to put before commands.
+def start() -> list[str]:
+    """Start the process; returns what stands before the command of a job to hand it over.
 
-    It can be reached once it is ready; the first jobs do not wait for it.
+    Nothing does where this system knows no such connections, or not at so long a path, which is
+    told. The process can be reached once it is ready; the first jobs do not wait for it.
     """
     folder = tempfile.mkdtemp(prefix="impact-damper-")
+    address = f"{folder}/jobs"
+    try:
+        with _socket() as trial:
+            trial.bind(f"{address}-")
+    except OSError as error:
+        shutil.rmtree(folder)
+        print(f"Each job imports for itself, which takes longer: {error}.", file=sys.stderr)
+        return []
     subprocess.Popen(
-        [sys.executable, "-m", "impact_damper.warm", folder, str(os.getpid())],
+        [sys.executable, "-m", "impact_damper.warm", folder, address, str(os.getpid())],
         env=os.environ | dict.fromkeys(THREADS, "1"),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
-    words = [sys.executable, "-IS", hand_over.__file__, f"{folder}/jobs"]
-    # where Snakemake would fill in names
-    return shlex.join(words).replace("{", "{{").replace("}", "}}")
+    return [sys.executable, "-IS", hand_over.__file__, address]
 
 
-def serve(folder, run) -> None:
+def serve(folder, address, run) -> None:
     """Run jobs until the run, the process that started this one, is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for module in MODULES:
@@ -70,31 +76,40 @@ def serve(folder, run) -> None:
     import_module("impact_damper.figures.style").draw_first()
     gc.set_threshold(*GARBAGE_LIMITS)
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
-    listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    job.kernels_missing = True
+    listener = _socket()
     listener.settimeout(LOOK)
-    listener.bind(f"{folder}/jobs")
+    listener.bind(address)
     listener.listen(4096)
-    os.environ[UNLOADED] = "1"
     while os.getppid() == run:
-        # A job that is killed before it has said what it wants closes the connection.
+        # A job that is killed before it has said what it wants closes the connection. One for
+        # which there can be no child is told so by the end of the connection.
         with suppress(OSError, json.JSONDecodeError):
             connection, _ = listener.accept()
-            connection.settimeout(LONGEST_SILENCE)
-            request, files, _, _ = socket.recv_fds(connection, LONGEST_REQUEST, 2)
-            connection.settimeout(None)
-            request = json.loads(request)
-            if request["kernels"] and os.environ.pop(UNLOADED, None):
-                _load_kernels()
-            gc.freeze()
-            if os.fork() == 0:
-                try:
-                    _run(connection, request, files)
-                finally:
-                    os._exit(1)
-            connection.close()
-            for file in files:
-                os.close(file)
+            with connection:
+                _start_child(connection)
     shutil.rmtree(folder, ignore_errors=True)
+
+
+def _start_child(connection):
+    """Have a child run what the other end asks for."""
+    connection.settimeout(LONGEST_SILENCE)
+    request, files, _, _ = socket.recv_fds(connection, LONGEST_REQUEST, 2)
+    connection.settimeout(None)
+    try:
+        request = json.loads(request)
+        if request["kernels"] and job.kernels_missing:
+            _load_kernels()
+            job.kernels_missing = False
+        gc.freeze()
+        if os.fork() == 0:
+            try:
+                _run(connection, request, files)
+            finally:
+                os._exit(1)
+    finally:
+        for file in files:
+            os.close(file)
 
 
 def _load_kernels():
@@ -115,17 +130,19 @@ def _run(connection, request, files):
     code = _code_of(request["script"])
     with suppress(OSError):
         sys.stdout.flush()
-        connection.send(bytes([code]))
+        connection.send(code.to_bytes(2, "big"))
 
 
 def _code_of(script):
-    """Exit code of a script that is run here."""
+    """Exit code of a script that is run here, or AGAIN."""
     try:
         runpy.run_path(script, run_name="__main__")
+    except job.KernelsMissing:
+        return AGAIN
     except SystemExit as end:
         if isinstance(end.code, str):
             print(end.code, file=sys.stderr)
-        return end.code if isinstance(end.code, int) else int(end.code is not None)
+        return end.code & 255 if isinstance(end.code, int) else int(end.code is not None)
     except BaseException:
         sys.excepthook(*sys.exc_info())
         return 1
@@ -137,5 +154,9 @@ def _end_with(connection):
     os._exit(1)
 
 
+def _socket():
+    return socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+
+
 if __name__ == "__main__":
-    serve(sys.argv[1], int(sys.argv[2]))
+    serve(sys.argv[1], sys.argv[2], int(sys.argv[3]))

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import re
+import shlex
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -49,6 +50,16 @@ wildcard_constraints:
     scene="[A-Za-z0-9_]+",
     study="[A-Za-z0-9_]+",
     table="[a-z_]+",
+
+
+def before_commands(words):
+    """Have Snakemake put words before each command of a job.
+
+    What stands there takes the place of Snakemake's own options for bash, and names in braces are
+    filled in.
+    """
+    options = "set -euo pipefail; " if Path(shell.get_executable() or "").name == "bash" else ""
+    shell.prefix(options + shlex.join(words).replace("{", "{{").replace("}", "}}"))
 
 
 def checked(config):
