@@ -117,7 +117,7 @@ def measure(parameters, tolerance, watched, out):
     for i in range(len(out)):
         if out[i].outcome != DIVERGED:
             periods = out[i].period if out[i].period > 0 else watched
-            measure_one(parameters[i], out[i].state, periods, tolerance, out[i])
+            measure_one(parameters[i], out[i].state.copy(), periods, tolerance, out[i])
 
 
 def measured(p, y, periods, tolerance):
