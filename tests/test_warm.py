@@ -83,7 +83,7 @@ def test_other_commands_are_run_as_they_are(through):
 
 
 def test_kernels_are_loaded_as_soon_as_a_job_needs_them(through, tmp_path):
-    code = "from impact_damper import kernel; print(len(kernel.step.signatures))"
+    code = "from impact_damper import motion; print(len(motion.settle_many.signatures))"
     for needed, expected in [("", "0"), ("kernels", "1"), ("", "1")]:
         assert start(tmp_path, code, through, needed).wait() == 0
         assert (tmp_path / "job.py.log").read_text().split("\n")[1] == expected
