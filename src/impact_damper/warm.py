@@ -24,8 +24,7 @@ from importlib import import_module
 from impact_damper import hand_over, job
 from impact_damper.hand_over import AGAIN, LOOK
 
-# Between them they import what all jobs do. By name: what a module imports itself counts for the
-# workflow as what its jobs depend on.
+# Between them they import what all jobs do. By name: the run that starts the process does without.
 MODULES = [
     "impact_damper.warmup",
     "impact_damper.accuracy",
