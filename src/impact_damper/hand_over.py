@@ -18,6 +18,11 @@ LOOK = 0.5
 AGAIN = 256
 
 
+def new_socket():
+    """What both ends of a connection are made of: messages come whole, and with open files."""
+    return socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+
+
 def main(address, command):
     """Exit as the script does that `command` has this Python run, in the other process.
 
@@ -39,7 +44,7 @@ def _code(address, script, run, kernels):
     """Exit code of a script in the other process, or AGAIN; None if there is no such process."""
     request = {"script": os.path.abspath(script), "folder": os.getcwd(), "kernels": kernels}
     try:
-        with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as connection:
+        with new_socket() as connection:
             connection.connect(address)
             socket.send_fds(connection, [json.dumps(request).encode()], [1, 2])
             answer = _answer(connection, run)

@@ -20,7 +20,7 @@ from impact_damper.motion import (
     nearby_period,
 )
 from impact_damper.orbits import one_period, speed_weight, strobe_time
-from impact_damper.recording import UNRESOLVED, measure
+from impact_damper.recording import UNRESOLVED, measure, trace
 
 # A run counts as captured by an orbit after the last strobe at which (Z1, Z1') is farther from
 # it than this.
@@ -97,21 +97,19 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
     else:
         y[2], y[3] = place * after[3], 0.0
     strobe += math.floor(wait) + 1.0
-    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, out[0])
-    if out["period"] > 0:
+    record = out[0]
+    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, record)
+    if record["period"] > 0:
         measure(after[None], tolerance, 0, out)
-    return strobe + out["periods_run"][0]
+    return strobe + record["periods_run"]
 
 
 def life(p, path, record, tolerance):
     """Forcing periods until a run came within CAPTURE of the orbit it settled on, for good."""
-    work, none = workspace(), np.empty((0, 4))
     orbit = np.empty((record["period"], 4))
-    y = record["state"].copy()
-    side, t = side_of(p, y), strobe_time(p)
-    for state in orbit:
-        state[:] = y
-        side, _, _ = advance(p, y, none, side, t, t + 2.0 * math.pi / p[0], tolerance, work)
+    begin = strobe_time(p)
+    strobes = begin + np.arange(len(orbit)) * 2.0 * math.pi / p[0]
+    trace(p, record["state"].copy(), begin, strobes, tolerance, orbit, np.empty((0, 5)))
     last = record["periods_run"]
     there = orbit[np.arange(-last, 1) % len(orbit), :2]
     far = np.any(np.abs(path[1 : last + 2, 1:3] - there) > CAPTURE, axis=1)

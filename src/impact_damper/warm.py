@@ -22,7 +22,7 @@ from contextlib import suppress
 from importlib import import_module
 
 from impact_damper import hand_over, job
-from impact_damper.hand_over import AGAIN, LOOK
+from impact_damper.hand_over import AGAIN, LOOK, new_socket
 
 # Between them they import what all jobs do. By name: the run that starts the process does without.
 MODULES = [
@@ -51,14 +51,14 @@ def start() -> list[str]:
     folder = tempfile.mkdtemp(prefix="impact-damper-")
     address = f"{folder}/jobs"
     try:
-        with _socket() as trial:
+        with new_socket() as trial:
             trial.bind(f"{address}-")
     except OSError as error:
         shutil.rmtree(folder)
         print(f"Each job imports for itself, which takes longer: {error}.", file=sys.stderr)
         return []
     subprocess.Popen(
-        [sys.executable, "-m", "impact_damper.warm", folder, address, str(os.getpid())],
+        [sys.executable, "-m", "impact_damper.warm", address, str(os.getpid())],
         env=os.environ | dict.fromkeys(THREADS, "1"),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
@@ -67,7 +67,7 @@ def start() -> list[str]:
     return [sys.executable, "-IS", hand_over.__file__, address]
 
 
-def serve(folder, address, run) -> None:
+def serve(address, run) -> None:
     """Run jobs until the run, the process that started this one, is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for module in MODULES:
@@ -76,7 +76,7 @@ def serve(folder, address, run) -> None:
     gc.set_threshold(*GARBAGE_LIMITS)
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     job.kernels_missing = True
-    listener = _socket()
+    listener = new_socket()
     listener.settimeout(LOOK)
     listener.bind(address)
     listener.listen(4096)
@@ -87,7 +87,7 @@ def serve(folder, address, run) -> None:
             connection, _ = listener.accept()
             with connection:
                 _start_child(connection)
-    shutil.rmtree(folder, ignore_errors=True)
+    shutil.rmtree(os.path.dirname(address), ignore_errors=True)
 
 
 def _start_child(connection):
@@ -153,9 +153,5 @@ def _end_with(connection):
     os._exit(1)
 
 
-def _socket():
-    return socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-
-
 if __name__ == "__main__":
-    serve(sys.argv[1], sys.argv[2], int(sys.argv[3]))
+    serve(sys.argv[1], int(sys.argv[2]))
