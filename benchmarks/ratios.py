@@ -136,7 +136,7 @@ def heyoka_settings(scenes, times, rounds):
         ]
         tolerance = float(chosen["tolerance"].iloc[0])
         changes = {"fastest": {}} | SETTINGS
-        changes |= {f"batch of {n}": {"batch": n} for n in (4, 8, 16) if n <= BATCH}
+        changes |= {f"batch of {n}": {"batch": n} for n in (4, 8, BATCH)}
         calls, errors = {}, {}
         for name, change in changes.items():
             run = heyoka(scene, tolerance, **change)
