@@ -68,6 +68,12 @@ def with_loops(values, order):
     return math.cos(total) if order > 3 else total
 
 
+def of_pairs(a, b):
+    pair = a * (b, a - b)
+    first, second = pair + (a, 0.0) - a
+    return first * second
+
+
 compiled = kernel(straight)
 
 
@@ -80,6 +86,8 @@ def test_operations_are_counted_as_by_hand():
     # ten rounds of a product and a sum; three of a product, a sum and an exponential; a cosine
     assert operations(calling) == 1 + operations(compiled)
     assert operations(calling, without=(compiled,)) == 1
+    # a product, a difference in it, a sum and another difference; the last product is of numbers
+    assert operations(of_pairs) == 2 + 1 + 2 + 2 + 1
     assert operations(with_loops, 3, order=10) == 10 * 2 + 3 * (2 + ELEMENTARY) + ELEMENTARY
 
 

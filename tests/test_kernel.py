@@ -92,7 +92,7 @@ def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
 
     def series_given(bend):
         x = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
-        return {"X": x.coef, "V": x.deriv().coef, "G": x.deriv(2).coef}
+        return {"X": x.coef, "G": x.deriv(2).coef}
 
     c = [*c, *[0.0] * (3 - len(c))]
     state = {"Y0": c[0], "Y1": c[1], "Y2": c[0] + offset, "Y3": c[1] + drift}
@@ -110,7 +110,7 @@ def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
     def series_given(bend):
         q = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
         g = q.deriv(2) + (1 + inverse_mass) * (stiffness * q + dashpot * q.deriv())
-        return {"Q": q.coef, "W": q.deriv().coef, "G": g.coef}
+        return {"Q": q.coef, "G": g.coef}
 
     c = [*c, *[0.0] * (3 - len(c))]
     numbers = {"CONTACT": stiffness, "DASHPOT": dashpot, "INVERSE_MASS": inverse_mass}

@@ -44,8 +44,34 @@ def two_constants(a):
         a[0 + i] = (3.0, -0.5)[i] * a[2] + a[0 + i]
 
 
+def pair_of_one(a):
+    for _ in range(1):
+        x = a[0]
+        pair = x * (a[1], x + 1.0) + (a[2], 0.0)
+        first, last = pair - (x, 2.0) * pair
+        a[3] = first / last
+        a[4] = x * last - a[1]
+
+
+def pairs_of_sixteen(a):
+    for i in range(16):
+        x = a[0 + i]
+        pair = x * (a[16 + i], x + 1.0) + (a[32 + i], 0.0)
+        first, last = pair - (x, 2.0) * pair
+        a[48 + i] = first / last
+        a[64 + i] = x * last - a[16 + i]
+
+
+def without_pairs(a):
+    x, y, z = a[: 3 * len(a) // 5].reshape(3, -1)
+    first, last = x * y + z, x * (x + 1.0)
+    first, last = first - x * first, last - 2.0 * last
+    a[3 * len(a) // 5 :] = [*(first / last), *(x * last - y)]
+
+
 one, two = straight(one_lane), straight(two_constants)
 sixteen, four = straight(sixteen_lanes), straight(four_columns)
+pair, pairs = straight(pair_of_one), straight(pairs_of_sixteen)
 
 
 @kernel
@@ -68,6 +94,16 @@ def two_compiled(a):
     two(a)
 
 
+@kernel
+def pair_compiled(a):
+    pair(a)
+
+
+@kernel
+def pairs_compiled(a):
+    pairs(a)
+
+
 @pytest.mark.parametrize(
     ("compiled", "function", "sizes"),
     [
@@ -75,6 +111,8 @@ def two_compiled(a):
         (one_compiled, one_lane, [3]),
         (sixteen_compiled, sixteen_lanes, [48]),
         (four_compiled, four_columns, [2, 8]),
+        (pair_compiled, without_pairs, [5]),
+        (pairs_compiled, without_pairs, [80]),
     ],
 )
 def test_lines_do_what_python_does(compiled, function, sizes):
@@ -84,7 +122,7 @@ def test_lines_do_what_python_does(compiled, function, sizes):
     function(*expected)
     pointed(compiled)(*given)
     for found, each in zip(given, expected, strict=True):
-        assert_allclose(found, each, rtol=1e-15)
+        assert_allclose(found, each, rtol=1e-15, atol=1e-15)
 
 
 def test_each_lane_has_its_own_numbers():
@@ -137,7 +175,9 @@ def test_aligned_arrays_begin_at_cache_lines(count):
         assert_array_equal(array, np.zeros(count))
 
 
-@pytest.mark.parametrize("name", ["series", "sums", "straight", "forcing", "release", "step"])
+@pytest.mark.parametrize(
+    "name", ["recurrence", "series", "sums", "straight", "forcing", "release", "step"]
+)
 def test_kernels_are_compiled_anew_after_an_edit(name, tmp_path):
     """Of what writes them, too: the folder of compiled kernels is another one."""
 

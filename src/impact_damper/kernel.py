@@ -10,7 +10,7 @@ from impact_damper import widths
 from impact_damper.accelerate import LINE, aligned, kernel, pointer, within
 
 _ONE = widths.instance(1)
-drive_series = _ONE.drive_series
+kept_series = _ONE.kept_series
 STEPS = widths.steps(1)
 flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
@@ -60,7 +60,7 @@ def load(p, y, tangents, side, tolerance, a, d):
     a[SIDE] = side
     a[TOLERANCE] = tolerance
     a[KNOWN] = np.inf
-    drive_series(a)
+    kept_series(a)
     if len(tangents) > 0:
         for i in range(COLUMNS):
             for j in range(4):

@@ -87,7 +87,7 @@ def find_release(a):
     uncertain = 0
     for i in range(LANES):
         q = a[SIDE + i] * a[Q + i]
-        w = a[SIDE + i] * a[W + i]
+        w = a[SIDE + i] * a[Q + LANES + i]
         length = a[LENGTH + i]
         natural = a[NATURAL + i]
         loss = a[DASHPOT + i] * (1.0 + a[INVERSE_MASS + i])

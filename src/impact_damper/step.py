@@ -53,17 +53,17 @@ def allowed(a, i):
 
 @within
 def limit_length(a, series, order, excess):
-    """Shorten LENGTH so that the last two terms of a series stay below the tolerance.
+    """Shorten LENGTH so that the last two terms of a series' slope stay below the tolerance.
 
     Only where TAIL exceeds that so many times: whatever the neighbours need. Roots are taken by
     division of the bits, within a few per cent.
     """
     for i in range(LANES):
         most = bits(allowed(a, i))
-        last = most - bits(abs(a[series + order * LANES + i]))
-        before = most - bits(abs(a[series + (order - 1) * LANES + i]))
-        last = (last >> 28) * ((1 << 28) // order)
-        before = (before >> 28) * ((1 << 28) // (order - 1))
+        last = most - bits(abs(order * a[series + order * LANES + i]))
+        before = most - bits(abs((order - 1) * a[series + (order - 1) * LANES + i]))
+        last = (last >> 28) * ((1 << 28) // (order - 1))
+        before = (before >> 28) * ((1 << 28) // (order - 2))
         shorter = min(a[LENGTH + i], number(ONE + min(last, before)))
         a[LENGTH + i] = shorter if a[TAIL + i] > excess * allowed(a, i) else a[LENGTH + i]
 
@@ -80,12 +80,12 @@ def foresee_length(a):
         a[SCALE + i] = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
         fall = ((bits(SAFETY * a[TOLERANCE + i]) - ONE) >> 28) * ((1 << 28) // last)
         top = bits(a[SCALE + i])
-        first = (top - bits(abs(a[V + EARLY * LANES + i]))) >> 28
-        second = (top - bits(abs(a[V + (EARLY + 1) * LANES + i]))) >> 28
-        third = (top - bits(abs(a[V + (EARLY + 2) * LANES + i]))) >> 28
-        first *= (1 << 28) // EARLY
-        second *= (1 << 28) // (EARLY + 1)
-        third *= (1 << 28) // (EARLY + 2)
+        first = (top - bits(abs(EARLY * a[X + EARLY * LANES + i]))) >> 28
+        second = (top - bits(abs((EARLY + 1) * a[X + (EARLY + 1) * LANES + i]))) >> 28
+        third = (top - bits(abs((EARLY + 2) * a[X + (EARLY + 2) * LANES + i]))) >> 28
+        first *= (1 << 28) // (EARLY - 1)
+        second *= (1 << 28) // EARLY
+        third *= (1 << 28) // (EARLY + 1)
         length = number(ONE + fall + min(first, min(second, third)))
         a[LENGTH + i] = min(a[LONGEST + i], length)
         a[T + i] = a[LENGTH + i]
@@ -102,7 +102,7 @@ def end_flight(a):
     for i in range(LANES):
         beyond += 1 if a[TAIL + i] > BEYOND * allowed(a, i) else 0
     if beyond > 0:
-        limit_length(a, V, FLIGHT_ORDER - 1, BEYOND)
+        limit_length(a, X, FLIGHT_ORDER, BEYOND)
         for i in range(LANES):
             a[T + i] = min(a[T + i], a[LENGTH + i])
         flight_slope(a)
@@ -194,8 +194,8 @@ def contact_step(a):
         a[SCALE + i] = max(scale, abs(a[Y3 + i]))
         beyond += 1 if a[TAIL + i] > allowed(a, i) else 0
     if beyond > 0:
-        limit_length(a, V, CONTACT_ORDER - 1, 1.0)
-        limit_length(a, W, CONTACT_ORDER - 1, 1.0)
+        limit_length(a, X, CONTACT_ORDER, 1.0)
+        limit_length(a, Q, CONTACT_ORDER, 1.0)
         for i in range(LANES):
             a[T + i] = min(a[T + i], a[LENGTH + i])
         contact_bound(a)

@@ -8,6 +8,7 @@ import ast
 import inspect
 import textwrap
 from contextlib import nullcontext
+from functools import partial
 
 from llvmlite import ir
 from numba import types
@@ -19,6 +20,8 @@ from impact_damper.accelerate import CONTRACT
 # Lanes at once, in one register or, where they are narrower, in several.
 WIDTH = 8
 NUMBER = ir.DoubleType()
+PAIR = ir.VectorType(NUMBER, 2)
+PLACE = ir.IntType(32)
 OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
 
 
@@ -32,6 +35,8 @@ def straight(function):
         a multiple of WIDTH or fewer, over assignments. Their left sides are names, or numbers
         `a[1]` or `a[1 + i]` of an argument, and their right sides sums, differences, products and
         quotients of such, of constants, of tuples of constants at `[i]`, and of `abs` and `max`.
+        Two numbers in brackets are a pair, for which each operation is done twice; a number beside
+        it counts for both. With one lane, a pair is one register.
 
     Returns
     -------
@@ -67,6 +72,11 @@ def straight(function):
     return compiled
 
 
+def is_product(node):
+    """Whether an expression is a product."""
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)
+
+
 class _Lines(ast.NodeVisitor):
     """Writes assignments for some lanes from the first on; with one lane they are scalars."""
 
@@ -94,6 +104,10 @@ class _Lines(ast.NodeVisitor):
         self.store(node.target, self.visit(ast.BinOp(node.target, node.op, node.value)))
 
     def store(self, target, value):
+        if isinstance(target, ast.Tuple):
+            for place, each in enumerate(target.elts):
+                self.store(each, self.part(value, place))
+            return
         if isinstance(target, ast.Name):
             self.values[target.id] = value
             return
@@ -123,11 +137,65 @@ class _Lines(ast.NodeVisitor):
         return self.constant(float(node.value))
 
     def visit_UnaryOp(self, node):
-        return self.builder.fneg(self.visit(node.operand), flags=CONTRACT)
+        return self.negative(self.visit(node.operand))
+
+    def visit_Tuple(self, node):
+        parts = tuple(map(self.visit, node.elts))
+        if self.width > 1:
+            return parts
+        pair = ir.Constant(PAIR, ir.Undefined)
+        for place, each in enumerate(parts):
+            pair = self.builder.insert_element(pair, each, ir.Constant(PLACE, place))
+        return pair
+
+    def part(self, value, place):
+        """A number of a pair."""
+        if self.width > 1:
+            return value[place]
+        return self.builder.extract_element(value, ir.Constant(PLACE, place))
 
     def visit_BinOp(self, node):
-        operation = getattr(self.builder, OPERATIONS[type(node.op)])
-        return operation(self.visit(node.left), self.visit(node.right), flags=CONTRACT)
+        """A product that is added is fused with the sum: that on the right, if there are two."""
+        kind, left, right = type(node.op), node.left, node.right
+        if kind in (ast.Add, ast.Sub) and is_product(right):
+            first = self.visit(right.left)
+            first = self.negative(first) if kind is ast.Sub else first
+            return self.each(self.fused, first, self.visit(right.right), self.visit(left))
+        if kind in (ast.Add, ast.Sub) and is_product(left):
+            last = self.visit(right)
+            last = self.negative(last) if kind is ast.Sub else last
+            return self.each(self.fused, self.visit(left.left), self.visit(left.right), last)
+        operation = partial(getattr(self.builder, OPERATIONS[kind]), flags=CONTRACT)
+        return self.each(operation, self.visit(left), self.visit(right))
+
+    def negative(self, value):
+        """A number or pair with the other sign."""
+        return self.each(partial(self.builder.fneg, flags=CONTRACT), value)
+
+    def fused(self, *values):
+        """First times second plus third, rounded once where the machine can."""
+        kind = values[0].type
+        name = "llvm.fmuladd." + (f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64")
+        signature = ir.FunctionType(kind, [kind] * 3)
+        function = cgutils.get_or_insert_function(self.builder.module, signature, name)
+        return self.builder.call(function, values)
+
+    def each(self, operation, *values):
+        """An operation on numbers, or on the numbers of pairs and those beside them."""
+        if self.width > 1:
+            if not any(isinstance(value, tuple) for value in values):
+                return operation(*values)
+            values = [value if isinstance(value, tuple) else (value, value) for value in values]
+            return tuple(map(operation, *values))
+        if any(value.type == PAIR for value in values):
+            values = [self.both(value) if value.type == NUMBER else value for value in values]
+        return operation(*values)
+
+    def both(self, number):
+        """A pair of the same numbers."""
+        pair = ir.Constant(PAIR, ir.Undefined)
+        pair = self.builder.insert_element(pair, number, ir.Constant(PLACE, 0))
+        return self.builder.shuffle_vector(pair, pair, ir.Constant(ir.VectorType(PLACE, 2), [0, 0]))
 
     def visit_Call(self, node):
         values = [self.visit(argument) for argument in node.args]

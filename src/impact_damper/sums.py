@@ -15,28 +15,28 @@ class Source(Writer):
 
     def text(self):
         """The module."""
-        slope = {"Z1": "X", "Z1_SLOPE": "V"}
+        slope = {"Z1": "X", "Z1_SLOPE": "X'"}
         curve = {"Z1_CURVE": "G"}
         jerk = curve | {"Z1_JERK": "G'"}
-        depth = {"DEPTH": "Q", "DEPTH_SLOPE": "W"}
+        depth = {"DEPTH": "Q", "DEPTH_SLOPE": "Q'"}
         bound = {"BOUND": "|G|"}
         early = max(4, self.orders["flight"] // 2)
         changed = [f"{self.at('CHANGE')} = t * {self.at('CHANGE')}"]
         functions = [
-            *([self.drive()] if self.lanes == 1 else []),
+            *([self.kept_series()] if self.lanes == 1 else []),
             self.circular(),
             *(self.series(phase) for phase in self.orders),
             *(self.tangent_series(phase) for phase in self.orders),
             *(self.tangent_value(phase) for phase in self.orders),
-            self.sums("flight_slope", "flight", "T", slope, self._tail("flight", "V")),
+            self.sums("flight_slope", "flight", "T", slope, self._tail("flight", "X")),
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
             # On |g|, which in flight is |Z1''|.
             self.sums("flight_bound", "flight", "LENGTH", bound),
-            self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact", "VW")),
+            self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact", "XQ")),
             # What the terms of Z1' but the first come to, at most.
-            self.sums("flight_change", "flight", "T", {"CHANGE": "|V|"}, changed, begin=1),
+            self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         imports = [
             "from impact_damper.accelerate import within",
@@ -47,14 +47,14 @@ class Source(Writer):
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
         """Sums of series at the time in a row, and what follows; `results` gives each its series.
 
-        The slope of a series is written with a prime, its terms without their signs between bars.
+        The slope of a series is written with a prime, terms without their signs between bars.
         Of each series only so many terms are taken, from `begin` on. With one lane, the four parts
         of a sum stand side by side in a register.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
         for number, (result, series) in enumerate(results.items()):
-            start = max(begin, 1 if series.endswith("'") else 0)
+            start = max(begin, 1 if "'" in series else 0)
             orders = range(start, self.filled(phase)[series.strip("'|")] + 1)[:terms]
             coefficients = [self._coefficient(series, k) for k in orders]
             parts, done = coefficients[:4], 4
@@ -92,8 +92,8 @@ class Source(Writer):
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
             number = _widened(number)
-        if series.endswith("'"):
-            return f"{_constants(*map(float, orders))} * {number}"
+        if "'" in series:
+            number = f"{_constants(*map(float, orders))} * {number}"
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
@@ -110,13 +110,13 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase, series):
-        """TAIL becomes the largest of the last two terms of series at t."""
-        last = self.orders[phase] - 1
+        """TAIL becomes the largest of the last two terms of the slopes of series at t."""
+        last = self.orders[phase]
         yield "last = 0.0"
         for row in series:
-            yield f"last = max(last, abs({self.at(row, last - 1)}))"
-            yield f"last = max(last, abs({self.at(row, last)}) * t)"
-        power = last - 1
+            yield f"last = max(last, abs({float(last - 1)} * {self.at(row, last - 1)}))"
+            yield f"last = max(last, abs({float(last)} * {self.at(row, last)}) * t)"
+        power = last - 2
         factors = [f"t{power - power % 4}"] if power > 3 else []
         factors += (["t2"] if power % 4 > 1 else []) + (["t"] if power % 2 else [])
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
@@ -125,8 +125,10 @@ class Source(Writer):
         """The tangent at T."""
         lines = [*self._time("T", phase)]
         for place, (name, last) in enumerate(self.filled_of_tangent(phase).items()):
-            coefficients = [self.at_tangent(f"D{name}", k) for k in range(last + 1)]
-            lines += _sum(coefficients, self.at_tangent("", place), coefficients[:4], 4)
+            terms = [self.at_tangent(f"D{name}", k) for k in range(last + 1)]
+            slopes = [f"{float(k)} * {terms[k]}" for k in range(1, last + 1)]
+            lines += _sum(terms, self.at_tangent("", 2 * place), terms[:4], 4)
+            lines += _sum(slopes, self.at_tangent("", 2 * place + 1), slopes[:4], 4)
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def _time(self, row, phase):

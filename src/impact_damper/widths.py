@@ -50,7 +50,7 @@ def _source(writer):
         "TANGENTS": writer.tangents,
         "FLIGHT_ORDER": writer.orders["flight"],
         "CONTACT_ORDER": writer.orders["contact"],
-        "EARLY": 3 * (writer.orders["flight"] - 1) // 5,
+        "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
     }

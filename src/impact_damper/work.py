@@ -2,8 +2,9 @@
 
 An addition, a subtraction, a product, a quotient and a square root count as one, sines,
 logarithms and other elementary functions as ELEMENTARY; signs, absolute values, comparisons and
-whole numbers in subscripts as nothing. Of two branches the longer counts, unless the arguments
-tell which is taken. The count is the same on every machine, where time is not.
+whole numbers in subscripts as nothing. With a pair of numbers an operation counts twice. Of two
+branches the longer counts, unless the arguments tell which is taken. The count is the same on
+every machine, where time is not.
 """
 
 import ast
@@ -69,6 +70,7 @@ class _Counter(ast.NodeVisitor):
 
     def __init__(self, known, rounds, without):
         self.known, self.rounds, self.without, self.count = known, rounds, without, 0
+        self.pairs = set()
 
     def value(self, node):
         """The value of an expression, or None where it is not known."""
@@ -84,9 +86,20 @@ class _Counter(ast.NodeVisitor):
             counter.visit(statement)
         return counter.count
 
+    def is_pair(self, node):
+        """Whether an expression is of two numbers side by side (`straight`)."""
+        if isinstance(node, ast.BinOp):
+            return self.is_pair(node.left) or self.is_pair(node.right)
+        return isinstance(node, ast.Tuple) or getattr(node, "id", None) in self.pairs
+
     def visit_BinOp(self, node):
-        self.count += 1
+        self.count += 2 if self.is_pair(node) else 1
         self.generic_visit(node)
+
+    def visit_Assign(self, node):
+        self.generic_visit(node)
+        if self.is_pair(node.value) and isinstance(node.targets[0], ast.Name):
+            self.pairs.add(node.targets[0].id)
 
     def visit_AugAssign(self, node):
         self.count += 1
