@@ -11,7 +11,7 @@ from impact_damper.figures.style import save
 
 # How much of everything: in full, and to see that all of it runs.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
-        "sizes": (1, 16, 64, 256, 1024), "shared": 8192}  # fmt: skip
+        "sizes": (1, 16, 64, 256, 1024), "shared": 65536}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
          "sizes": (1, 16), "shared": 256}  # fmt: skip
 RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
@@ -49,7 +49,7 @@ def scale(write, amount):
     chosen = [scene for scene in found if scene.name in ("design", "resonance")]
     with one_core():
         write("ensemble_sizes", scaling.sizes(chosen, amount["sizes"], amount["few"]))
-    write("ensemble_cores", scaling.cores(chosen, amount["shared"], amount["few"]))
+    write("ensemble_cores", scaling.cores(chosen, amount["shared"], amount["rounds"]))
 
 
 def start(write, amount):

@@ -1,6 +1,8 @@
 """Ensembles over their size and over the cores that share them."""
 
 import os
+from contextlib import contextmanager
+from multiprocessing import get_context
 
 import numpy as np
 import pandas as pd
@@ -43,7 +45,8 @@ def sizes(scenes, counts, rounds):
 def cores(scenes, count, rounds):
     """Throughput of an ensemble on several threads over that on one, and whether results agree.
 
-    The same starts, from a ball within the gap, in shares of SHARE.
+    The same starts, from a ball within the gap, in shares of SHARE. Beside it stands the throughput
+    of as many processes that share nothing and have all of them each: what the machine has to give.
     """
     threads = [1, *range(2, min(os.cpu_count(), 8) + 1)]
     rows = []
@@ -60,14 +63,43 @@ def cores(scenes, count, rounds):
 
             run_chunks(work, count, workers, None, SHARE)
 
-        calls = {workers: lambda workers=workers, run=run: run(workers) for workers in threads}
-        seconds = interleaved(calls, rounds)
+        with processes_apart(threads[-1], scene, starts) as apart:
+            calls = {workers: lambda workers=workers, run=run: run(workers) for workers in threads}
+            calls |= {-n: lambda n=n, apart=apart: apart(n) for n in threads[1:]}
+            seconds = interleaved(calls, rounds)
         for workers in threads:
             median, lower, upper = spread(seconds[1] / seconds[workers])
+            apart = workers * seconds[1] / seconds[-workers] if workers > 1 else 1.0
             same = np.array_equal(results[1], results[workers], equal_nan=True)
             rows.append({
                 "scene": scene.name, "threads": workers, "trajectories": count,
                 "throughput": median, "lower_quartile": lower, "upper_quartile": upper,
+                "processes_apart": np.median(apart),
                 "same_results": "yes" if same else "no",
             })  # fmt: skip
     return pd.DataFrame(rows)
+
+
+@contextmanager
+def processes_apart(count, scene, starts):
+    """What lets so many of `count` processes advance all starts, each a copy of its own."""
+    context = get_context("spawn")
+    ready = context.Barrier(count + 1)
+    with context.Pool(count, prepare, (ready, scene, starts)) as pool:
+        ready.wait(60)
+        yield lambda workers: pool.map(advance_alone, range(workers), 1)
+
+
+def prepare(ready, scene, starts):
+    """Begin a process: it keeps its starts, and has loaded the kernels."""
+    alone.update(scene=scene, starts=starts)
+    advance_rows(scene, starts[:1].copy(), TOLERANCE)
+    ready.wait(60)
+
+
+def advance_alone(_):
+    """Advance all starts of this process."""
+    advance_rows(alone["scene"], alone["starts"].copy(), TOLERANCE)
+
+
+alone = {}
