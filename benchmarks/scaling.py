@@ -2,6 +2,7 @@
 
 import os
 from contextlib import contextmanager
+from functools import partial
 from multiprocessing import get_context
 
 import numpy as np
@@ -17,6 +18,8 @@ TOLERANCE = 1e-9
 RADIUS = 2.0
 # Trajectories that a thread takes at a time, for some milliseconds.
 SHARE = 512
+# Seconds in which a process must have begun.
+PATIENCE = 300
 
 
 def starts_of(scene, count):
@@ -42,42 +45,46 @@ def sizes(scenes, counts, rounds):
     return pd.DataFrame(rows)
 
 
+def advance_in_shares(scene, starts, workers):
+    """States at the end, by so many threads that take shares of SHARE."""
+    states = starts.copy()
+
+    def work(part):
+        advance_rows(scene, states[part], TOLERANCE)
+
+    run_chunks(work, len(starts), workers, None, SHARE)
+    return states
+
+
 def cores(scenes, count, rounds):
     """Throughput of an ensemble on several threads over that on one, and whether results agree.
 
-    The same starts, from a ball within the gap, in shares of SHARE. Beside it stands the throughput
-    of as many processes that share nothing and have all of them each: what the machine has to give.
+    The same starts, from a ball within the gap. Beside it stands the throughput of as many
+    processes that share nothing and have all of the starts each: what the machine has to give.
     """
-    threads = [1, *range(2, min(os.cpu_count(), 8) + 1)]
+    threads = range(1, min(os.cpu_count(), 8) + 1)
     rows = []
     for scene in scenes:
         starts = starts_of(scene, count)["random"]
-        results = {}
-
-        def run(workers, scene=scene, starts=starts, results=results):
-            states = starts.copy()
-            results[workers] = states
-
-            def work(part):
-                advance_rows(scene, states[part], TOLERANCE)
-
-            run_chunks(work, count, workers, None, SHARE)
-
-        with processes_apart(threads[-1], scene, starts) as apart:
-            calls = {workers: lambda workers=workers, run=run: run(workers) for workers in threads}
-            calls |= {-n: lambda n=n, apart=apart: apart(n) for n in threads[1:]}
+        calls = {("threads", n): partial(advance_in_shares, scene, starts, n) for n in threads}
+        results = {n: calls["threads", n]() for n in threads}
+        with processes_apart(threads[-1], scene, starts) as advance_apart:
+            calls |= {("apart", n): partial(advance_apart, n) for n in threads}
             seconds = interleaved(calls, rounds)
-        for workers in threads:
-            median, lower, upper = spread(seconds[1] / seconds[workers])
-            apart = workers * seconds[1] / seconds[-workers] if workers > 1 else 1.0
-            same = np.array_equal(results[1], results[workers], equal_nan=True)
+        for n in threads:
+            median, lower, upper = spread(seconds["threads", 1] / seconds["threads", n])
+            same = np.array_equal(results[1], results[n], equal_nan=True)
             rows.append({
-                "scene": scene.name, "threads": workers, "trajectories": count,
+                "scene": scene.name, "threads": n, "trajectories": count,
                 "throughput": median, "lower_quartile": lower, "upper_quartile": upper,
-                "processes_apart": np.median(apart),
+                "processes_apart": np.median(n * seconds["apart", 1] / seconds["apart", n]),
                 "same_results": "yes" if same else "no",
             })  # fmt: skip
     return pd.DataFrame(rows)
+
+
+# What a process of `processes_apart` has been given.
+alone = {}
 
 
 @contextmanager
@@ -86,20 +93,17 @@ def processes_apart(count, scene, starts):
     context = get_context("spawn")
     ready = context.Barrier(count + 1)
     with context.Pool(count, prepare, (ready, scene, starts)) as pool:
-        ready.wait(60)
+        ready.wait(PATIENCE)
         yield lambda workers: pool.map(advance_alone, range(workers), 1)
 
 
 def prepare(ready, scene, starts):
     """Begin a process: it keeps its starts, and has loaded the kernels."""
     alone.update(scene=scene, starts=starts)
-    advance_rows(scene, starts[:1].copy(), TOLERANCE)
-    ready.wait(60)
+    advance_in_shares(scene, starts[:1], 1)
+    ready.wait(PATIENCE)
 
 
 def advance_alone(_):
     """Advance all starts of this process."""
-    advance_rows(alone["scene"], alone["starts"].copy(), TOLERANCE)
-
-
-alone = {}
+    advance_in_shares(alone["scene"], alone["starts"], 1)

@@ -70,8 +70,11 @@ def with_loops(values, order):
 
 def of_pairs(a, b):
     pair = a * (b, a - b)
-    first, second = pair + (a, 0.0) - a
-    return first * second
+    for _ in range(3):
+        pair = -pair + (a, 0.0)
+    first, second = pair - a
+    pair = first * second
+    return pair * a
 
 
 compiled = kernel(straight)
@@ -86,8 +89,8 @@ def test_operations_are_counted_as_by_hand():
     # ten rounds of a product and a sum; three of a product, a sum and an exponential; a cosine
     assert operations(calling) == 1 + operations(compiled)
     assert operations(calling, without=(compiled,)) == 1
-    # a product, a difference in it, a sum and another difference; the last product is of numbers
-    assert operations(of_pairs) == 2 + 1 + 2 + 2 + 1
+    # a product of pairs and a difference in one, three sums, a difference; two products of numbers
+    assert operations(of_pairs) == 2 + 1 + 3 * 2 + 2 + 1 + 1
     assert operations(with_loops, 3, order=10) == 10 * 2 + 3 * (2 + ELEMENTARY) + ELEMENTARY
 
 
@@ -98,10 +101,11 @@ def test_a_loop_of_unknown_length_is_told():
 
 @pytest.mark.parametrize("kind", [runs.FLIGHT, runs.MEETING, runs.CONTACT])
 def test_a_step_costs_what_the_recurrence_does(kind):
-    # Products of the square and the cube of order N: about N^2/4 and N^2/2, and as many sums;
-    # linear in N are the other terms, of two series in contact, and the search for the event.
+    # Products of the cube of order N and of the squares of half of the series: about N^2/2 and
+    # N^2/8, and as many sums; linear in N are the other terms, of two series in contact, and the
+    # search for the event.
     order = CONTACT_ORDER if kind == runs.CONTACT else FLIGHT_ORDER
-    assert 1.0 < runs.step_work(kind) / (1.5 * order**2 + 20 * order) < 2.0
+    assert 1.0 < runs.step_work(kind) / (1.25 * order**2 + 20 * order) < 2.0
     assert runs.step_work(kind, 1) > runs.step_work(kind)
 
 
@@ -175,20 +179,34 @@ def test_events_near_grazing_are_missed_by_those_who_look_at_the_ends_of_steps()
     assert status["DOP853_located"] == flag("run_status", "missed_contacts")
 
 
+def typical_averages(given, integrate, periods, exponents=False):
+    """Medians over five starts of averages and their errors.
+
+    In one of them the loose mass may be left almost at rest for hundreds of periods.
+    """
+    begin, found = strobe_time(given.p), []
+    for shift in 1e-3 * np.arange(5):
+        start = np.array(given.state) + shift
+        run = integrate(given.p, start, begin, periods)
+        batches = statistics.of_run(given.p, run, begin, periods, 20)
+        if exponents:
+            batches["exponent"] = statistics.exponents(given.p, start, 1e-9, periods, 20)
+        found.append(statistics.estimates(batches))
+    return np.median(found, axis=0)
+
+
 def test_averages_agree_between_methods_and_have_errors_that_fall():
     given = scene("chaos")
-    p, start, begin = given.p, np.array(given.state), strobe_time(given.p)
-    found = []
-    for periods in (400, 1600):
-        run = runs.taylor(p, start, begin, periods, 1e-9)
-        batches = statistics.of_run(p, run, begin, periods, 20)
-        batches["exponent"] = statistics.exponents(p, start, 1e-9, periods, 20)
-        found.append(statistics.estimates(batches))
-    assert (np.abs(found[0][0] - found[1][0]) < 4 * np.hypot(found[0][1], found[1][1])).all()
-    assert (found[1][1] < found[0][1]).all()
-    merson = runs.runge_kutta_merson(p, start, begin, 400, 1e-6, True)
-    other = statistics.estimates(statistics.of_run(p, merson, begin, 400, 20))
-    away = np.abs(other[0] - found[0][0]) / np.hypot(other[1], found[0][1])
+    short, long = (
+        typical_averages(given, lambda *problem: runs.taylor(*problem, 1e-9), periods, True)
+        for periods in (400, 1600)
+    )
+    assert (np.abs(short[0] - long[0]) < 4 * np.hypot(short[1], long[1])).all()
+    assert (long[1] < short[1]).all()
+    other = typical_averages(
+        given, lambda *problem: runs.runge_kutta_merson(*problem, 1e-6, True), 400
+    )
+    away = np.abs(other[0] - short[0]) / np.hypot(other[1], short[1])
     assert (away[:2] < 4).all()
     assert np.isnan(away[2])
 

@@ -1,8 +1,8 @@
 """All numba settings in one place: how kernels are compiled and where they are kept.
 
 Compiled kernels are cached in a directory named by the digest of all modules that hold kernels
-or write them, which are those that name this one or a decorator of it, and `ALSO`. Numba notices
-an edit only in the file of the function itself, so a kernel that calls into another module would
+or write them: those that name this one or a decorator of it, and `recurrence`. Numba notices an
+edit only in the file of the function itself, so a kernel that calls into another module would
 otherwise go on with the old code. What a kernel uses, constants too, must therefore stand in such
 a module.
 """
@@ -21,7 +21,6 @@ from numba.core.codegen import get_host_cpu_features
 from numba.extending import intrinsic
 
 MARKS = b"impact_damper.accelerate", b"@kernel", b"@within"
-ALSO = "accelerate.py", "recurrence.py"
 
 
 def source_digest() -> str:
@@ -30,7 +29,7 @@ def source_digest() -> str:
     root = Path(__file__).parent
     for path in sorted(root.rglob("*.py")):
         source = path.read_bytes()
-        if any(mark in source for mark in MARKS) or path.name in ALSO:
+        if any(mark in source for mark in MARKS) or path.name == "recurrence.py":
             digest.update(path.relative_to(root).as_posix().encode() + b"\0" + source)
     return digest.hexdigest()[:16]
 

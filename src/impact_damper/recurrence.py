@@ -8,30 +8,30 @@ follow from those before them. With the drive e = cos(W T), a = Z1'' and b = q''
     a[k] = g[k] - f[k]                   x[k+2] = a[k] / ((k+1) (k+2))
     b[k] = g[k] - (1 + 1/rm) f[k]        q[k+2] = b[k] / ((k+1) (k+2))
 
-for Z1 = x and the signed penetration q = Z2 -+ d0 during contact, equations (3), (4)
-and (20) to (24); g is what of the acceleration does not come from the wall. In flight there
-is no q, and Z2 differs from x by its offset and drift only. The variational equations are
-the same with e = 0 and 3 (x^2 dx)[k] for the cube.
+(for k = 0 with h x[1] and D q[1] at the ends) for Z1 = x and the signed penetration q = Z2 -+ d0
+during contact, equations (3), (4) and (20) to (24); g is what of the acceleration does not come
+from the wall. In flight there is no q, and Z2 differs from x by its offset and drift only. The
+variational equations are the same with e = 0 and 3 (x^2 dx)[k] for the cube.
 
 In (x^3)[k] no product of three coefficients has two of them beyond the half of k. With l for x
 up to there, n = k // 2,
 
     (x^3)[k] = (l^3)[k] + 3 sum over j > n of (x^2)[k-j] x[j].
 
-Each of the newest coefficients so stands in one product, which comes last. The squares of l grow
-with it. They stand in pairs of neighbours, and so do the products of the sums: with one
-trajectory, a pair is one register.
+Each of the newest coefficients so stands in one product, which comes last. The squares s of l grow
+with it. They stand in pairs of neighbours, P, as do those taken three times, Z, and the products
+of the sums: with one trajectory, a pair is one register.
 """
 
 
 def motion(order, phase, kept):
     """Lines for all orders of a step's series.
 
-    They need x0 and x1, in contact q0 and q1, and the factors `cosine`, `sine`, `stiffness` =
-    omega_l^2 + x0^2, `linear` = omega_l^2 + 3 x0^2, `r1` and `both` = 1 + 1/rm. `kept(k)` gives
-    lines for e[k], h/k and D/k, which stay the same while a trajectory does.
+    They need x0, x1 and s0 = x0^2, in contact q0 and q1, and the factors `cosine`, `sine`,
+    `stiffness` = omega_l^2 + s0, `linear` = omega_l^2 + 3 s0, `r1` and `mobility` = 1 + 1/rm.
+    `kept(k)` gives lines for h/k, D/k and e[k] but for its cosine or sine, which stay the same
+    while a trajectory does.
     """
-    yield "s0 = x0 * x0"
     for k in range(order - 1):
         yield from kept(k)
         if k > 0 and k % 2 == 0:
@@ -45,30 +45,33 @@ def motion(order, phase, kept):
 
 
 def tangent(order, phase, kept):
-    """The same of a tangent, from `s0`, `s1` and so on, the coefficients of 3 x^2."""
+    """The same of a tangent, x and q, from `u0`, `u1` and so on, the coefficients of 3 Z1^2."""
     for k in range(order - 1):
         yield from kept(k)
-        terms = [f"s{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
-        terms += [f"s{k} * x0"] if k > 0 else []
+        # Last what waits for the longest series of factors.
+        terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
+        terms += [f"u{k} * x0"] if k > 0 else []
         yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"
         yield from _accelerations(k, phase)
 
 
-def square(k):
-    """Coefficient k of x^2, each product taken once."""
-    terms = [f"x{j} * x{k - j}" for j in range((k + 1) // 2)]
-    middle = f"x{k // 2} * x{k // 2}" if k % 2 == 0 else ""
-    doubled = f"2.0 * ({' + '.join(terms)})" if terms else ""
-    return " + ".join(part for part in (middle, doubled) if part)
+def squares(count):
+    """Lines for so many coefficients u of 3 x^2, each product taken once."""
+    for k in range(count):
+        terms = [f"x{j} * x{k - j}" for j in range((k + 1) // 2)]
+        middle = [f"3.0 * x{k // 2} * x{k // 2}"] if k % 2 == 0 else []
+        doubled = [f"6.0 * ({' + '.join(terms)})"] if terms else []
+        yield f"u{k} = {' + '.join([*middle, *doubled])}"
 
 
 def _squares(n):
-    """Lines that take x[n] into the squares: s[2n], and pairs P of s[j] and s[j+1], j even."""
+    """Lines that take x[n] into the squares: s[2n], and before it pairs from s[n] or s[n-1] on."""
     yield f"y{n} = 2.0 * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
         before = f"P{j}" if j < 2 * n - 2 else f"(s{j}, 0.0)"
         first = f"x{j - n}" if j >= n else "0.0"
         yield f"P{j} = {before} + y{n} * ({first}, x{j + 1 - n})"
+        yield f"(s{j}, s{j + 1}) = P{j}"
     yield f"s{2 * n} = x{n} * x{n}"
 
 
@@ -76,14 +79,15 @@ def _without_damping(k, drive):
     """Lines for c[k], which is g[k] without h/k a[k-1]; k > 1."""
     n, odd = k // 2, k % 2
     last = k - n - 1
-    if odd:
-        yield from _tripled(last)
+    if odd and last % 2 and last > 1:
+        yield f"Z{last - 1} = 3.0 * P{last - 1}"
+    elif odd:
+        yield f"z{last} = 3.0 * s{last}"
     single, pairs = [f"s{2 * n} * x{odd}"], []
     for j in range(odd + 1, n, 2):
         pairs.append(f"P{k - j - 1} * (x{j + 1}, x{j})")
     if (n - odd) % 2:
-        yield f"(_, square) = P{last}"
-        single.append(f"square * x{n}")
+        single.append(f"s{last + 1} * x{n}")
     if last > 0 and last % 2 == 0:
         single.append(f"z{last} * x{k - last}")
     for m in range((last - 1) // 2 * 2, 1, -2):
@@ -96,23 +100,14 @@ def _without_damping(k, drive):
     yield f"c{k} = {' - '.join([early, *newest])} - linear * x{k}"
 
 
-def _tripled(j):
-    """Lines for 3 s[j]: z if it has no neighbour yet, or is s[1]; else a pair Z."""
-    if j == 1 or j % 2 == 0:
-        yield f"({'_, square' if j == 1 else 'square, _'}) = P{j - j % 2}"
-        yield f"z{j} = 3.0 * square"
-    else:
-        yield f"Z{j - 1} = 3.0 * P{j - 1}"
-
-
 def _accelerations(k, phase):
     """Lines for g[k] and x[k+2], and in contact q[k+2]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
-    share = 1 / (k + 1) / (k + 2)
+    share = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"
     if phase == "contact":
         yield f"f{k} = r1 * q{k} + d{k} * {b}"
-        yield f"b{k} = g{k} - both * f{k}"
+        yield f"b{k} = g{k} - mobility * f{k}"
         yield f"q{k + 2} = {share!r} * b{k}"
     yield f"a{k} = g{k} - f{k}" if phase == "contact" else f"a{k} = g{k}"
     yield f"x{k + 2} = {share!r} * a{k}"

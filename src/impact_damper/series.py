@@ -1,19 +1,19 @@
 """Taylor series of the motion, unrolled from one description of the recurrence.
 
 The lines of `recurrence` stand in a loop over lanes, which are trajectories side by side;
-`straight` compiles them. With one lane that gives scalar code, about three times as fast as
-loops over arrays; with several, vector instructions, three times as fast again. All numbers of a
-step stand in one flat array, `lanes` to a row; `rows` says in which row.
+`straight` compiles them. With one lane that gives code for single numbers and pairs of them, about
+three times as fast as loops over arrays; with several, vector instructions, three times as fast
+again. All numbers of a step stand in one flat array, `lanes` to a row; `rows` says in which row.
 """
 
-from functools import partial
+from itertools import chain
 
 from impact_damper import recurrence
 
-# What a step is given, what it finds, and what it needs on its way. Then the series: of Z1, of
-# the penetration and of g; and what stays the same while a trajectory does, the series of cos W t,
-# whose terms still lack the cosine or sine of the phase, and h and D over their orders. Those of a
-# tangent, in an array of their own, are of the first two.
+# What a step is given, what it finds, and what it needs on its way. Then the series: of Z1, of the
+# penetration, of g and, for tangents, of 3 Z1^2; and what stays the same while a trajectory does,
+# the series of cos W t, whose terms still lack the cosine or sine of the phase, and h and D over
+# the orders. Those of a tangent, in an array of their own, are of the first two.
 PARAMETERS = "FREQUENCY DAMPING STIFFNESS CLEARANCE CONTACT INVERSE_MASS DASHPOT".split()
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
@@ -23,7 +23,7 @@ SCRATCH = (
     "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE"
 ).split()
 SINGLE = PARAMETERS + STATE + STEP + SCRATCH
-SERIES = "X Q G E H D".split()
+SERIES = "X Q G U E H D".split()
 TANGENT_SERIES = "DX DQ".split()
 # Most sums that are made at once.
 SUMS = 6
@@ -80,22 +80,14 @@ class Writer:
                 calls += f"    {name}_{part}({arguments})\n"
         return f"{text}@within\ndef {name}({arguments}):\n{calls}"
 
-    def filled(self, phase):
-        """The series that a step fills, and their orders."""
-        order = self.orders[phase]
-        return {"X": order, "G": order - 2} | ({"Q": order} if phase == "contact" else {})
-
-    def filled_of_tangent(self, phase):
-        """The same of a tangent."""
-        return {name: self.orders[phase] for name in ("XQ" if phase == "contact" else "X")}
+    def moving(self, phase):
+        """The series of what moves in a phase: of Z1, and in contact of the penetration."""
+        return "XQ" if phase == "contact" else "X"
 
     def kept_series(self):
         """Fill the series that stay the same while a trajectory does."""
-        lines = [
-            line for k in range(max(self.orders.values()) - 1) for line in self._made(k, "EHD")
-        ]
-        places = {name: partial(self.at, name) for name in "EHD"}
-        return self.function("kept_series", _stored(lines, places))
+        made = (self._made(k, "EHD") for k in range(max(self.orders.values()) - 1))
+        return self.function("kept_series", self._stored(chain.from_iterable(made), "EHD"))
 
     def _made(self, k, names):
         """Lines for coefficients k of kept series."""
@@ -128,8 +120,9 @@ class Writer:
             f"x0 = {self.at('Y0')}",
             # Not loaded together with x0: a pair of numbers stored one by one is waited for.
             f"x1 = {self.at('Y1')} + 0.0",
-            f"stiffness = {self.at('STIFFNESS')} + x0 * x0",
-            "linear = stiffness + 2.0 * (x0 * x0)",
+            "s0 = x0 * x0",
+            f"stiffness = {self.at('STIFFNESS')} + s0",
+            "linear = stiffness + 2.0 * s0",
             *self._factors(phase),
         ]
         if phase == "contact":
@@ -138,39 +131,48 @@ class Writer:
                 f"q1 = {self.at('Y3')}",
             ]
         lines += recurrence.motion(self.orders[phase], phase, self._kept(phase, tangent=False))
-        places = {name: partial(self.at, name) for name in self.filled(phase)}
-        return self.function(f"{phase}_series", _stored(lines, places))
+        return self.function(f"{phase}_series", self._stored(lines, f"{self.moving(phase)}G"))
+
+    def squares(self, phase):
+        """Fill U from the series of a step, for its tangents."""
+        count = self.orders[phase] - 1
+        lines = [f"x{k} = {self.at('X', k)}" for k in range(count)]
+        lines += self._stored(recurrence.squares(count), "U")
+        return self.function(f"{phase}_squares", lines)
 
     def tangent_series(self, phase):
-        """Fill the series of a tangent over a step, from those of the motion."""
-        order, filled = self.orders[phase], self.filled_of_tangent(phase)
+        """Fill the series of a tangent over a step, from U."""
+        order, names = self.orders[phase], self.moving(phase)
         lines = [
-            *(f"x{k} = {self.at('X', k)}" for k in range(order - 1)),
-            *(f"s{k} = 3.0 * ({recurrence.square(k)})" for k in range(order - 1)),
-            f"linear = {self.at('STIFFNESS')} + s0",
+            *(f"u{k} = {self.at('U', k)}" for k in range(order - 1)),
+            f"linear = {self.at('STIFFNESS')} + u0",
             *self._factors(phase),
             *(
                 f"{name.lower()}{k} = {self.at_tangent('', 2 * j + k)}"
-                for j, name in enumerate(filled)
+                for j, name in enumerate(names)
                 for k in range(2)
             ),
             *recurrence.tangent(order, phase, self._kept(phase, tangent=True)),
         ]
-        places = {name: partial(self.at_tangent, f"D{name}") for name in filled}
-        return self.function(f"{phase}_tangent_series", _stored(lines, places), tangent=True)
+        lines = self._stored(lines, names, tangent=True)
+        return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
     def _factors(self, phase):
         """Factors of the recurrence in contact."""
         if phase == "contact":
             yield f"r1 = {self.at('CONTACT')}"
-            yield f"both = 1.0 + {self.at('INVERSE_MASS')}"
+            yield f"mobility = 1.0 + {self.at('INVERSE_MASS')}"
 
-
-def _stored(lines, places):
-    """Lines, each followed by the store of what it gives, so that no number waits for it."""
-    for line in lines:
-        yield line
-        given = line.split(" = ")[0]
-        name, order = given[0].upper(), given[1:]
-        if name in places and order.isdigit():
-            yield f"{places[name](int(order))} = {given}"
+    def _stored(self, lines, names, tangent=False):
+        """Lines, those for coefficients followed by their store, so that no number waits for it."""
+        for line in lines:
+            yield line
+            given = line.split(" = ")[0]
+            name, order = given[0].upper(), given[1:]
+            if name in names and order.isdigit():
+                at = (
+                    self.at_tangent(f"D{name}", int(order))
+                    if tangent
+                    else self.at(name, int(order))
+                )
+                yield f"{at} = {given}"

@@ -72,8 +72,8 @@ def limit_length(a, series, order, excess):
 def foresee_length(a):
     """Find a LENGTH in which the last terms of the series of Z1' may be expected to stay small.
 
-    Not beyond LONGEST. By three terms from EARLY on, as if all fell from SCALE at one rate; the
-    next step and its forcing need not wait for the last ones then.
+    Not beyond LONGEST. By three terms, those of Z1 from EARLY on, as if all fell from SCALE at one
+    rate; the next step and its forcing need not wait for the last ones then.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -145,6 +145,7 @@ def flight_step(a):
 @within
 def flight_tangents(a, d):
     """Carry tangents through the flight that `flight_step` has just made."""
+    flight_squares(a)
     flight_tangent_series(a, d)
     for i in range(TANGENTS):
         d[2 * TANGENTS + i] -= d[i]
@@ -159,6 +160,7 @@ def flight_tangents(a, d):
 @within
 def contact_tangents(a, d):
     """Carry tangents through the contact that `contact_step` has just made."""
+    contact_squares(a)
     contact_tangent_series(a, d)
     contact_tangent_value(a, d)
     dashpot_jump(a, d, 1.0)

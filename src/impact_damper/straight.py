@@ -1,7 +1,8 @@
 """Straight lines of arithmetic, compiled without asking for their types.
 
-All numbers are of one type here, so that LLVM's code can be written at once. numba's inference of
-types takes a millisecond for an operation, and the series of a step have thousands of them.
+All numbers are of one type here, or pairs of it, so that LLVM's code can be written at once.
+numba's inference of types takes a millisecond for an operation, and the series of a step have
+thousands of them.
 """
 
 import ast
@@ -35,8 +36,9 @@ def straight(function):
         a multiple of WIDTH or fewer, over assignments. Their left sides are names, or numbers
         `a[1]` or `a[1 + i]` of an argument, and their right sides sums, differences, products and
         quotients of such, of constants, of tuples of constants at `[i]`, and of `abs` and `max`.
-        Two numbers in brackets are a pair, for which each operation is done twice; a number beside
-        it counts for both. With one lane, a pair is one register.
+        Two numbers in brackets are a pair, for which each sum, difference, product and quotient is
+        made twice; a number beside it counts for both. A pair may be kept by a name, and assigned
+        to two of them. With one lane, it is one register.
 
     Returns
     -------
@@ -77,8 +79,16 @@ def is_product(node):
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)
 
 
+def repeated(builder, number, count):
+    """A vector of a number so many times."""
+    vector = ir.Constant(ir.VectorType(NUMBER, count), ir.Undefined)
+    vector = builder.insert_element(vector, number, ir.Constant(PLACE, 0))
+    zeros = ir.Constant(ir.VectorType(PLACE, count), [0] * count)
+    return builder.shuffle_vector(vector, vector, zeros)
+
+
 class _Lines(ast.NodeVisitor):
-    """Writes assignments for some lanes from the first on; with one lane they are scalars."""
+    """Writes assignments for some lanes from the first on; with one lane of numbers and pairs."""
 
     def __init__(self, builder, arrays, first, width):
         self.builder, self.arrays, self.first, self.width = builder, arrays, first, width
@@ -124,11 +134,7 @@ class _Lines(ast.NodeVisitor):
         number = self.builder.load(pointer, align=8)
         if self.width == 1:
             return number
-        lane = ir.IntType(32)
-        vector = ir.Constant(self.type, ir.Undefined)
-        vector = self.builder.insert_element(vector, number, ir.Constant(lane, 0))
-        zeros = ir.Constant(ir.VectorType(lane, self.width), [0] * self.width)
-        return self.builder.shuffle_vector(vector, vector, zeros)
+        return repeated(self.builder, number, self.width)
 
     def visit_Name(self, node):
         return self.values[node.id]
@@ -188,14 +194,10 @@ class _Lines(ast.NodeVisitor):
             values = [value if isinstance(value, tuple) else (value, value) for value in values]
             return tuple(map(operation, *values))
         if any(value.type == PAIR for value in values):
-            values = [self.both(value) if value.type == NUMBER else value for value in values]
+            values = [
+                repeated(self.builder, each, 2) if each.type == NUMBER else each for each in values
+            ]
         return operation(*values)
-
-    def both(self, number):
-        """A pair of the same numbers."""
-        pair = ir.Constant(PAIR, ir.Undefined)
-        pair = self.builder.insert_element(pair, number, ir.Constant(PLACE, 0))
-        return self.builder.shuffle_vector(pair, pair, ir.Constant(ir.VectorType(PLACE, 2), [0, 0]))
 
     def visit_Call(self, node):
         values = [self.visit(argument) for argument in node.args]

@@ -26,15 +26,16 @@ class Source(Writer):
             *([self.kept_series()] if self.lanes == 1 else []),
             self.circular(),
             *(self.series(phase) for phase in self.orders),
+            *(self.squares(phase) for phase in self.orders),
             *(self.tangent_series(phase) for phase in self.orders),
             *(self.tangent_value(phase) for phase in self.orders),
-            self.sums("flight_slope", "flight", "T", slope, self._tail("flight", "X")),
+            self.sums("flight_slope", "flight", "T", slope, self._tail("flight")),
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
             # On |g|, which in flight is |Z1''|.
             self.sums("flight_bound", "flight", "LENGTH", bound),
-            self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact", "XQ")),
+            self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
             # What the terms of Z1' but the first come to, at most.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
@@ -55,7 +56,8 @@ class Source(Writer):
         first = list(lines) if self.lanes == 1 else []
         for number, (result, series) in enumerate(results.items()):
             start = max(begin, 1 if "'" in series else 0)
-            orders = range(start, self.filled(phase)[series.strip("'|")] + 1)[:terms]
+            last = self.orders[phase] - (2 if "G" in series else 0)
+            orders = range(start, last + 1)[:terms]
             coefficients = [self._coefficient(series, k) for k in orders]
             parts, done = coefficients[:4], 4
             if self.lanes == 1:
@@ -109,11 +111,11 @@ class Source(Writer):
             yield f"{depth} = {z1} - {mobility} * {force}"
             yield f"{z1} -= {force}"
 
-    def _tail(self, phase, series):
-        """TAIL becomes the largest of the last two terms of the slopes of series at t."""
+    def _tail(self, phase):
+        """TAIL becomes the largest of the last two terms of the series of speeds at t."""
         last = self.orders[phase]
         yield "last = 0.0"
-        for row in series:
+        for row in self.moving(phase):
             yield f"last = max(last, abs({float(last - 1)} * {self.at(row, last - 1)}))"
             yield f"last = max(last, abs({float(last)} * {self.at(row, last)}) * t)"
         power = last - 2
@@ -124,9 +126,9 @@ class Source(Writer):
     def tangent_value(self, phase):
         """The tangent at T."""
         lines = [*self._time("T", phase)]
-        for place, (name, last) in enumerate(self.filled_of_tangent(phase).items()):
-            terms = [self.at_tangent(f"D{name}", k) for k in range(last + 1)]
-            slopes = [f"{float(k)} * {terms[k]}" for k in range(1, last + 1)]
+        for place, name in enumerate(self.moving(phase)):
+            terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
+            slopes = [f"{float(k)} * {term}" for k, term in enumerate(terms)][1:]
             lines += _sum(terms, self.at_tangent("", 2 * place), terms[:4], 4)
             lines += _sum(slopes, self.at_tangent("", 2 * place + 1), slopes[:4], 4)
         return self.function(f"{phase}_tangent_value", lines, tangent=True)

@@ -68,9 +68,9 @@ def _body(function):
 class _Counter(ast.NodeVisitor):
     """Counts the operations of statements, with the values of what is known."""
 
-    def __init__(self, known, rounds, without):
+    def __init__(self, known, rounds, without, pairs=()):
         self.known, self.rounds, self.without, self.count = known, rounds, without, 0
-        self.pairs = set()
+        self.pairs = set(pairs)
 
     def value(self, node):
         """The value of an expression, or None where it is not known."""
@@ -81,16 +81,16 @@ class _Counter(ast.NodeVisitor):
 
     def within(self, statements):
         """Operations of a block by itself."""
-        counter = _Counter(self.known, self.rounds, self.without)
+        counter = _Counter(self.known, self.rounds, self.without, self.pairs)
         for statement in statements:
             counter.visit(statement)
         return counter.count
 
     def is_pair(self, node):
         """Whether an expression is of two numbers side by side (`straight`)."""
-        if isinstance(node, ast.BinOp):
-            return self.is_pair(node.left) or self.is_pair(node.right)
-        return isinstance(node, ast.Tuple) or getattr(node, "id", None) in self.pairs
+        parts = [getattr(node, name, None) for name in ("left", "right", "operand")]
+        named = isinstance(node, ast.Name) and node.id in self.pairs
+        return isinstance(node, ast.Tuple) or named or any(map(self.is_pair, filter(None, parts)))
 
     def visit_BinOp(self, node):
         self.count += 2 if self.is_pair(node) else 1
@@ -98,8 +98,9 @@ class _Counter(ast.NodeVisitor):
 
     def visit_Assign(self, node):
         self.generic_visit(node)
-        if self.is_pair(node.value) and isinstance(node.targets[0], ast.Name):
-            self.pairs.add(node.targets[0].id)
+        if isinstance(node.targets[0], ast.Name):
+            change = self.pairs.add if self.is_pair(node.value) else self.pairs.discard
+            change(node.targets[0].id)
 
     def visit_AugAssign(self, node):
         self.count += 1
