@@ -30,6 +30,8 @@ LONG = 0.5
 LOST = 0.1
 LOOK = {
     "kernel": (BLUE, "-", "o"),
+    "kernel_12_15": (BLUE, "--", "4"),
+    "kernel_24_30": (BLUE, ":", "*"),
     "kernel_ensemble": (SKY, "-", "s"),
     "heyoka": (VERMILION, "-", "^"),
     "heyoka_batch": (ORANGE, "-", "v"),

@@ -10,6 +10,7 @@ from benchmarks.heyoka_runs import BATCH, Motions
 from impact_damper import lanes
 from impact_damper.kernel import advance, workspace
 from impact_damper.rivals.merson import run_merson
+from impact_damper.series_runs import ROWS, SERIES, steps_of, take_steps
 
 NO_TANGENTS = np.empty((0, 4))
 
@@ -43,6 +44,23 @@ def single(scene, tolerance):
         return states
 
     return run
+
+
+def of_orders(orders):
+    """The kernel with series of other orders, in flight and in contact."""
+
+    def prepare(scene, tolerance):
+        p, rows, made = scene.parameters, np.empty((ROWS, SERIES)), steps_of(orders)
+
+        def run(starts):
+            states = starts.copy()
+            for y in states:
+                take_steps(made, p, y, 0, scene.begin, scene.end, tolerance, *orders, rows)
+            return states
+
+        return run
+
+    return prepare
 
 
 def advance_rows(scene, states, tolerance):
@@ -112,6 +130,8 @@ def merson(locate):
 METHODS = {
     "kernel": Method("this kernel, one at a time", single),
     "kernel_ensemble": Method("this kernel, ensemble", ensemble),
+    "kernel_12_15": Method("this kernel, orders 12 and 15", of_orders((12, 15))),
+    "kernel_24_30": Method("this kernel, orders 24 and 30", of_orders((24, 30))),
     "heyoka": Method("heyoka.py, one at a time", heyoka),
     "heyoka_batch": Method("heyoka.py, batch mode", heyoka_batch),
     "merson_located": Method("Runge-Kutta-Merson, contacts located", merson(True)),

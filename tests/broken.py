@@ -104,7 +104,12 @@ AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXE
 LEAVES = [path for path, value in places(SMALL) if not isinstance(value, (dict, list))]
 NUMBERS = [path for path, value in places(SMALL) if is_number(value)]
 TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]
-LISTS = [path for path, value in places(SMALL) if isinstance(value, list)]
+# There may be no further orders.
+LISTS = [
+    path
+    for path, value in places(SMALL)
+    if isinstance(value, list) and path != ("comparison", "orders")
+]
 RANGES = [path for path in FIXED if {"first", "last"} <= at(path).keys()]
 COUNTS = [
     path

@@ -17,6 +17,7 @@ from impact_damper.datasets import dataset, flag
 from impact_damper.motions import COMPONENTS, check_state
 from impact_damper.orbits import strobe_time
 from impact_damper.parameters import check_count, describe, pack
+from impact_damper.series_runs import name_of, taylor
 
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 AVERAGES = statistics.STATISTICS
@@ -108,7 +109,8 @@ def error_against_work(scene, settings, stored=None):
     ----------
     scene : Scene
     settings : dict
-        `taylor`, `merson`, `scipy`: decreasing tolerances; `evaluations`: those of the rate a
+        `taylor`, `merson`, `scipy`: decreasing tolerances; `orders`: further pairs of orders of the
+        Taylor series, in flight and in contact; `evaluations`: those of the rate a
         forcing period at which a run of SciPy's methods is given up, by method; `harmonics`: the
         highest one; `batch`: forcing periods of a batch of a chaotic motion; `scipy_periods`:
         periods of a chaotic motion by SciPy's methods, which are slow.
@@ -155,7 +157,10 @@ def integrations(scene, settings, periods, scipy_periods):
     p, start = scene.p, np.array(scene.state, float)
     begin = strobe_time(p)
     for tolerance in settings["taylor"]:
-        yield "taylor", tolerance, runs.taylor(p, start, begin, periods, tolerance)
+        yield "taylor", tolerance, taylor(p, start, begin, periods, tolerance)
+        for orders in settings["orders"]:
+            run = taylor(p, start, begin, periods, tolerance, tuple(orders))
+            yield name_of(orders), tolerance, run
     if scene.motion != "steady" and scene.damper is not None:
         tolerance = min(settings["taylor"])
         restitution = scene.damper.restitution
@@ -294,7 +299,7 @@ def _averages(scene, settings):
         rows.append((method, setting, run))
         found.append(statistics.estimates(averages))
     tightest, long = min(settings["taylor"]), LONGER * scene.periods
-    run = runs.taylor(p, start, begin, long, tightest)
+    run = taylor(p, start, begin, long, tightest)
     averages = statistics.of_run(p, run, begin, long, batch)
     averages["exponent"] = statistics.exponents(p, start, tightest, long, batch)
     truth, truth_error = statistics.estimates(averages)

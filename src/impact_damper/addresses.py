@@ -38,7 +38,8 @@ def by_address(function):
     Returns
     -------
     intrinsic
-        To be called from kernels with pointers to float64. Its `compile` fills the cell.
+        To be called from kernels with pointers to float64. Its `compile` fills the cell and returns
+        the address, for `call_at`.
 
     Raises
     ------
@@ -59,6 +60,7 @@ def by_address(function):
                 compiled = numba.cfunc(types.void(*[numbers] * count), **SETTINGS)
                 kept.append(compiled(function.py_func))
                 cells[0] = kept[-1].address
+            return cells[0]
 
     @ctypes.CFUNCTYPE(None)
     def compile_or_end():
@@ -83,6 +85,19 @@ def by_address(function):
 
     call.compile, call.py_func = compile_once, function.py_func
     return call
+
+
+@intrinsic
+def call_at(typing, address, numbers):
+    """Call the kernel at an address with a pointer to numbers."""
+
+    def generate(context, builder, signature, arguments):
+        address, numbers = arguments
+        kernel = ir.FunctionType(ir.VoidType(), [numbers.type]).as_pointer()
+        builder.call(builder.inttoptr(address, kernel), [numbers])
+        return context.get_dummy_value()
+
+    return types.void(address, numbers), generate
 
 
 def _call(builder, name, values):

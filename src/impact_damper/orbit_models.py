@@ -25,7 +25,8 @@ from impact_damper import fourier, harmonic_balance, harmonics, multiharmonic
 from impact_damper.orbits import POLISH_TOLERANCE, strobe_time
 from impact_damper.parameters import pack
 from impact_damper.rigid_orbit import mended, mended_orbit, rigid_orbit
-from impact_damper.runs import FLIGHT, rigid, step_work, steps_work, taylor_steps
+from impact_damper.runs import rigid
+from impact_damper.series_runs import FLIGHT, all_steps, counted, step_work, steps_work
 from impact_damper.shooting import find_orbit
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
@@ -204,7 +205,8 @@ def shooting(oscillator, damper, frequency, start):
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
     begin = strobe_time(p)
-    each = steps_work(taylor_steps(p, start.state, begin, 1, POLISH_TOLERANCE), 4)
+    steps, _ = all_steps(p, start.state, begin, 1, POLISH_TOLERANCE)
+    each = steps_work(counted(steps), 4)
     work = start.operations + orbit.maps * each
     if not orbit.converged:
         return without("failed", work)

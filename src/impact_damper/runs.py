@@ -2,9 +2,7 @@
 
 The work of a run is in floating-point operations (`work.operations`):
 
-- Taylor series: steps in flight, those that end in a contact, and steps in contact, times the
-  operations of one, the generated series included. The search for a contact that is met where it
-  is not expected, and the loops of searches, do not count: hardly any step enters them.
+- Taylor series: see `series_runs`.
 - Runge-Kutta-Merson: steps tried, those of locating contacts included, times the operations of
   one: five evaluations of the rate, the combinations of them, and the estimate of the error.
 - SciPy's methods: evaluations of the rate times its operations and those of combining it with the
@@ -13,28 +11,18 @@ The work of a run is in floating-point operations (`work.operations`):
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
-from impact_damper import kernel
 from impact_damper.kernel import side_of, step, workspace
-from impact_damper.recording import measured, trace
 from impact_damper.rigid import MOST_IMPACTS, rebound, rigid_map
 from impact_damper.rivals import scipy_methods
 from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
-from impact_damper.widths import instance
+from impact_damper.series_runs import FLIGHT, MEETING, Run, steps_work, stopped
 from impact_damper.work import operations
 
-# Kinds of steps of the Taylor series: in flight, in flight until a contact, and in contact.
-FLIGHT, MEETING, CONTACT = range(3)
-_ONE = instance(1)
-# What such steps in flight hardly ever call.
-NOT_CALLED = [(_ONE.search_contact, _ONE.guess_contact, _ONE.meet_expected), (_ONE.search_contact,)]
-MOST_CONTACTS = 100_000
-SAMPLES = 64
 MOST_ENDS = 400_000
 HALVINGS = 54
 SIZE = 4
@@ -49,88 +37,6 @@ COMBINING = {
     "Radau": SIZE * 2 * 6 + (2 + 8) * SIZE**2 // 3,
 }
 FACTORISING = {"DOP853": 0, "LSODA": 2 * SIZE**3 // 3, "Radau": (2 + 8) * SIZE**3 // 3 // 2}
-
-
-class Run(NamedTuple):
-    """A motion by some method.
-
-    Attributes
-    ----------
-    status : str
-        "ended", "failed" or "capped".
-    operations : float
-        Counted work.
-    state : numpy.ndarray, shape (4,)
-        At the end.
-    contact_times : numpy.ndarray
-        When contacts begin.
-    peak_times, peaks : numpy.ndarray
-        When |Z1| is largest, and the values there; those at the ends of the run count.
-    displacement : float
-        Largest |Z1|.
-    """
-
-    status: str
-    operations: float
-    state: np.ndarray
-    contact_times: np.ndarray
-    peak_times: np.ndarray
-    peaks: np.ndarray
-    displacement: float
-
-
-def stopped(status, work):
-    """A run that did not come to its end."""
-    none = np.empty(0)
-    return Run(status, work, np.full(4, np.nan), none, none, none, np.nan)
-
-
-def taylor(p, start, t, periods, tolerance):
-    """By the event-driven Taylor series, from the strobe on.
-
-    Peaks are read off SAMPLES states a period, the largest |Z1| from the series itself.
-    """
-    times = t + 2 * math.pi / p[0] * np.arange(periods * SAMPLES + 1) / SAMPLES
-    states, log = np.empty((len(times), 4)), np.empty((MOST_CONTACTS, 5))
-    y = start.copy()
-    count = trace(p, y, t, times, tolerance, states, log)
-    work = steps_work(taylor_steps(p, start, t, periods, tolerance))
-    largest = float(measured(p, start, periods, tolerance)["maximum_displacement"])
-    if count > len(log) or not np.isfinite(states).all():
-        return stopped("failed", work)
-    at, peaks = turning_points(p, times, states)
-    return Run("ended", work, y, log[:count, 1].copy(), at, peaks, largest)
-
-
-def taylor_steps(p, start, t, periods, tolerance):
-    """Numbers of steps of the Taylor series, of each kind."""
-    y, none, work = start.copy(), np.empty((0, 4)), workspace()
-    side, counts = side_of(p, y), [0, 0, 0]
-    period = 2 * math.pi / p[0]
-    for _ in range(periods):
-        now, end = t, t + period
-        while now < end:
-            before = side
-            length, side = step(p, y, none, before, now, end - now, tolerance, work)
-            now = end if length >= end - now else now + length
-            counts[CONTACT if before != 0 else (MEETING if side != 0 else FLIGHT)] += 1
-    return tuple(counts)
-
-
-def steps_work(counts, tangents=0):
-    """Operations of so many steps of each kind."""
-    return sum(count * step_work(kind, tangents) for kind, count in enumerate(counts))
-
-
-def step_work(kind, tangents=0):
-    """Operations of one step of the Taylor series with so many tangents."""
-    if kind == CONTACT:
-        state = operations(kernel.contact_step, 0)
-        each = kernel.contact_tangents
-    else:
-        state = operations(kernel.flight_step, 0, NOT_CALLED[kind])
-        each = kernel.flight_tangents
-    return state + tangents * operations(each) // kernel.COLUMNS
 
 
 def rigid(p, restitution, start, t, periods, tolerance):

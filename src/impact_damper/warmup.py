@@ -11,6 +11,7 @@ from impact_damper.recording import MOTION
 from impact_damper.response import collisions, frequency_response
 from impact_damper.rivals import fixed_step, merson
 from impact_damper.rivals.passages import draw_passages
+from impact_damper.series_runs import ORDERS, taylor
 from impact_damper.sweep import CLEARANCE
 
 OSCILLATOR = Oscillator(damping=0.215)
@@ -52,15 +53,16 @@ def warm_up_settling() -> None:
     )
 
 
-def warm_up_rivals() -> None:
-    """The same for the methods that the package is compared with.
+def warm_up_rivals(orders=()) -> None:
+    """The same for the methods that the package is compared with, and series of further orders.
 
     Code that is loaded from the cache can differ in the last digit from code that was compiled in
     the same process, which shows where a method goes through a jump: all jobs are to load it.
     """
     p = pack(OSCILLATOR, DAMPER, 2.0)
     start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
-    runs.taylor(p, start, begin, 1, 1e-3)
+    for each in (ORDERS, *map(tuple, orders)):
+        taylor(p, start, begin, 1, 1e-3, each)
     runs.rigid(p, 0.75, start, begin, 1, 1e-3)
     for locate in (False, True):
         runs.runge_kutta_merson(p, start, begin, 1, 1e-3, locate)

@@ -36,9 +36,10 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     return module
 
 
-def steps(lanes):
+@cache
+def steps(lanes, *orders):
     """The steps in flight and in contact, and those of their tangents, to be called by address."""
-    made = instance(lanes)
+    made = instance(lanes, *orders)
     each = made.flight_step, made.contact_step, made.flight_tangents, made.contact_tangents
     return list(map(by_address, each))
 

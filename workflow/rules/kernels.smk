@@ -35,6 +35,8 @@ rule rival_kernels:
     conda:
         "../envs/impact-damper.yaml"
     threads: 1
+    params:
+        orders=config["comparison"]["orders"],
     message:
         "Compiling the methods to compare with, once for all jobs"
     script:

@@ -9,4 +9,4 @@ import gc
 from impact_damper.warmup import warm_up_rivals
 
 gc.disable()  # as for the kernels
-warm_up_rivals()
+warm_up_rivals(snakemake.params.orders)

@@ -1,5 +1,7 @@
 """Error against counted work, a panel for each scene."""
 
+from itertools import cycle
+
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -39,6 +41,8 @@ ROLES = {
     "many_harmonics": ("many harmonics", SKY, "h", "-"),
     "shooting": ("shooting", BLACK, "*", "none"),
 }
+# Of series of further orders, named by these: first marker, then line.
+OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
 ENDED = ("ok", "missed_contacts", "invented_contacts")
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
@@ -102,7 +106,7 @@ def _panel(axes, data):
     low, high = (1e-4, 1.0) if chaotic else (10 ** np.floor(np.log10(np.min(error[ended]))), 30)
     run = np.log10(work[work > 0])
     least, most = np.min(run), np.max(run)
-    for method, (label, color, marker, line) in ROLES.items():
+    for method, (label, color, marker, line) in (ROLES | _further(data)).items():
         of = data["method"].values == method
         looks = {"color": color, "markersize": 4}
         chosen = of & ended
@@ -131,3 +135,12 @@ def _panel(axes, data):
     axes.set_xlim(*(10 ** np.array([np.floor(least), np.ceil(most)])))
     axes.set_ylabel(words)
     axes.set_title(made["scene"].replace("_", " "), loc="right", fontsize=8)
+
+
+def _further(data):
+    """Roles of series of further orders."""
+    names = sorted(set(data["method"].values) - set(ROLES))
+    return {
+        name: ("Taylor, orders {1} and {2}".format(*name.split("_")), BLUE, marker, line)
+        for name, (marker, line) in zip(names, cycle(OTHER_ORDERS))
+    }
