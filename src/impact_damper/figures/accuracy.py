@@ -106,7 +106,7 @@ def _panel(axes, data):
     low, high = (1e-4, 1.0) if chaotic else (10 ** np.floor(np.log10(np.min(error[ended]))), 30)
     run = np.log10(work[work > 0])
     least, most = np.min(run), np.max(run)
-    for method, (label, color, marker, line) in (ROLES | _further(data)).items():
+    for method, (label, color, marker, line) in _roles(data).items():
         of = data["method"].values == method
         looks = {"color": color, "markersize": 4}
         chosen = of & ended
@@ -137,10 +137,11 @@ def _panel(axes, data):
     axes.set_title(made["scene"].replace("_", " "), loc="right", fontsize=8)
 
 
-def _further(data):
-    """Roles of series of further orders."""
+def _roles(data):
+    """All roles, those of series of further orders after that of the ones in use."""
     names = sorted(set(data["method"].values) - set(ROLES))
-    return {
+    further = {
         name: ("Taylor, orders {1} and {2}".format(*name.split("_")), BLUE, marker, line)
         for name, (marker, line) in zip(names, cycle(OTHER_ORDERS))
     }
+    return {"taylor": ROLES["taylor"]} | further | ROLES
