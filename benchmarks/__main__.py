@@ -23,7 +23,7 @@ def compare(write, amount):
     with one_core():
         times, made = ratios.compared(found, amount["rounds"])
         write("times", times)
-        write("ratios", made, document=ratios.document(machine.table()))
+        write("ratios", made, how=ratios.HOW)
         write("heyoka_settings", ratios.heyoka_settings(found, times, amount["rounds"]))
 
 
@@ -31,7 +31,7 @@ def draw_chart(write, amount):
     """Error against time."""
     found = scenes.from_configuration(amount["starts"])
     with one_core():
-        table = chart.points(found, amount["exponents"], 1)
+        table = chart.points(found, amount["exponents"], amount["few"])
     write("error_against_time", table, chart.draw(table))
 
 
@@ -71,7 +71,8 @@ def main():
         reader.error(f"unknown: {', '.join(sorted(unknown))}")
     into = given.results / "benchmarks"
 
-    def write(name, table, drawing=None, document=None):
+    def write(name, table, drawing=None, how=""):
+        document = machine.document(how)
         table_files.save(table, into / f"{name}.csv", into / f"{name}.md", document)
         if drawing is not None:
             save(drawing, into / name)

@@ -6,6 +6,7 @@ from importlib.metadata import version
 
 import pandas as pd
 
+from impact_damper import table_files
 from impact_damper.provenance import processor
 
 PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "heyoka")
@@ -20,3 +21,10 @@ def table():
         "python": platform.python_version(),
     } | {name: version(name) for name in PACKAGES}
     return pd.DataFrame({"item": rows.keys(), "value": rows.values()})
+
+
+def document(how=""):
+    """What makes the Markdown of a table: made on what, how it was measured, and the numbers."""
+    described = ", ".join(f"{row.item} {row.value}" for row in table().itertuples())
+    made = f"Made by `make benchmark` on: {described}."
+    return lambda shown: "\n\n".join(filter(None, [made, how, table_files.plain(shown)]))

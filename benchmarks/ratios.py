@@ -6,13 +6,18 @@ from benchmarks.accuracy import LIMIT, loosest
 from benchmarks.heyoka_runs import BATCH, SETTINGS
 from benchmarks.methods import METHODS, heyoka, starts_of
 from benchmarks.timing import interleaved, spread
-from impact_damper import table_files
 
 # Against whom each way of using the kernel is set.
 RIVALS = {
     "kernel": ("heyoka", "dop853_events"),
     "kernel_ensemble": ("heyoka", "heyoka_batch", "dop853_events"),
 }
+HOW = (
+    "Each method at the loosest tolerance that keeps the error of the state at the end "
+    f"below {LIMIT:g} (`times.md`), against 80-bit arithmetic. Methods take turns on one "
+    "core; medians and quartiles over rounds of the ratio of times a trajectory. heyoka.py "
+    "at its fastest settings (`heyoka_settings.md`), SciPy with a compiled right-hand side."
+)
 TIMED = ("kernel", "kernel_ensemble", "heyoka", "heyoka_batch", "dop853_events")
 
 
@@ -105,23 +110,6 @@ def compared(scenes, rounds, limit=LIMIT, timed=TIMED):
             if name in timed and rival in timed
         ]
     return pd.DataFrame(times), pd.DataFrame(ratios)
-
-
-def document(machine):
-    """What makes the Markdown of the table of ratios: how it was measured, and on what."""
-
-    def made(ratios):
-        described = ", ".join(f"{row.item} {row.value}" for row in machine.itertuples())
-        how = (
-            "Each method at the loosest tolerance that keeps the error of the state at the end "
-            f"below {LIMIT:g} (`times.md`), against 80-bit arithmetic. Methods take turns on one "
-            "core; medians and quartiles over rounds of the ratio of times a trajectory. heyoka.py "
-            "at its fastest settings (`heyoka_settings.md`), SciPy with a compiled right-hand side."
-        )
-        table = table_files.plain(ratios)
-        return "\n\n".join([f"Made by `make benchmark` on: {described}.", how, table])
-
-    return made
 
 
 def heyoka_settings(scenes, times, rounds):

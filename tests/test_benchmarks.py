@@ -69,7 +69,7 @@ def test_ratios_are_of_times_in_the_same_run(short):
     assert (times["least_us"] <= times["median_us"]).all()
     (row,) = made.itertuples()
     assert row.lower_quartile <= row.times_faster <= row.upper_quartile
-    text = ratios.document(machine.table())(made.astype(str))
+    text = machine.document(ratios.HOW)(made.astype(str))
     assert "numba" in text and METHODS["heyoka"].title in text
 
 

@@ -125,13 +125,18 @@ def name_of(orders):
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Steps over forcing periods from a state at t, as rows (`ROWS`), and the state at the end."""
+    """Steps over forcing periods from a state at t, as rows (`ROWS`), and the state at the end.
+
+    The state is NaN where steps become too short to get on.
+    """
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * math.pi / p[0], []
     while t < end:
-        rows = np.empty((ROWS, SERIES + max(orders) + 1))
+        rows, before = np.empty((ROWS, SERIES + max(orders) + 1)), t
         count, t, side = take_steps(steps_of(orders), p, y, side, t, end, tolerance, *orders, rows)
         parts.append(rows[:count])
+        if t == before:
+            y[:], t = np.nan, end
     return np.concatenate(parts), y
 
 
