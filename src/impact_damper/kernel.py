@@ -11,7 +11,7 @@ from impact_damper.accelerate import LINE, aligned, kernel, pointer, within
 
 _ONE = widths.instance(1)
 kept_series = _ONE.kept_series
-STEPS = widths.steps(1)
+STEPS = widths.steps(_ONE)
 flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 # Where the tangents' numbers begin in a workspace: at a cache line.
@@ -50,9 +50,9 @@ def polynomial(c, order, t):
     return value, slope
 
 
-@kernel
-def load(p, y, tangents, side, tolerance, a, d):
-    """Put a trajectory and its tangents into the workspace."""
+@within
+def place(p, y, side, tolerance, a):
+    """Put a trajectory into a workspace, whose first rows are the same for series of any orders."""
     for i in range(7):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -60,6 +60,12 @@ def load(p, y, tangents, side, tolerance, a, d):
     a[SIDE] = side
     a[TOLERANCE] = tolerance
     a[KNOWN] = np.inf
+
+
+@kernel
+def load(p, y, tangents, side, tolerance, a, d):
+    """Put a trajectory and its tangents into the workspace."""
+    place(p, y, side, tolerance, a)
     kept_series(a)
     if len(tangents) > 0:
         for i in range(COLUMNS):

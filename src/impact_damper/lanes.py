@@ -18,7 +18,7 @@ RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = widths.instance(LANES)
-STEPS = widths.steps(LANES)
+STEPS = widths.steps(_MANY)
 flight_step, contact_step, flight_tangents, contact_tangents = STEPS
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # The numbers of a trajectory in a pool are the first rows of a step, in their order.

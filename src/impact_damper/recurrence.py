@@ -35,7 +35,7 @@ def motion(order, phase, kept):
     for k in range(order - 1):
         yield from kept(k)
         if k > 0 and k % 2 == 0:
-            yield from _squares(k // 2)
+            yield from _lower_squares(k // 2)
         drive = f"e{k} * {'sine' if k % 2 else 'cosine'}"
         if k > 1:
             yield from _without_damping(k, drive)
@@ -64,7 +64,7 @@ def squares(count):
         yield f"u{k} = {' + '.join([*middle, *doubled])}"
 
 
-def _squares(n):
+def _lower_squares(n):
     """Lines that take x[n] into the squares: s[2n], and before it pairs from s[n] or s[n-1] on."""
     yield f"y{n} = 2.0 * x{n}"
     for j in range(n - n % 2, 2 * n, 2):

@@ -20,11 +20,10 @@ from impact_damper.rigid import MOST_IMPACTS, rebound, rigid_map
 from impact_damper.rivals import scipy_methods
 from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
-from impact_damper.series_runs import FLIGHT, MEETING, Run, steps_work, stopped
+from impact_damper.series_runs import FLIGHT, MEETING, Run, root, steps_work, stopped
 from impact_damper.work import operations
 
 MOST_ENDS = 400_000
-HALVINGS = 54
 SIZE = 4
 # Operations, beside those of the rate, for each evaluation. A stage of DOP853 adds on average 6
 # products to each of the 4 components, and a twelfth of its 12 new values and 2 estimates 4 more.
@@ -128,7 +127,7 @@ def beginnings(p, times, ends):
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
     penetration = quintics(p, times, ends, 2, steps) * np.sign(place[steps + 1])
     penetration[0] -= p[3]
-    began = times[steps] + np.diff(times)[steps] * root(penetration)
+    began = times[steps] + np.diff(times)[steps] * root(penetration, 0.0, 1.0)
     return np.where(gap[steps + 1] == 0, times[steps + 1], began)
 
 
@@ -136,7 +135,7 @@ def turning_points(p, times, ends):
     """When Z1' vanishes, and |Z1| there; the first and the last state are added."""
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = quintics(p, times, ends, 0, steps)
-    share = root(polyder(course))
+    share = root(polyder(course), 0.0, 1.0)
     at = times[steps] + np.diff(times)[steps] * share
     peaks = np.abs(polyval(share, course, tensor=False))
     return (
@@ -159,15 +158,3 @@ def quintics(p, times, ends, index, steps):
     bend = h**2 / 2 * right[:, index + 1] - first[2]
     last = [10 * rest - 4 * speed + bend, -15 * rest + 7 * speed - 2 * bend]
     return np.array([*first, *last, 6 * rest - 3 * speed + bend])
-
-
-def root(coefficients):
-    """A root in [0, 1] of each polynomial (columns), whose signs at 0 and 1 differ."""
-    low = np.zeros(coefficients.shape[1])
-    high = np.ones_like(low)
-    sign = np.sign(coefficients[0])
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        before = polyval(middle, coefficients, tensor=False) * sign > 0
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return low

@@ -17,15 +17,14 @@ from impact_damper.accelerate import aligned, kernel, pointer
 from impact_damper.addresses import by_address, call_at
 from impact_damper.kernel import (
     COLUMNS,
-    KNOWN,
     LENGTH,
     LONGEST,
-    PARAMETERS,
     SIDE,
     STATE,
     TIME,
-    TOLERANCE,
     X,
+    assign,
+    place,
     side_of,
 )
 from impact_damper.widths import CONTACT_ORDER, FLIGHT_ORDER, instance, steps
@@ -84,13 +83,7 @@ def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order,
     """
     work = aligned(made[3])
     a, count = pointer(work), 0
-    for i in range(7):
-        a[PARAMETERS + i] = p[i]
-    for i in range(4):
-        a[STATE + i] = y[i]
-    a[SIDE] = side
-    a[TOLERANCE] = tolerance
-    a[KNOWN] = np.inf
+    place(p, y, side, tolerance, a)
     call_at(made[2], a)
     while t < end and count < len(rows):
         before = a[SIDE]
@@ -105,8 +98,7 @@ def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order,
             row[SERIES + k] = a[X + k] if k <= order else 0.0
         t = end if length >= end - t else t + length
         count += 1
-    for i in range(4):
-        y[i] = a[STATE + i]
+    assign(y, work[STATE:])
     return count, t, np.int64(a[SIDE])
 
 
@@ -114,7 +106,7 @@ def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order,
 def steps_of(orders):
     """What `take_steps` takes of the steps with series of these orders."""
     module = instance(1, *orders)
-    flight, contact, _, _ = steps(1) if orders == ORDERS else steps(1, *orders)
+    flight, contact, _, _ = steps(module)
     called = flight, contact, by_address(module.kept_series)
     return np.array([*(each.compile() for each in called), module.SIZE])
 
@@ -163,15 +155,20 @@ def turning_points(rows):
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
     part, step = np.nonzero(speeds[:-1] * speeds[1:] < 0)
-    low, high = edges[part, step], edges[part + 1, step]
-    rising = speeds[part, step] > 0
+    within = root(slopes[:, step], edges[part, step], edges[part + 1, step])
+    times = rows[step, 0] + within
+    order = np.argsort(times, kind="stable")
+    return times[order], np.abs(polyval(within, c[:, step], tensor=False))[order]
+
+
+def root(coefficients, low, high):
+    """A root between low and high of each polynomial (columns), whose signs there differ."""
+    sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        before = (polyval(middle, slopes[:, step], tensor=False) > 0) == rising
+        before = polyval(middle, coefficients, tensor=False) * sign > 0
         low, high = np.where(before, middle, low), np.where(before, high, middle)
-    times = rows[step, 0] + low
-    order = np.argsort(times, kind="stable")
-    return times[order], np.abs(polyval(low, c[:, step], tensor=False))[order]
+    return low
 
 
 def counted(rows):

@@ -16,7 +16,6 @@ FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
 
 
-@cache
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     """The functions of the templates for a number of lanes and the orders of the series.
 
@@ -24,6 +23,8 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     by the digest of all sources.
     """
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
+    if name in sys.modules:
+        return sys.modules[name]
     path = CACHE_DIRECTORY / f"{name}.py"
     if not path.exists():
         part = path.with_name(f"{path.name}.part-{os.getpid()}")
@@ -37,9 +38,8 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
 
 
 @cache
-def steps(lanes, *orders):
-    """The steps in flight and in contact, and those of their tangents, to be called by address."""
-    made = instance(lanes, *orders)
+def steps(made):
+    """Steps of an instance in flight, in contact and of their tangents, to be called by address."""
     each = made.flight_step, made.contact_step, made.flight_tangents, made.contact_tangents
     return list(map(by_address, each))
 
