@@ -25,7 +25,7 @@ test: $(READY)
 # Two runs, on one core and two, are compared; the whole paper with CONFIG= and nothing after it.
 CONFIG ?= config/smoke.yaml
 same-bytes: $(READY)
-	PYTHONPATH=tests $(BIN)/python -m same_bytes $(CONFIG)
+	PYTHONPATH=tests $(BIN)/python -m helpers.same_bytes $(CONFIG)
 
 # Into results/benchmarks/; the tests hold the reference.
 benchmark: $(READY)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from benchmarks import chart, costs, machine, overhead, ratios, scaling, scenes, stages, startup
 from benchmarks.timing import one_core
-from impact_damper import table_files
+from impact_damper.data import table_files
 from impact_damper.figures.style import save
 
 # How much of everything: in full, and to see that all of it runs.

@@ -9,10 +9,10 @@ from benchmarks.methods import METHODS
 from benchmarks.scenes import Scene
 from benchmarks.timing import interleaved
 from impact_damper.figures.style import curve, figure, legend, letter_panels, points, style
-from impact_damper.kernel import advance, side_of, workspace
-from impact_damper.motions import random_states
-from impact_damper.parameters import Damper, Oscillator, pack
-from impact_damper.recording import measured
+from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.motions.records import measured
+from impact_damper.motions.simulate import random_states
+from impact_damper.system.parameters import Damper, Oscillator, pack
 
 OSCILLATOR = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)

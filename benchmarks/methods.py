@@ -7,10 +7,10 @@ import numpy as np
 
 from benchmarks import scipy_runs
 from benchmarks.heyoka_runs import BATCH, Motions
-from impact_damper import lanes
-from impact_damper.kernel import advance, workspace
+from impact_damper.kernel import batch
+from impact_damper.kernel.single import advance, workspace
 from impact_damper.rivals.merson import run_merson
-from impact_damper.series_runs import ROWS, SERIES, steps_of, take_steps
+from impact_damper.rivals.taylor_runs import ROWS, SERIES, steps_of, take_steps
 
 NO_TANGENTS = np.empty((0, 4))
 
@@ -69,7 +69,7 @@ def advance_rows(scene, states, tolerance):
     rows = np.tile(scene.parameters, (count, 1))
     sides, contacts = np.zeros((2, count), int)
     times = (np.full(count, time) for time in (scene.begin, scene.end))
-    lanes.advance(rows, states, sides, *times, tolerance, contacts)
+    batch.advance(rows, states, sides, *times, tolerance, contacts)
 
 
 def ensemble(scene, tolerance):

@@ -11,7 +11,7 @@ from pathlib import Path
 import pandas as pd
 
 from benchmarks import stages
-from impact_damper import warm
+from impact_damper.workflow import job_server
 
 REPEATS = 10
 # What Snakemake puts before a script, as far as it takes time, and an empty script.
@@ -21,7 +21,7 @@ from types import SimpleNamespace
 from snakemake.iocontainers import Snakemake
 from snakemake.logging import logger
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(SimpleNamespace(log=[__file__ + ".log"], input={}))
 """
@@ -66,7 +66,7 @@ def table(text, timings):
 
 def start_up_of_a_job():
     """Seconds from the start of a job until its script begins, with modules and kernels loaded."""
-    handing_over = warm.start()
+    handing_over = job_server.start()
     while handing_over and not Path(handing_over[-1]).exists():
         time.sleep(0.1)
     with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:

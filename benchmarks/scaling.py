@@ -10,9 +10,9 @@ import pandas as pd
 
 from benchmarks.methods import METHODS, advance_rows
 from benchmarks.timing import interleaved, spread
-from impact_damper.ensemble import run_chunks
-from impact_damper.motions import random_states
-from impact_damper.parameters import Damper
+from impact_damper.motions.ensemble import run_chunks
+from impact_damper.motions.simulate import random_states
+from impact_damper.system.parameters import Damper
 
 TOLERANCE = 1e-9
 RADIUS = 2.0

@@ -4,11 +4,11 @@ import math
 from pathlib import Path
 from typing import NamedTuple
 
-import extended
 import numpy as np
 import yaml
+from references import extended
 
-from impact_damper.parameters import Damper, Oscillator, pack
+from impact_damper.system.parameters import Damper, Oscillator, pack
 
 CONFIGURATION = Path(__file__).parents[1] / "config" / "config.yaml"
 # Starts are drawn within this of the scene's state, in each component.

@@ -12,7 +12,7 @@ FIRST = (
     "import impact_damper as idm;"
     "idm.simulate(idm.Oscillator(0.215), idm.Damper(0.12, 2.0), 2.0, (1, 0.5, 0, 0), periods=50)"
 )
-ALL = "from impact_damper.warmup import warm_up; warm_up()"
+ALL = "from impact_damper.workflow.compile_kernels import warm_up; warm_up()"
 IMPORTS = ("numpy", "numba", "xarray", "scipy.integrate", "matplotlib.figure", "impact_damper")
 
 

@@ -8,22 +8,22 @@ when they are first used.
 from importlib import import_module
 
 _HOMES = {
-    "Oscillator": "parameters",
-    "Damper": "parameters",
-    "Settling": "ensemble",
-    "simulate": "motions",
-    "steady_motion": "motions",
-    "frequency_response": "response",
-    "harmonic_balance_response": "design",
-    "suppression_band": "design",
-    "optimum_clearance": "design",
-    "clearance_sweep": "optimum",
-    "subharmonic_suppression": "subharmonic",
-    "migrate": "migration",
-    "periodic_orbit": "periodic",
-    "orbit_branch": "periodic",
-    "complete_branches": "periodic",
-    "harmonic_convergence": "harmonics",
+    "Oscillator": "system.parameters",
+    "Damper": "system.parameters",
+    "Settling": "motions.ensemble",
+    "simulate": "motions.simulate",
+    "steady_motion": "motions.simulate",
+    "frequency_response": "stages.response",
+    "harmonic_balance_response": "stages.harmonic_balance",
+    "suppression_band": "stages.harmonic_balance",
+    "optimum_clearance": "stages.harmonic_balance",
+    "clearance_sweep": "stages.optimum",
+    "subharmonic_suppression": "stages.subharmonic",
+    "migrate": "stages.migration",
+    "periodic_orbit": "stages.branches",
+    "orbit_branch": "stages.branches",
+    "complete_branches": "stages.branches",
+    "harmonic_convergence": "stages.harmonic_convergence",
 }
 
 __all__ = list(_HOMES)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from impact_damper import table_files
+from impact_damper.data import table_files
 
 from . import damages, disks, kills, times
 from .disks import CannotMount

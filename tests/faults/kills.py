@@ -40,7 +40,7 @@ def wait_for_end_of_orphans(folder):
 def _within(folder, process):
     line = " ".join(process.info["cmdline"] or [])
     try:
-        warm = "impact_damper.warm" in line and process.cwd() == str(folder)
+        warm = "impact_damper.workflow.job_server" in line and process.cwd() == str(folder)
     except psutil.Error:
         return False
     return warm or f"{folder}/.snakemake/scripts" in line

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from impact_damper.datasets import dataset
+from impact_damper.data.datasets import dataset
+from impact_damper.data.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
 from impact_damper.figures.balance_map import HIGH, QUIET, draw_balance_map
 from impact_damper.figures.style import style
-from impact_damper.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from impact_damper.datasets import dataset
+from impact_damper.data.datasets import dataset
 from impact_damper.figures.branches import branch_lines, lines
 
 

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from impact_damper.datasets import dataset, flag
-from impact_damper.figures.design import draw_design
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, OUTCOME
 from impact_damper.figures.free import draw_free
+from impact_damper.figures.harmonic_balance import draw_design
 from impact_damper.figures.migration import draw_migration, draw_release
 from impact_damper.figures.motion import draw_motion
 from impact_damper.figures.optimum import draw_optimum
 from impact_damper.figures.orbits import draw_branches
 from impact_damper.figures.response import draw_response
 from impact_damper.figures.style import ROLES, style
-from impact_damper.variables.variable import DAMPED_MOTION, FREE_MOTION, OUTCOME
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -5,10 +5,10 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import PathPatch
 
-from impact_damper.datasets import dataset
+from impact_damper.data.datasets import dataset
+from impact_damper.data.variables.studies import AXES, OUTCOMES
 from impact_damper.figures.studies import draw_studies
 from impact_damper.figures.style import style
-from impact_damper.variables.studies import AXES, OUTCOMES
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -9,7 +9,8 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 from matplotlib.mathtext import MathTextParser
 
-from impact_damper.datasets import variable
+from impact_damper.data.datasets import variable
+from impact_damper.data.variables import VARIABLES
 from impact_damper.figures.style import (
     COLUMNS,
     ROLES,
@@ -21,7 +22,6 @@ from impact_damper.figures.style import (
     style,
     tex,
 )
-from impact_damper.variables import VARIABLES
 
 
 @pytest.mark.parametrize(

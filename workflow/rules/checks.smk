@@ -3,7 +3,7 @@
 import time
 from contextlib import suppress
 
-from impact_damper.whole_files import check_length
+from impact_damper.data.whole_files import check_length
 
 # Seconds by which clocks of machines that share a disk may differ.
 SKEW = 10

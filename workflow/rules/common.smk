@@ -13,16 +13,16 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from impact_damper.configuration import (
+from impact_damper.workflow.configuration import (
     ConfigurationError,
     check_configuration,
     check_file,
     read_schemas,
     without_left_out,
 )
-from impact_damper.contradictions import SECTIONS
-from impact_damper.variables.studies import AXES
-from impact_damper.warm import start as start_warm_process
+from impact_damper.workflow.contradictions import SECTIONS
+from impact_damper.data.variables.studies import AXES
+from impact_damper.workflow.job_server import start as start_warm_process
 
 # To plan makes many small objects that are all kept: to look for garbage among them takes a
 # fifteenth of the time of a dry run.
@@ -148,7 +148,7 @@ def code(script, *others):
 
 def write_provenance():
     """Write down what the results were made with; this alone may differ from run to run."""
-    from impact_damper.provenance import provenance
+    from impact_damper.workflow.provenance import provenance
 
     path = Path(config["results"]) / "provenance.json"
     part = path.with_name(f"{path.name}.part-{os.getpid()}")

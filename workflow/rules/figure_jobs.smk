@@ -65,7 +65,13 @@ def said(kind, name):
 def figure_module(wildcards):
     """Full name of the module that draws a figure; it is called as the kind, but for two."""
     kind = figure_kind(wildcards)
-    others = {"release": "migration", "branches": "orbits"}
+    others = {
+        "release": "migration",
+        "branches": "orbits",
+        "design": "harmonic_balance",
+        "harmonics": "harmonic_convergence",
+        "verdicts": "method_verdicts",
+    }
     return f"impact_damper.figures.{others.get(kind, kind)}"
 
 

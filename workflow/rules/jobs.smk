@@ -68,19 +68,19 @@ TABLES = {
 
 # Module of the package that makes a table, where it is not `tables`.
 TABLE_MODULES = {
-    "orbits": "orbit_tables",
-    "bifurcations": "orbit_tables",
-    "contact_model": "contact_tables",
-    "contact_motions": "contact_tables",
-    "rigid_limit": "contact_tables",
-    "design_rules": "rule_tables",
-    "harmonics": "harmonics_table",
-    "grazing": "integrator_tables",
-    "steps": "integrator_tables",
-    "verdicts": "integrator_tables",
-    "balance_map": "balance_map_table",
-    "models": "accuracy_tables",
-    "readings": "accuracy_tables",
+    "orbits": "orbits",
+    "bifurcations": "orbits",
+    "contact_model": "contact",
+    "contact_motions": "contact",
+    "rigid_limit": "contact",
+    "design_rules": "design_rules",
+    "harmonics": "harmonics",
+    "grazing": "integrators",
+    "steps": "integrators",
+    "verdicts": "integrators",
+    "balance_map": "balance_map",
+    "models": "accuracy",
+    "readings": "accuracy",
 }
 
 
@@ -239,7 +239,7 @@ def release_scan_job(name):
 
 def table_module(wildcards):
     """Full name of the module that makes a table."""
-    return f"impact_damper.{TABLE_MODULES.get(wildcards.table, 'tables')}"
+    return f"impact_damper.tables.{TABLE_MODULES.get(wildcards.table, 'paper')}"
 
 
 def table_code(wildcards):

@@ -1,6 +1,6 @@
 """Captions of all figures, from the templates that the report uses too."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import jinja2
 
-from impact_damper.whole_files import whole
+from impact_damper.data.whole_files import whole
 
 for template, figure, output in zip(
     snakemake.input.templates, snakemake.params, snakemake.output, strict=True

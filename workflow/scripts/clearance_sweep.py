@@ -1,6 +1,6 @@
 """Largest displacement against clearance, and its optimum (figures 6, 7 and 11)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,10 +8,10 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.ensemble import Settling
-from impact_damper.optimum import clearance_sweep
-from impact_damper.parameters import Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.motions.ensemble import Settling
+from impact_damper.stages.optimum import clearance_sweep
+from impact_damper.system.parameters import Oscillator
 
 job = ChainMap(*snakemake.params)
 sweep = clearance_sweep(

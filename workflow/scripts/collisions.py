@@ -1,14 +1,14 @@
 """Whether random starts in the literal ball lead to collisions (section 3, claim 8)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
 from collections import ChainMap
 
-from impact_damper.datasets import save
-from impact_damper.parameters import Damper, Oscillator
-from impact_damper.response import collisions
+from impact_damper.data.datasets import save
+from impact_damper.stages.response import collisions
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 shares = collisions(

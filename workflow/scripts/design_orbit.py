@@ -1,16 +1,16 @@
 """The true quiet orbit at the peak frequency, followed in damping (figure 3)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
 from collections import ChainMap
 
-from impact_damper.datasets import save
-from impact_damper.design import optimum_clearance
-from impact_damper.design_orbit import design_orbit
-from impact_damper.ensemble import Settling
-from impact_damper.parameters import Damper, Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.motions.ensemble import Settling
+from impact_damper.stages.design_orbit import design_orbit
+from impact_damper.stages.harmonic_balance import optimum_clearance
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])

@@ -1,6 +1,6 @@
 """Schematics: figures 1, 9, 12, 17 and B1."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 

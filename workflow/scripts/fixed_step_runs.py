@@ -1,6 +1,6 @@
 """What becomes of the quiet motion with fixed steps, over stiffness and step."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,9 +8,9 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.parameters import Damper, Oscillator
-from impact_damper.stable_steps import stable_steps
+from impact_damper.data.datasets import save
+from impact_damper.stages.stable_steps import stable_steps
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 stiffnesses, scaled = job["stiffnesses"], job["scaled_steps"]

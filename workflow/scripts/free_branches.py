@@ -1,14 +1,14 @@
 """Every branch of periodic orbits without a damper, stable or not (figure 2)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
 from collections import ChainMap
 
-from impact_damper.datasets import load, save
-from impact_damper.parameters import Oscillator
-from impact_damper.periodic import complete_branches
+from impact_damper.data.datasets import load, save
+from impact_damper.stages.branches import complete_branches
+from impact_damper.system.parameters import Oscillator
 
 job = ChainMap(*snakemake.params)
 branches = complete_branches(

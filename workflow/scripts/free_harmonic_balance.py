@@ -1,6 +1,6 @@
 """Free response by harmonic balance, stable and unstable (figures 2, 5, 8 and 10)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,9 +8,9 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.design import harmonic_balance_response
-from impact_damper.parameters import Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.stages.harmonic_balance import harmonic_balance_response
+from impact_damper.system.parameters import Oscillator
 
 job = ChainMap(*snakemake.params)
 response = harmonic_balance_response(

@@ -1,6 +1,6 @@
 """Simulated motions with the damper over frequency (figures 5, 8 and 10)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,10 +8,10 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.ensemble import Settling
-from impact_damper.parameters import Damper, Oscillator
-from impact_damper.response import frequency_response
+from impact_damper.data.datasets import save
+from impact_damper.motions.ensemble import Settling
+from impact_damper.stages.response import frequency_response
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 response = frequency_response(

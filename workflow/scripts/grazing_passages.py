@@ -1,6 +1,6 @@
 """Contacts near grazing that integrators miss, counted over random passages."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,9 +8,9 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.missed_contacts import missed_contacts
-from impact_damper.parameters import Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.stages.missed_contacts import missed_contacts
+from impact_damper.system.parameters import Oscillator
 
 job = ChainMap(*snakemake.params)
 depths, tolerances, steps = job["depths"], job["tolerances"], job["steps"]

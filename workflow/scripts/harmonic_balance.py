@@ -1,6 +1,6 @@
 """Harmonic-balance response and suppression band of a damper (section 2, figures 3, 5 and 8)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -9,9 +9,13 @@ from collections import ChainMap
 import numpy as np
 import xarray as xr
 
-from impact_damper.datasets import save
-from impact_damper.design import harmonic_balance_response, optimum_clearance, suppression_band
-from impact_damper.parameters import Damper, Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.stages.harmonic_balance import (
+    harmonic_balance_response,
+    optimum_clearance,
+    suppression_band,
+)
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])

@@ -1,6 +1,6 @@
 """Where harmonic balance fails, over frequency and another parameter."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,9 +8,9 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.balance_map import balance_map
-from impact_damper.datasets import save
-from impact_damper.ensemble import Settling
+from impact_damper.data.datasets import save
+from impact_damper.motions.ensemble import Settling
+from impact_damper.stages.balance_map import balance_map
 
 job = ChainMap(*snakemake.params)
 found = balance_map(

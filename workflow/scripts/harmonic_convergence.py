@@ -1,14 +1,14 @@
 """Harmonic balance with many harmonics against the exact orbit."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
 from collections import ChainMap
 
-from impact_damper.datasets import save
-from impact_damper.harmonics import harmonic_convergence, ladder
-from impact_damper.parameters import Damper, Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.stages.harmonic_convergence import harmonic_convergence, ladder
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 harmonics = ladder(job["highest"])

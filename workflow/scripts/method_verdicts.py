@@ -1,6 +1,6 @@
 """Verdicts of integrators by tolerance, against the truth."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,9 +8,9 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.parameters import Damper, Oscillator
-from impact_damper.verdicts import make_scene, verdicts
+from impact_damper.data.datasets import save
+from impact_damper.stages.method_verdicts import make_scene, verdicts
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 oscillator = Oscillator(**job["oscillator"])

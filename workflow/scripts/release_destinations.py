@@ -1,6 +1,6 @@
 """Where releases of the damper lead over frequency (section 5, figure 14)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,10 +8,10 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.ensemble import Settling
-from impact_damper.parameters import Damper, Oscillator
-from impact_damper.release_scan import release_scan
+from impact_damper.data.datasets import save
+from impact_damper.motions.ensemble import Settling
+from impact_damper.stages.release_scan import release_scan
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 scan = release_scan(

@@ -1,6 +1,6 @@
 """Errors of methods against counted work, on one scene."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,9 +8,9 @@ import json
 from collections import ChainMap
 from pathlib import Path
 
-from impact_damper.accuracy import Scene, error_against_work
-from impact_damper.datasets import save
-from impact_damper.parameters import Damper, Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.stages.accuracy import Scene, error_against_work
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = dict(ChainMap(*snakemake.params))
 settings, damper = job.pop("settings"), job.pop("damper")

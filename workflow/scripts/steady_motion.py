@@ -1,15 +1,15 @@
 """A steady motion over its period (figure 4)."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
 from collections import ChainMap
 
-from impact_damper.datasets import save
-from impact_damper.ensemble import Settling
-from impact_damper.motions import steady_orbit
-from impact_damper.parameters import Damper, Oscillator
+from impact_damper.data.datasets import save
+from impact_damper.motions.ensemble import Settling
+from impact_damper.motions.simulate import steady_orbit
+from impact_damper.system.parameters import Damper, Oscillator
 
 job = ChainMap(*snakemake.params)
 motion = steady_orbit(

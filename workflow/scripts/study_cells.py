@@ -1,6 +1,6 @@
 """A chunk of a study over mass ratio, clearance, frequency and restitution."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
@@ -8,10 +8,10 @@ from collections import ChainMap
 
 import numpy as np
 
-from impact_damper.datasets import save
-from impact_damper.ensemble import Settling
-from impact_damper.parameters import Oscillator
-from impact_damper.studies import study_chunk
+from impact_damper.data.datasets import save
+from impact_damper.motions.ensemble import Settling
+from impact_damper.stages.studies import study_chunk
+from impact_damper.system.parameters import Oscillator
 
 job = ChainMap(*snakemake.params)
 chunk = study_chunk(

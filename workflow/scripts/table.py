@@ -1,14 +1,14 @@
 """Every table but that of the claims: the function of its name, in the module that makes it."""
 
-from impact_damper.job import begin
+from impact_damper.workflow.job import begin
 
 begin(snakemake)
 
 from importlib import import_module
 from pathlib import Path
 
-from impact_damper.datasets import load
-from impact_damper.table_files import save
+from impact_damper.data.datasets import load
+from impact_damper.data.table_files import save
 
 datasets = {
     stage: {Path(path).stem: load(path) for path in paths}

@@ -6,7 +6,7 @@ import pandas as pd
 from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
 from impact_damper.claims.suppression import suppression_band
-from impact_damper.datasets import flag, is_settled
+from impact_damper.data.datasets import flag, is_settled
 
 NEAR = 0.1
 

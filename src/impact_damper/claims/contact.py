@@ -4,7 +4,7 @@ import math
 
 from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
-from impact_damper.contact_law import damping_ratio
+from impact_damper.contact.contact_law import damping_ratio
 
 LOW = 0.3
 

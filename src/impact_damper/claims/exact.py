@@ -5,7 +5,7 @@ import pandas as pd
 
 from impact_damper.claims import extract
 from impact_damper.claims.claim import Missing
-from impact_damper.datasets import flag
+from impact_damper.data.datasets import flag
 
 SYMMETRIC = 1e-6
 HALF = 0.5  # an orbit is high if it exceeds this share of the free resonance branch

@@ -3,8 +3,8 @@
 import numpy as np
 
 from impact_damper.claims.claim import Missing
-from impact_damper.datasets import flag, parameters_of
-from impact_damper.variables import VARIABLES
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.variables import VARIABLES
 
 # Curves of the configuration: by omega_l upward, with the clearance of the caption and of (19);
 # by mass ratio; all elastic ones that are simulated; the inelastic twin of BY_MASS[1].

@@ -4,7 +4,7 @@ import numpy as np
 
 from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
-from impact_damper.datasets import flag
+from impact_damper.data.datasets import flag
 
 
 def lead(case, kind, free_motion):

@@ -14,7 +14,7 @@ from impact_damper.claims import (
     subharmonic,
 )
 from impact_damper.claims.claim import VERDICTS
-from impact_damper.table_files import plain
+from impact_damper.data.table_files import plain
 
 MODULES = (balance, bands, contact, migration, motions, optimum, phases, slips, subharmonic)
 CLAIMS = tuple(

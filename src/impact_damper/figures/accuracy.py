@@ -5,7 +5,8 @@ from itertools import cycle
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from impact_damper.datasets import parameters_of
+from impact_damper.data.datasets import parameters_of
+from impact_damper.data.variables import VARIABLES
 from impact_damper.figures.style import (
     BLACK,
     BLUE,
@@ -21,7 +22,6 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.variables import VARIABLES
 
 # Colour by family, marker and line by what is done at contacts.
 ROLES = {

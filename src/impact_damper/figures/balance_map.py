@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from impact_damper.datasets import flag, parameters_of
+from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.figures.maps import hatch as hatch_cells
 from impact_damper.figures.maps import span
 from impact_damper.figures.style import (

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import FuncFormatter
 
-from impact_damper.datasets import flag
+from impact_damper.data.datasets import flag
 from impact_damper.figures.maps import contours, key, marked, mesh
 from impact_damper.figures.style import (
     BLACK,

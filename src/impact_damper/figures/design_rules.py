@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.datasets import flag, parameters_of
+from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.figures.style import (
     BLACK,
     GREY,

@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from impact_damper.data.shares import missed_share
 from impact_damper.figures.maps import edges
 from impact_damper.figures.style import (
     BLACK,
@@ -14,7 +15,6 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.missed_share import missed_share
 
 NAMES = {
     "taylor": "Taylor series, events",

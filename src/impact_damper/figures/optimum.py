@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.datasets import parameters_of
+from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.style import ROLES, axis_label, curve, figure, legend, points, style
 
 SYMBOLS = {"damping": "h", "frequency": r"\Omega", "restitution": "e", "mass_ratio": "r_m"}

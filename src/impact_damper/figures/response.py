@@ -1,8 +1,8 @@
 """Frequency responses with and without a damper: figures 5, 8 and 10."""
 
-from impact_damper.datasets import flag, is_settled, parameters_of
+from impact_damper.data.datasets import flag, is_settled, parameters_of
 from impact_damper.figures.branches import branch_lines, draw_lines
-from impact_damper.figures.design import draw_balance, draw_band
+from impact_damper.figures.harmonic_balance import draw_balance, draw_band
 from impact_damper.figures.orbits import draw_free_orbits, runs
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 

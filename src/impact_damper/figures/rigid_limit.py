@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from impact_damper.datasets import flag, parameters_of
+from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.figures.maps import contours, key, mesh
 from impact_damper.figures.style import (
     BLACK,

@@ -5,7 +5,8 @@ import math
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
-from impact_damper.datasets import parameters_of
+from impact_damper.data.datasets import parameters_of
+from impact_damper.data.variables import VARIABLES
 from impact_damper.figures.maps import edges, flags
 from impact_damper.figures.style import (
     BLACK,
@@ -21,7 +22,6 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.variables import VARIABLES
 
 NAMES = {
     "heun": "Heun",

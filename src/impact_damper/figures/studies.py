@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from impact_damper.datasets import parameters_of
+from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.maps import hatch, mesh, span
 from impact_damper.figures.style import BLACK, ROLES, axis_label, figure, legend, style
 

@@ -12,7 +12,7 @@ import matplotlib.style
 from cycler import cycler
 from matplotlib.figure import Figure
 
-from impact_damper.whole_files import whole
+from impact_damper.data.whole_files import whole
 
 BLACK, GREY, PALE, WHITE = "#000000", "#6E6E6E", "#E9E9E9", "#FFFFFF"
 ORANGE, SKY, GREEN = "#E69F00", "#56B4E9", "#009E73"

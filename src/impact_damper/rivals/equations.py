@@ -6,7 +6,7 @@ at zero penetration, and the dashpot's force jumps at both ends.
 
 import math
 
-from impact_damper.accelerate import kernel, within
+from impact_damper.kernel.compiling import kernel, within
 
 
 @kernel

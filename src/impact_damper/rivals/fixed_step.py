@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel, within
+from impact_damper.kernel.compiling import kernel, within
 from impact_damper.rivals.equations import largest_within, moved, rate_by_position
 
 METHODS = ("heun", "verlet", "runge_kutta_4", "merson")

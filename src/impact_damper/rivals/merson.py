@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
+from impact_damper.kernel.compiling import kernel
 from impact_damper.rivals.equations import largest_within, moved, rate, wall_at
 from impact_damper.rivals.fixed_step import BEYOND
 

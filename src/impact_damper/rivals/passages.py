@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.accelerate import kernel
-from impact_damper.kernel import X, polynomial, step, workspace
-from impact_damper.widths import FLIGHT_ORDER
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.instances import FLIGHT_ORDER
+from impact_damper.kernel.single import X, polynomial, step, workspace
 
 PIECES = 16
 TOLERANCE = 1e-15

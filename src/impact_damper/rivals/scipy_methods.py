@@ -5,8 +5,8 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from impact_damper.accelerate import kernel
-from impact_damper.kernel import side_of
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.single import side_of
 from impact_damper.rivals.equations import rate, wall_at
 
 METHODS = ("RK45", "DOP853", "LSODA", "Radau")

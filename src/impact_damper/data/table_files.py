@@ -1,0 +1,44 @@
+"""Tables written as CSV and as Markdown."""
+
+import numbers
+
+import numpy as np
+
+from impact_damper.data.whole_files import whole
+
+DIGITS = 6
+
+
+def save(frame, csv_path, markdown_path, document=None) -> None:
+    """Write a table as CSV and as Markdown; each file appears only when it is whole.
+
+    Numbers are rounded to six significant digits; what is not known is left empty.
+    `document` makes the Markdown of the rounded table, `plain` if it is not given.
+    """
+    shown = frame.map(_rounded).astype(object)
+    _write(csv_path, shown.to_csv(index=False, lineterminator="\n"))
+    _write(markdown_path, (document or plain)(shown) + "\n")
+
+
+def plain(frame) -> str:
+    """A table of texts in Markdown."""
+
+    def escaped(value):
+        return str(value).replace("|", r"\|")
+
+    text = frame.map(escaped).rename(columns=escaped)
+    return text.to_markdown(index=False, disable_numparse=True)
+
+
+def _write(path, content):
+    with whole(path) as part:
+        part.write_text(content)
+
+
+def _rounded(value):
+    """A cell as it is written."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, numbers.Integral):
+        return str(value)
+    return "" if value is None or np.isnan(value) else f"{value:.{DIGITS}g}"

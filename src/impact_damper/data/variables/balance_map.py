@@ -1,0 +1,126 @@
+"""Harmonic balance against the true motions, over frequency and another parameter."""
+
+from impact_damper.data.variables.variable import OUTCOME, Variable
+
+CELL = ("map_value", "frequency_ratio")
+ROW_END = ("map_value", "edge")
+BALANCE_VERDICT = {"none": 0, "stable": 1, "unstable": 2, "unresolved": 3}
+RUN_MOTION = {
+    "not_run": -1,
+    "unresolved": 0,
+    "quiet": 1,
+    "other_low": 2,
+    "low_chaotic": 3,
+    "high": 4,
+    "high_chaotic": 5,
+    "no_contact": 6,
+}
+QUIET_VERDICT = {
+    "unresolved": 0,
+    "stable_stable": 1,
+    "stable_unstable": 2,
+    "stable_absent": 3,
+    "unstable_stable": 4,
+    "unstable_unstable": 5,
+    "unstable_absent": 6,
+    "none_stable": 7,
+    "none_unstable": 8,
+    "none_absent": 9,
+}
+HIGH_VERDICT = {
+    "not_run": -1,
+    "unresolved": 0,
+    "stable_near": 1,
+    "stable_far": 2,
+    "stable_chaotic": 3,
+    "stable_low": 4,
+    "stable_no_contact": 5,
+    "none_settled": 6,
+    "none_chaotic": 7,
+    "none_low": 8,
+    "none_no_contact": 9,
+}
+
+VARIABLES = {
+    "map_value": Variable(("map_value",), "parameter that changes from row to row"),
+    "frequency_ratio": Variable(
+        ("frequency_ratio",), "forcing frequency over the peak frequency", "Omega/Omega_p"
+    ),
+    "map_frequency": Variable(CELL, "forcing frequency", "Omega"),
+    "map_clearance": Variable(("map_value",), "clearance of the loose mass", "d0"),
+    "resonance_amplitude": Variable(
+        CELL, "amplitude of the free resonance branch, beyond its end that at its end"
+    ),
+    # the quiet motion
+    "balance_quiet": Variable(
+        CELL, "quiet solution of (7), by its slow flow", flags=BALANCE_VERDICT
+    ),
+    "balance_quiet_amplitude": Variable(CELL, "|a| of the quiet solution of (7)", "|a|"),
+    "balance_quiet_growth": Variable(CELL, "growth rate of the slow flow there, per unit time"),
+    "quiet_orbit": Variable(
+        CELL,
+        "true quiet orbit: stable, or what makes it unstable",
+        flags={
+            "unresolved": -1,
+            "absent": 0,
+            "stable": 1,
+            "fold": 2,
+            "symmetry_breaking": 3,
+            "neimark_sacker": 4,
+        },
+    ),
+    "quiet_orbit_growth": Variable(
+        CELL, "logarithm of its dominant Floquet multiplier, per unit time"
+    ),
+    "quiet_orbit_displacement": Variable(CELL, "its largest displacement", "max |Z1|"),
+    "quiet_orbit_harmonic": Variable(CELL, "amplitude of its first harmonic of Z1"),
+    "quiet_verdict": Variable(
+        CELL, "verdict of harmonic balance on the quiet motion, and the truth", flags=QUIET_VERDICT
+    ),
+    "quiet_end": Variable(ROW_END, "Omega/Omega_p at which the quiet orbits of a row end"),
+    "quiet_end_event": Variable(
+        ROW_END,
+        "what ends them",
+        flags={
+            "map_ends": 0,
+            "fold": 1,
+            "contacts_change": 2,
+            "not_converged": 3,
+            "no_orbit": 4,
+        },
+    ),
+    "straight_flight_end": Variable(
+        ("map_value",), "Omega/Omega_p of the upper end for rigid walls at high frequency"
+    ),
+    # where a start at the quiet solution leads
+    "quiet_run_motion": Variable(
+        CELL, "motion that a start at the quiet solution of (7) leads to", flags=RUN_MOTION
+    ),
+    "quiet_run_exponent": Variable(CELL, "its largest Lyapunov exponent per unit time"),
+    "quiet_run_error": Variable(CELL, "standard error of that exponent"),
+    # the high motion
+    "balance_high": Variable(CELL, "high stable solution of (7)", flags=BALANCE_VERDICT),
+    "balance_high_amplitude": Variable(CELL, "|a| of the high stable solution of (7)", "|a|"),
+    "high_run_motion": Variable(
+        CELL,
+        "motion that a start at the high solution of (7), or else on the free resonance "
+        "branch, leads to",
+        flags=RUN_MOTION,
+    ),
+    "high_run_outcome": Variable(CELL, "what it came to", flags=OUTCOME),
+    "high_run_period": Variable(CELL, "its period in forcing periods", "n"),
+    "high_run_contacts": Variable(CELL, "its contacts begun per forcing period"),
+    "high_run_displacement": Variable(CELL, "its largest displacement", "max |Z1|"),
+    "high_run_exponent": Variable(CELL, "its largest Lyapunov exponent per unit time"),
+    "high_run_error": Variable(CELL, "standard error of that exponent"),
+    "high_long_outcome": Variable(
+        CELL,
+        "what some of the chaotic ones come to within ten times the patience",
+        flags=OUTCOME,
+    ),
+    "high_verdict": Variable(
+        CELL,
+        "whether harmonic balance has a stable high motion, and where a start there leads",
+        flags=HIGH_VERDICT,
+    ),
+}

@@ -1,0 +1,131 @@
+"""Single-term harmonic balance, suppression bands and optimum clearances."""
+
+from impact_damper.data.variables.variable import MINIMUM, STABILITY, Variable
+
+VARIABLES = {
+    # harmonic balance
+    "amplitude": Variable(
+        ("frequency", "solution"), "amplitude of Z1, negative in antiphase to Z2", "a"
+    ),
+    "relative_amplitude": Variable(("frequency", "solution"), "amplitude of Z2", "b"),
+    "phase": Variable(("frequency", "solution"), "phase of Z1 to the forcing", "theta_1", "radian"),
+    "kind": Variable(
+        ("frequency", "solution"),
+        "whether the loose mass touches the walls",
+        flags={"absent": 0, "impacting": 1, "resting": 2},
+    ),
+    "growth_rate": Variable(
+        ("frequency", "solution"), "largest real part of the eigenvalues of the slow flow"
+    ),
+    "stability": Variable(("frequency", "solution"), "stability by the slow flow", flags=STABILITY),
+    "solution_count": Variable(("frequency",), "solutions of the harmonic balance"),
+    "balance_status": Variable(
+        ("frequency",),
+        "how the solution of the harmonic balance ended",
+        flags={"solved": 0, "unresolved": 1},
+    ),
+    "free_amplitude": Variable(
+        ("frequency", "free_solution"), "amplitude of Z1 without the damper", "a"
+    ),
+    "free_phase": Variable(
+        ("frequency", "free_solution"),
+        "phase of Z1 to the forcing without the damper",
+        "theta_1",
+        "radian",
+    ),
+    "free_stability": Variable(
+        ("frequency", "free_solution"),
+        "stability by the slow flow without the damper",
+        flags=STABILITY,
+    ),
+    "free_count": Variable(("frequency",), "solutions of the harmonic balance without the damper"),
+    "rigid_tangent": Variable(("frequency", "root"), "root of the polynomial (14)", "D"),
+    "rigid_amplitude": Variable(
+        ("frequency", "root"), "amplitude of Z1 for rigid walls, negative in antiphase", "a"
+    ),
+    "rigid_phase": Variable(
+        ("frequency", "root"), "phase of Z1 to the forcing for rigid walls", "theta_1", "radian"
+    ),
+    "rigid_wall": Variable(
+        ("frequency", "root"),
+        "whether rigid walls push or would have to pull",
+        flags={"absent": 0, "pushes": 1, "pulls": 2},
+    ),
+    "rigid_residual": Variable(("frequency", "root"), "residual of (13)"),
+    "rigid_count": Variable(("frequency",), "real roots of the polynomial (14)"),
+    # suppression band
+    "peak_frequency": Variable((), "peak frequency without the damper", "Omega_p"),
+    "peak_amplitude": Variable((), "amplitude of Z1 without the damper at the peak frequency"),
+    "quiet_amplitude": Variable((), "amplitude |a| of the quiet motion at the peak frequency"),
+    "reduction": Variable((), "1 - |a|/(amplitude without the damper) at the peak frequency"),
+    "band_status": Variable(
+        (),
+        "whether there is a suppression band at the peak frequency",
+        flags={"found": 0, "no_single_motion": 1, "no_reduction": 2},
+    ),
+    "edge": Variable(("edge",), "lower or upper end of a range"),
+    "edge_frequency": Variable(("edge",), "edge of the suppression band"),
+    "edge_reduction": Variable(
+        ("edge",), "1 - |a|/(amplitude without the damper) at the edge of the suppression band"
+    ),
+    "edge_event": Variable(
+        ("edge",),
+        "what ends the suppression band",
+        flags={
+            "not_found": 0,
+            "resonance_branch_ends": 1,
+            "other_motion_appears": 2,
+            "other_motion_stabilises": 3,
+            "quiet_motion_folds": 4,
+            "quiet_motion_destabilises": 5,
+            "no_reduction": 6,
+        },
+    ),
+    "band_width": Variable((), "width of the suppression band", "Delta Omega_s"),
+    "break_even_frequency": Variable(
+        (), "frequency above the peak where |a| reaches the least amplitude without the damper"
+    ),
+    # optimum clearance
+    "quiet_displacement": Variable(
+        ("clearance",), "largest displacement in the quiet motion", "max |Z1|"
+    ),
+    "quiet_status": Variable(
+        ("clearance",), "whether there is a quiet motion", flags={"absent": 0, "found": 1}
+    ),
+    "largest_displacement": Variable(
+        ("clearance",), "largest displacement over all motions that random starts reach"
+    ),
+    "analytical_amplitude": Variable(
+        ("clearance",), "|a| of the stable solution of (7) with the smallest one", "|a|"
+    ),
+    "analytical_status": Variable(
+        ("clearance",),
+        "whether (7) has a stable solution",
+        flags={"absent": 0, "found": 1, "inelastic": 2, "unresolved": 3},
+    ),
+    "optimum_clearance": Variable((), "clearance at which the quiet motion is smallest", "d0"),
+    "optimum_displacement": Variable((), "its largest displacement there", "max |Z1|"),
+    "optimum_kind": Variable(
+        (), "kind of minimum: smooth, kink, end of the branch or of the sweep", flags=MINIMUM
+    ),
+    "near_clearance": Variable(
+        ("edge",), "ends of the clearances within 10 % of the smallest displacement"
+    ),
+    "near_status": Variable(
+        ("edge",),
+        "what ends them",
+        flags={"not_found": 0, "crossed": 1, "branch_ends": 2, "sweep_ends": 3},
+    ),
+    "analytical_optimum": Variable((), "clearance at which (7) has a solution with a = 0", "d0"),
+    "analytical_kind": Variable((), "kind of minimum of |a| there", flags=MINIMUM),
+    "rule_clearance": Variable((), "clearance of rule (18) at the forcing frequency", "d0"),
+    "peak_rule_clearance": Variable((), "clearance of rule (19)", "d0"),
+    "optimum_ratio": Variable((), "rm W^2 d0 at the optimum, 1 by rule (18)"),
+    "straight_flight_ratio": Variable(
+        (), "rm W^2 d0 of the least max |Z1| for rigid walls at high frequency"
+    ),
+    "first_harmonic_share": Variable(
+        (), "(pi^2/8 - 1)/(optimum_ratio - 1), the first harmonic of a straight flight"
+    ),
+    "straight_flight_share": Variable((), "(straight_flight_ratio - 1)/(optimum_ratio - 1)"),
+}

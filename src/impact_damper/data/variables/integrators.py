@@ -1,0 +1,121 @@
+"""Where integrators fail: contacts missed near grazing, stable steps, verdicts."""
+
+from impact_damper.data.variables.variable import Variable
+
+STEP_VERDICT = {
+    "no_orbit": -2,
+    "not_run": -1,
+    "within_1_percent": 0,
+    "within_10_percent": 1,
+    "off": 2,
+    "escaped": 3,
+    "diverged": 4,
+}
+VERDICT = {
+    "not_run": -1,
+    "right": 0,
+    "not_settled": 1,
+    "wrong_period": 2,
+    "wrong_branch": 3,
+    "stays_wrongly": 4,
+    "failed": 5,
+}
+
+VARIABLES = {
+    "integrator": Variable(("integrator",), "method of integration"),
+    "method_tolerance": Variable(("method_tolerance",), "tolerance of the method"),
+    # contacts missed near grazing
+    "depth": Variable(("depth",), "depth of the passage beyond the wall"),
+    "contact_outcome": Variable(("contact_outcome",), "what a method makes of a contact"),
+    "passage_count": Variable(
+        ("integrator", "method_tolerance", "depth", "contact_outcome"),
+        "contacts found, passed unseen between steps, not reached by the method's own motion, and "
+        "runs that failed",
+    ),
+    "spurious_count": Variable(
+        ("integrator", "method_tolerance", "depth"), "contacts reported where there is none"
+    ),
+    "mean_steps": Variable(
+        ("integrator", "method_tolerance"),
+        "mean steps a forcing period in flight, without runs that failed",
+    ),
+    "motion_error": Variable(
+        ("integrator", "method_tolerance"),
+        "median error of the largest |Z2| of a passage, without runs that failed",
+    ),
+    "passages": Variable(("integrator",), "passages run for each tolerance"),
+    "passages_drawn": Variable((), "random flights drawn to find the passages"),
+    "fixed_steps": Variable(
+        ("method_tolerance",), "steps a forcing period of the fixed-step method"
+    ),
+    "expected_unseen": Variable(
+        ("method_tolerance", "depth"), "share passed unseen if fixed steps fall at random"
+    ),
+    "extremum_time": Variable(("passage",), "time of the largest |Z2| of a passage", "T"),
+    "extremum": Variable(("passage",), "largest |Z2| of a passage"),
+    "extremum_curvature": Variable(("passage",), "|Z2''| there"),
+    # largest stable steps
+    "fixed_method": Variable(("fixed_method",), "method with equal steps"),
+    "scaled_step": Variable(("scaled_step",), "step times contact frequency", "h omega_c"),
+    "accuracy": Variable(("accuracy",), "relative deviation allowed in max |Z1|"),
+    "step_verdict": Variable(
+        ("fixed_method", "contact_stiffness", "scaled_step"),
+        "what becomes of the quiet motion",
+        flags=STEP_VERDICT,
+    ),
+    "step_deviation": Variable(
+        ("fixed_method", "contact_stiffness", "scaled_step"),
+        "largest relative deviation of max |Z1| in any period, infinite where it diverged",
+    ),
+    "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps a forcing period"),
+    "stable_step": Variable(
+        ("fixed_method", "contact_stiffness", "accuracy"),
+        "largest step from which on all smaller ones hold",
+        "h",
+    ),
+    "largest_holding_step": Variable(
+        ("fixed_method", "contact_stiffness", "accuracy"), "largest step that holds at all", "h"
+    ),
+    "step_slope": Variable(("fixed_method", "accuracy"), "slope of log(1/h) over log r1"),
+    "step_slope_error": Variable(("fixed_method", "accuracy"), "standard error of the slope"),
+    "linear_limit": Variable(
+        ("fixed_method",), "largest step times contact frequency by linear stability"
+    ),
+    "contact_frequency": Variable(
+        ("contact_stiffness",), "natural frequency of an undamped contact", "omega_c"
+    ),
+    "reference_displacement": Variable(
+        ("contact_stiffness",), "largest displacement of the exact orbit", "max |Z1|"
+    ),
+    "orbit_multiplier": Variable(
+        ("contact_stiffness",), "modulus of its dominant Floquet multiplier"
+    ),
+    "free_bound": Variable((), "displacement beyond which a run has escaped", "max |Z1|"),
+    # verdicts by tolerance
+    "scene": Variable(("scene",), "motion whose verdict is known"),
+    "verdict_method": Variable(("verdict_method",), "method of integration"),
+    "verdict": Variable(
+        ("scene", "verdict_method", "method_tolerance"), "verdict against the truth", flags=VERDICT
+    ),
+    "right_from": Variable(
+        ("scene", "verdict_method"),
+        "largest tolerance, or number of fixed steps, from which on all verdicts are right",
+    ),
+    "verdict_steps": Variable(
+        ("method_tolerance",), "steps a forcing period of fixed-step methods"
+    ),
+    "scene_multiplier": Variable(
+        ("scene",), "modulus of the dominant Floquet multiplier of the orbit"
+    ),
+    "scene_period": Variable(("scene",), "period of the orbit in forcing periods", "n"),
+    "landing_period": Variable(
+        ("scene",), "period of the motion that it comes to, 0 if it does not settle", "n"
+    ),
+    "scene_periods": Variable(("scene",), "forcing periods run"),
+    "scene_frequency": Variable(("scene",), "forcing frequency", "Omega"),
+    "scene_truth": Variable(
+        ("scene",),
+        "whether the motion comes to be on the orbit",
+        flags={"leaves": 0, "stays": 1},
+    ),
+}

@@ -1,0 +1,83 @@
+"""Coordinates, states and motions, and responses over a parameter."""
+
+from impact_damper.data.variables.variable import END, OUTCOME, Variable
+
+VARIABLES = {
+    # coordinates
+    "frequency": Variable(("frequency",), "forcing frequency", "Omega"),
+    "clearance": Variable(("clearance",), "clearance of the loose mass", "d0"),
+    "restitution": Variable(("restitution",), "coefficient of restitution", "e"),
+    "contact_stiffness": Variable(("contact_stiffness",), "stiffness of the contact", "r1"),
+    "time": Variable(("time",), "time", "T"),
+    # state
+    "displacement": Variable(("time",), "displacement of the primary mass", "Z1"),
+    "velocity": Variable(("time",), "velocity of the primary mass", "Z1'"),
+    "relative_displacement": Variable(
+        ("time",), "displacement of the primary relative to the loose mass", "Z2"
+    ),
+    "relative_velocity": Variable(
+        ("time",), "velocity of the primary relative to the loose mass", "Z2'"
+    ),
+    # motions
+    "component": Variable(("component",), "component of the state"),
+    "state": Variable(("component",), "state of the motion at the phase Omega T = pi/2"),
+    "contact_wall": Variable(("contact",), "wall of a contact, -1 or 1"),
+    "contact_begin": Variable(("contact",), "beginning of a contact"),
+    "contact_end": Variable(("contact",), "end of a contact"),
+    "approach_velocity": Variable(("contact",), "relative velocity at its beginning", "Z2'"),
+    "departure_velocity": Variable(("contact",), "relative velocity at its end", "Z2'"),
+    "outcome": Variable(("frequency", "motion"), "what the motion came to", flags=OUTCOME),
+    "period": Variable(("frequency", "motion"), "period of the motion in forcing periods", "n"),
+    "contacts": Variable(("frequency", "motion"), "contacts begun per forcing period"),
+    "maximum_displacement": Variable(("frequency", "motion"), "largest displacement", "max |Z1|"),
+    "asymmetry": Variable(
+        ("frequency", "motion"), "distance of the motion from its mirror image half a period on"
+    ),
+    "phase_relative": Variable(
+        ("frequency", "motion"), "phase of Z1 to Z2, first harmonics", units="radian"
+    ),
+    "phase_loose": Variable(
+        ("frequency", "motion"), "phase of Z1 to Z1 - Z2, first harmonics", units="radian"
+    ),
+    "multiplier_real": Variable(("frequency", "motion"), "dominant Floquet multiplier, real part"),
+    "multiplier_imaginary": Variable(
+        ("frequency", "motion"), "dominant Floquet multiplier, imaginary part"
+    ),
+    "residual": Variable(("frequency", "motion"), "distance of the state from its return"),
+    "lyapunov_exponent": Variable(
+        ("frequency", "motion"), "largest Lyapunov exponent per unit time"
+    ),
+    "lyapunov_error": Variable(
+        ("frequency", "motion"), "standard error of the largest Lyapunov exponent"
+    ),
+    "periods_run": Variable(("frequency", "motion"), "forcing periods run before it settled"),
+    # frequency responses
+    "branch": Variable(("frequency", "motion"), "number of the branch a motion belongs to"),
+    "share": Variable(("frequency", "motion"), "random starts that lead to the motion"),
+    "origin": Variable(
+        ("frequency", "motion"),
+        "how the motion was found first",
+        flags={"absent": 0, "random_start": 1, "followed": 2},
+    ),
+    "run_outcome": Variable(("frequency", "start"), "what a random start came to", flags=OUTCOME),
+    "run_motion": Variable(("frequency", "start"), "place, along motion, of what it came to"),
+    "run_length": Variable(("frequency", "start"), "forcing periods run from a random start"),
+    "end_value": Variable(("end",), "parameter of the sweep at the end of a branch"),
+    "end_branch": Variable(("end",), "branch that ends"),
+    "end_direction": Variable(
+        ("end",), "direction of the sweep in which the branch ends", flags={"down": -1, "up": 1}
+    ),
+    "end_event": Variable(("end",), "what ends the branch", flags=END),
+    "end_displacement": Variable(
+        ("end",), "largest displacement of the primary mass at the end of a branch"
+    ),
+    "end_multiplier_real": Variable(("end",), "dominant Floquet multiplier there, real part"),
+    "end_multiplier_imaginary": Variable(
+        ("end",), "dominant Floquet multiplier there, imaginary part"
+    ),
+    # first collisions
+    "ball": Variable(("ball",), "where random starts were drawn"),
+    "beyond_wall": Variable(("ball",), "share of starts that lie beyond a wall"),
+    "colliding": Variable(("ball",), "share of starts that lead to a collision"),
+    "longest_wait": Variable(("ball",), "longest wait for the first collision, forcing periods"),
+}

@@ -1,0 +1,96 @@
+"""Exact periodic orbits, their branches and bifurcations."""
+
+from impact_damper.data.variables.variable import OUTCOME, STABILITY, Variable
+
+EVENT = {
+    "fold": 1,
+    "symmetry_breaking": 2,
+    "period_doubling": 3,
+    "neimark_sacker": 4,
+    "grazing": 5,
+    "merging": 6,
+}
+BRANCH_END = {
+    "range_ends": 0,
+    "closed": 1,
+    "symmetry_breaking": 2,
+    "period_doubling": 3,
+    "grazing": 4,
+    "contact_lost": 5,
+    "too_unstable": 6,
+    "lost": 7,
+    "point_limit": 8,
+}
+
+VARIABLES = {
+    # orbits along branches
+    "followed_value": Variable(("point",), "parameter along a branch of orbits"),
+    "orbit_branch": Variable(("point",), "number of the branch an orbit lies on"),
+    "orbit_displacement": Variable(("point",), "largest displacement in an orbit", "max |Z1|"),
+    "orbit_stability": Variable(
+        ("point",), "whether all Floquet multipliers are less than 1", flags=STABILITY
+    ),
+    "orbit_status": Variable(
+        ("point",),
+        "whether an orbit returns, and whether a contact begins so slowly that its multipliers "
+        "hold for the smallest changes only",
+        flags={"not_converged": 0, "regular": 1, "near_grazing": 2},
+    ),
+    "orbit_contacts": Variable(("point",), "contacts begun per forcing period in an orbit"),
+    "orbit_asymmetry": Variable(
+        ("point",), "distance of an orbit from its mirror image half a period on"
+    ),
+    "orbit_amplitude": Variable(
+        ("point",), "amplitude of the first harmonic of Z1 in an orbit, |a| of harmonic balance"
+    ),
+    "orbit_phase_relative": Variable(
+        ("point",), "phase of Z1 to Z2 in an orbit, first harmonics", units="radian"
+    ),
+    "orbit_phase_loose": Variable(
+        ("point",), "phase of Z1 to Z1 - Z2 in an orbit, first harmonics", units="radian"
+    ),
+    "orbit_phase": Variable(("point",), "phase Omega T at which the state is given", "", "radian"),
+    "orbit_state": Variable(("point", "component"), "state of an orbit at its phase, in flight"),
+    "orbit_residual": Variable(("point",), "distance of an orbit's state from its return"),
+    "orbit_multiplier_real": Variable(
+        ("point", "multiplier"), "Floquet multipliers by descending modulus, real part"
+    ),
+    "orbit_multiplier_imaginary": Variable(
+        ("point", "multiplier"), "Floquet multipliers by descending modulus, imaginary part"
+    ),
+    "liouville_error": Variable(
+        ("point",), "relative error of the determinant of the monodromy matrix"
+    ),
+    "least_speed": Variable(
+        ("point",), "least relative speed at which a contact of an orbit begins"
+    ),
+    "orbit_restitution": Variable(
+        ("point",), "least ratio of the relative speeds after and before a contact of an orbit"
+    ),
+    # design points
+    "design_orbit_status": Variable(
+        (),
+        "whether the quiet orbit was found with heavy damping, and followed from there",
+        flags={"no_start": 0, "found": 1, "not_followed": 2},
+    ),
+    "design_run_outcome": Variable(
+        ("design_start",), "what a random start comes to at the design point", flags=OUTCOME
+    ),
+    "design_run_displacement": Variable(("design_start",), "its largest displacement", "max |Z1|"),
+    # branches
+    "branch_period": Variable(("branch",), "period in forcing periods of the orbits", "n"),
+    "branch_events_lost": Variable(("branch",), "events on a branch that were not located"),
+    "branch_end": Variable(("branch", "edge"), "what ends a branch", flags=BRANCH_END),
+    "seeds": Variable((), "motions from which branches were begun or recognised"),
+    "seeds_lost": Variable((), "motions from which Newton's method led to no orbit"),
+    # events
+    "event_branch": Variable(("event",), "branch on which an event lies"),
+    "event_place": Variable(("event",), "number, along its branch, of the orbit at an event"),
+    "event_kind": Variable(("event",), "what happens to the orbits", flags=EVENT),
+    "event_value": Variable(("event",), "parameter at an event"),
+    "event_displacement": Variable(("event",), "largest displacement at an event", "max |Z1|"),
+    "event_residual": Variable(("event",), "distance of the orbit's state from its return"),
+    "event_speed": Variable(("event",), "least relative speed at which a contact begins there"),
+    "walls_before": Variable(("event",), "walls touched in order, before an event"),
+    "walls_after": Variable(("event",), "walls touched in order, after an event"),
+}

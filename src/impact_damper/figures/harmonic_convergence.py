@@ -1,0 +1,108 @@
+"""Errors of harmonic balance and of Hill's method against the number of harmonics."""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.figures.style import (
+    GREY,
+    ROLES,
+    axis_label,
+    curve,
+    figure,
+    legend,
+    letter_panels,
+    points,
+    style,
+)
+
+PANELS = {
+    "maximum": r"Error of $\max\,|Z_1|$",
+    "retained": "Error of $Z_1$ in harmonics up to $N$",
+    "multiplier": "Error of a Floquet multiplier (Hill)",
+}
+ROUNDING, FLOOR = 1e-12, 1e-16
+GUIDE = {"color": GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
+COLD = {
+    "same_motion": ("cold start: same motion", {"marker": "o", "markerfacecolor": "none"}),
+    "another_motion": ("cold start: another motion", {"marker": "s", "markersize": 4.4}),
+    "stalled": ("cold start: stalled", {"marker": "x"}),
+    "iteration_limit": ("cold start: step limit", {"marker": "+", "markersize": 5}),
+}
+
+
+@style()
+def draw_harmonics(*, harmonics):
+    """Errors of max |Z1|, of the harmonics kept and of the multipliers; what cold starts came to.
+
+    Parameters
+    ----------
+    harmonics : list of xarray.Dataset
+        Of `harmonic_convergence`, five at most.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 6.4)
+    panels = drawn.subplots(2, 2, sharex=True)
+    letter_panels(panels.flat)
+    for axes, (measure, words) in zip(panels.flat, PANELS.items(), strict=False):
+        draw_errors(axes, harmonics, measure)
+        axes.set(xscale="log", yscale="log", ylabel=words, ylim=(FLOOR / 2, 10))
+    draw_cold(panels[1, 1], harmonics)
+    for axes in panels[1]:
+        axes.set_xlabel(axis_label(harmonics[0]["highest_harmonic"]))
+    legend(drawn, 3)
+    return drawn
+
+
+def draw_errors(axes, harmonics, measure):
+    """Errors of one measure, with the predicted decay above each, and failures at the top."""
+    status = "hill_status" if measure == "multiplier" else "series_status"
+    for index, data in enumerate(harmonics):
+        at = data.sel(error_measure=measure)
+        highest, error = data["highest_harmonic"].values, at["series_error"].values
+        line = points(index) | curve(index) | {"linewidth": 0.8}
+        axes.plot(highest, np.maximum(error, FLOOR), **line, label=title(data))
+        lost = highest[data[status].values != 0]
+        if len(lost):
+            place = {"transform": axes.get_xaxis_transform(), "label": "failed"}
+            axes.plot(lost, np.full(len(lost), 0.97), **ROLES["unresolved"] | place)
+    for data in harmonics:
+        axes.plot(*guide(data, data.sel(error_measure=measure)), **GUIDE, label="predicted decay")
+
+
+def guide(data, at):
+    """Line of the predicted decay, at three times the fitted errors' geometric mean."""
+    highest, error = data["highest_harmonic"].values, at["series_error"].values
+    used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
+    if not used.any():
+        return [], []
+    highest, error = highest[used], np.log(error[used])
+    exponential = data["decay_kind"] == flag("decay_kind", "exponential")
+    decay = -at["decay_predicted"].item() * (highest if exponential else np.log(highest))
+    return highest, 3 * np.exp(decay + np.mean(error - decay))
+
+
+def draw_cold(axes, harmonics):
+    """What each cold start came to, a row for each motion."""
+    for index, data in enumerate(harmonics):
+        highest, status = data["highest_harmonic"].values, data["cold_status"].values
+        for meaning, (words, look) in COLD.items():
+            chosen = highest[status == flag("cold_status", meaning)]
+            look = look | {"color": curve(index)["color"], "linestyle": "none"}
+            if len(chosen):
+                axes.plot(chosen, np.full(len(chosen), -index), **look, label=words)
+    axes.set_yticks(-np.arange(len(harmonics)), [title(data, short=True) for data in harmonics])
+    axes.set_ylim(0.5 - len(harmonics), 0.5)
+    axes.tick_params(axis="y", length=0)
+
+
+def title(data, short=False):
+    """What a motion is of: the free oscillator, or its damper."""
+    given = parameters_of(data)
+    if "mass_ratio" not in given:
+        return "free" if short else rf"free, $\Omega = {given['frequency']:g}$"
+    words = rf"$r_m = {given['mass_ratio']:g}$, $e = {given['restitution']:g}$"
+    words += "\n" if short else ", "
+    return words + rf"$r_1 = {given['contact_stiffness']:g}$"

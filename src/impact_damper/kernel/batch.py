@@ -1,0 +1,236 @@
+"""The event-driven flow of many trajectories, several side by side in one step.
+
+A step is of trajectories in the same phase. The pool holds more of them than are stepped at
+once, and each step takes those of the phase that most of them wait in. What a trajectory
+comes to does not depend on the others.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.kernel import instances
+from impact_damper.kernel.compiling import aligned, kernel, pointer, within
+
+LANES = 16
+# Trajectories in a pool: enough for a full step to be found nearly always.
+RESIDENT = 64
+FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
+
+_MANY = instances.instance(LANES)
+STEPS = instances.steps(_MANY)
+flight_step, contact_step, flight_tangents, contact_tangents = STEPS
+SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
+# The numbers of a trajectory in a pool are the first rows of a step, in their order.
+STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
+    row // LANES
+    for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
+)
+
+
+class Pool(NamedTuple):
+    """Trajectories on their way, each to its own end.
+
+    Attributes
+    ----------
+    numbers : array, shape (m, LENGTH)
+        Parameters, state, side, time, longest step and tolerance.
+    ends : array, shape (m,)
+        Times to stop at.
+    tangents : array, shape (m, 4)
+    queues : array of int, shape (4, m)
+        Places of the trajectories that wait for a step of each kind.
+    waiting : array of int, shape (4,)
+        How many these are.
+    contacts : array of int, shape (m,)
+        Contacts begun since the trajectory was last sent on.
+    a, d : array
+        Numbers of the step and of its tangents.
+    """
+
+    numbers: np.ndarray
+    ends: np.ndarray
+    tangents: np.ndarray
+    queues: np.ndarray
+    waiting: np.ndarray
+    contacts: np.ndarray
+    a: np.ndarray
+    d: np.ndarray
+
+
+@kernel
+def make_pool(size):
+    """A pool without trajectories."""
+    return Pool(
+        np.zeros((size, LENGTH)),
+        np.zeros(size),
+        np.zeros((size, 4)),
+        np.zeros((4, size), np.int64),
+        np.zeros(4, np.int64),
+        np.zeros(size, np.int64),
+        aligned(SIZE),
+        aligned(TANGENT_SIZE),
+    )
+
+
+@kernel
+def enter(pool, m, p, y, side, tolerance):
+    """Put a trajectory into a place of the pool; `send` lets it go."""
+    numbers = pool.numbers[m]
+    for i in range(7):
+        numbers[i] = p[i]
+    for i in range(4):
+        numbers[STATE + i] = y[i]
+    numbers[SIDE] = side
+    numbers[TOLERANCE] = tolerance
+
+
+@kernel
+def send(pool, m, t, end, with_tangent):
+    """Let a trajectory go on from t to its next end."""
+    pool.numbers[m, TIME] = t
+    pool.ends[m] = end
+    pool.contacts[m] = 0
+    phase = CONTACT if pool.numbers[m, SIDE] != 0.0 else FLIGHT
+    enqueue(pool.queues, pool.waiting, m, phase + (FLIGHT_WITH_TANGENT if with_tangent else 0))
+
+
+@within
+def enqueue(queues, waiting, m, kind):
+    """Let a trajectory wait for a step."""
+    queues[kind, waiting[kind]] = m
+    waiting[kind] += 1
+
+
+@kernel
+def choose(pool, chosen):
+    """Take up to LANES trajectories off the longest queue. Returns how many, and their kind."""
+    waiting = pool.waiting
+    kind = FLIGHT
+    for other in range(1, 4):
+        if waiting[other] > waiting[kind]:
+            kind = other
+    count = min(waiting[kind], LANES)
+    waiting[kind] -= count
+    for lane in range(LANES):
+        chosen[lane] = pool.queues[kind, waiting[kind] + min(lane, count - 1)]
+    return count, kind
+
+
+@within
+def gather(pool, chosen, kind):
+    """Fill the lanes; where fewer wait, the last trajectory stands in several."""
+    for lane in range(LANES):
+        m = chosen[lane]
+        numbers = pool.numbers[m]
+        numbers[LONGEST] = pool.ends[m] - numbers[TIME]
+        for row in range(LENGTH):
+            pool.a[row * LANES + lane] = numbers[row]
+        if kind >= FLIGHT_WITH_TANGENT:
+            for row in range(4):
+                pool.d[row * LANES + lane] = pool.tangents[m, row]
+
+
+@within
+def scatter(pool, chosen, count, kind, arrived):
+    """Put the trajectories back. Returns how many are at their ends; `arrived` has their places."""
+    ended = 0
+    for lane in range(count):
+        m = chosen[lane]
+        numbers = pool.numbers[m]
+        for row in range(STATE, SIDE + 1):
+            numbers[row] = pool.a[row * LANES + lane]
+        if kind >= FLIGHT_WITH_TANGENT:
+            for row in range(4):
+                pool.tangents[m, row] = pool.d[row * LANES + lane]
+        touching = numbers[SIDE] != 0.0
+        if touching and kind & 1 == FLIGHT:
+            pool.contacts[m] += 1
+        length = pool.a[LENGTH * LANES + lane]
+        if length >= numbers[LONGEST]:
+            numbers[TIME] = pool.ends[m]
+            arrived[ended] = m
+            ended += 1
+        else:
+            numbers[TIME] += length
+            phase = CONTACT if touching else FLIGHT
+            enqueue(pool.queues, pool.waiting, m, (kind & FLIGHT_WITH_TANGENT) + phase)
+    return ended
+
+
+@kernel
+def advance_some(pool, chosen, arrived):
+    """Step trajectories of the pool until some are at their ends.
+
+    Parameters
+    ----------
+    pool : Pool
+        At least one trajectory waits in it.
+    chosen, arrived : array of int, shape (LANES,)
+        Scratch, and the places of those that have arrived.
+
+    Returns
+    -------
+    int
+        How many have arrived.
+    """
+    ended = 0
+    a, d = pointer(pool.a), pointer(pool.d)
+    while ended == 0:
+        count, kind = choose(pool, chosen)
+        gather(pool, chosen, kind)
+        if kind & 1 == FLIGHT:
+            flight_step(a)
+            if kind >= FLIGHT_WITH_TANGENT:
+                flight_tangents(a, d)
+        else:
+            contact_step(a)
+            if kind >= FLIGHT_WITH_TANGENT:
+                contact_tangents(a, d)
+        ended = scatter(pool, chosen, count, kind, arrived)
+    return ended
+
+
+@kernel
+def advance(parameters, states, sides, starts, ends, tolerance, contacts):
+    """Integrate trajectories, each from its start to its end.
+
+    Parameters
+    ----------
+    parameters : array, shape (m, 7)
+        Packed parameters (`parameters.pack`).
+    states : array, shape (m, 4)
+        Z1, Z1', Z2, Z2'; replaced.
+    sides : array of int, shape (m,)
+        Walls in contact, -1 or 1, or 0 in flight; replaced.
+    starts, ends : array, shape (m,)
+        Times, ends not before starts.
+    tolerance : float
+        Local error allowed.
+    contacts : array of int, shape (m,)
+        Gets the numbers of contacts begun.
+    """
+    size = min(len(states), RESIDENT)
+    pool = make_pool(size)
+    chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
+    taken = np.zeros(size, np.int64)
+    following = size
+    for m in range(size):
+        taken[m] = m
+        enter(pool, m, parameters[m], states[m], sides[m], tolerance)
+        send(pool, m, starts[m], ends[m], False)
+    left = len(states)
+    while left > 0:
+        for j in range(advance_some(pool, chosen, arrived)):
+            m = arrived[j]
+            i = taken[m]
+            for k in range(4):
+                states[i, k] = pool.numbers[m, STATE + k]
+            sides[i] = np.int64(pool.numbers[m, SIDE])
+            contacts[i] = pool.contacts[m]
+            left -= 1
+            if following < len(states):
+                taken[m] = i = following
+                following += 1
+                enter(pool, m, parameters[i], states[i], sides[i], tolerance)
+                send(pool, m, starts[i], ends[i], False)

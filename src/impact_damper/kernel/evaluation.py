@@ -1,0 +1,172 @@
+"""Values of the series of a step at a time in it, and bounds on them."""
+
+import math
+
+from impact_damper.kernel.series import Writer
+from impact_damper.kernel.straight_lines import straight
+
+# Series of cosine and sine, without their first terms.
+COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
+SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
+
+
+class Source(Writer):
+    """Writes what `events` and `step` call: the series, and what is read off them."""
+
+    def text(self):
+        """The module."""
+        slope = {"Z1": "X", "Z1_SLOPE": "X'"}
+        curve = {"Z1_CURVE": "G"}
+        jerk = curve | {"Z1_JERK": "G'"}
+        depth = {"DEPTH": "Q", "DEPTH_SLOPE": "Q'"}
+        bound = {"BOUND": "|G|"}
+        early = max(4, self.orders["flight"] // 2)
+        changed = [f"{self.at('CHANGE')} = t * {self.at('CHANGE')}"]
+        functions = [
+            *([self.kept_series()] if self.lanes == 1 else []),
+            self.circular(),
+            *(self.series(phase) for phase in self.orders),
+            *(self.squares(phase) for phase in self.orders),
+            *(self.tangent_series(phase) for phase in self.orders),
+            *(self.tangent_value(phase) for phase in self.orders),
+            self.sums("flight_slope", "flight", "T", slope, self._tail("flight")),
+            self.sums("flight_early", "flight", "T", slope | curve, terms=early),
+            self.sums("flight_curve", "flight", "T", jerk),
+            self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
+            # On |g|, which in flight is |Z1''|.
+            self.sums("flight_bound", "flight", "LENGTH", bound),
+            self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
+            # What the terms of Z1' but the first come to, at most.
+            self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
+        ]
+        imports = [
+            "from impact_damper.kernel.compiling import within",
+            f"from {straight.__module__} import {straight.__name__}\n",
+        ]
+        return "\n".join(imports) + "\n\n" + "\n\n".join(functions)
+
+    def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
+        """Sums of series at the time in a row, and what follows; `results` gives each its series.
+
+        The slope of a series is written with a prime, terms without their signs between bars.
+        Of each series only so many terms are taken, from `begin` on. With one lane, the four parts
+        of a sum stand side by side in a register.
+        """
+        lines = [*self._time(time, phase)]
+        first = list(lines) if self.lanes == 1 else []
+        for number, (result, series) in enumerate(results.items()):
+            start = max(begin, 1 if "'" in series else 0)
+            last = self.orders[phase] - (2 if "G" in series else 0)
+            orders = range(start, last + 1)[:terms]
+            coefficients = [self._coefficient(series, k) for k in orders]
+            parts, done = coefficients[:4], 4
+            if self.lanes == 1:
+                parts = [f"a[{self.rows['PARTS'] + 4 * number + j}]" for j in range(4)]
+                done = len(orders) // 4 * 4
+                first += self._parts(series, orders[:done], parts)
+            lines += _sum(coefficients, self.at(result), parts, done)
+        return self.function(name, [*lines, *then], first=first)
+
+    def _parts(self, series, orders, parts):
+        """Lines that add up the four parts of a sum side by side."""
+        for k in orders[::4]:
+            four = self._coefficient(series, *range(k, k + 4))
+            power = k - orders[0]
+            yield f"part = part + {four} * t{power}" if power else f"part = {four}"
+        yield f"{_widened(parts[0])} = part"
+
+    def circular(self):
+        """COSINE and SINE become the series of ANGLE without their first terms.
+
+        With one lane they stand side by side in a register.
+        """
+        cosine, sine = self.at("COSINE"), self.at("SINE")
+        angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
+        if self.lanes == 1:
+            both = list(map(_constants, COSINES, SINES))
+            first = [*angle, _paired(both, _widened(cosine))]
+            return self.function("circular_series", [], first=first, side_by_side=2)
+        lines = [*angle, _paired(COSINES, cosine), _paired(SINES, sine)]
+        return self.function("circular_series", lines)
+
+    def _coefficient(self, series, *orders):
+        """A coefficient of a series, or four of them side by side."""
+        number = self.at(series.strip("'|"), orders[0])
+        if len(orders) > 1:
+            number = _widened(number)
+        if "'" in series:
+            number = f"{_constants(*map(float, orders))} * {number}"
+        return f"abs({number})" if series.startswith("|") else number
+
+    def _wall(self):
+        """What the wall adds: to G and its slope, for those of Z1 and of the penetration."""
+        mobility = f"(1.0 + {self.at('INVERSE_MASS')})"
+        for force, place, rate, given in (
+            ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),
+            ("rise", "DEPTH_SLOPE", "DEPTH_CURVE", "JERK"),
+        ):
+            stiff, lossy = self.at("CONTACT"), self.at("DASHPOT")
+            z1, depth = self.at(f"Z1_{given}"), self.at(f"DEPTH_{given}")
+            yield f"{force} = {stiff} * {self.at(place)} + {lossy} * {self.at(rate)}"
+            yield f"{depth} = {z1} - {mobility} * {force}"
+            yield f"{z1} -= {force}"
+
+    def _tail(self, phase):
+        """TAIL becomes the largest of the last two terms of the series of speeds at t."""
+        last = self.orders[phase]
+        yield "last = 0.0"
+        for row in self.moving(phase):
+            yield f"last = max(last, abs({float(last - 1)} * {self.at(row, last - 1)}))"
+            yield f"last = max(last, abs({float(last)} * {self.at(row, last)}) * t)"
+        power = last - 2
+        factors = [f"t{power - power % 4}"] if power > 3 else []
+        factors += (["t2"] if power % 4 > 1 else []) + (["t"] if power % 2 else [])
+        yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
+
+    def tangent_value(self, phase):
+        """The tangent at T."""
+        lines = [*self._time("T", phase)]
+        for place, name in enumerate(self.moving(phase)):
+            terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
+            slopes = [f"{float(k)} * {term}" for k, term in enumerate(terms)][1:]
+            lines += _sum(terms, self.at_tangent("", 2 * place), terms[:4], 4)
+            lines += _sum(slopes, self.at_tangent("", 2 * place + 1), slopes[:4], 4)
+        return self.function(f"{phase}_tangent_value", lines, tangent=True)
+
+    def _time(self, row, phase):
+        """The t of a row, and its powers for `_sum`."""
+        yield f"t = {self.at(row)}"
+        yield "t2 = t * t"
+        yield "t4 = t2 * t2"
+        for k in range(8, self.orders[phase] + 1, 4):
+            half = 4 * (k // 8)
+            yield f"t{k} = t{half} * t{k - half}"
+
+
+def _widened(number):
+    """A number and those behind it, side by side."""
+    return number.replace("]", " + i]")
+
+
+def _constants(*numbers):
+    """A constant, or one for each place side by side."""
+    return f"{numbers}[i]" if len(numbers) > 1 else repr(numbers[0])
+
+
+def _paired(c, result):
+    """A line that adds up eight terms in u, whose square is v, pair by pair."""
+    low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
+    return f"{result} = ({low}) + ({high}) * (v * v)"
+
+
+def _sum(c, result, parts, done):
+    """Lines that add up a series at t: every fourth power apart, side by side, then together.
+
+    From the first terms on: the last coefficients of a step are the last to be known. The first
+    `done` terms are in the four parts already.
+    """
+    for j in range(4):
+        yield f"part{j} = {parts[j]}"
+        for k in range(done + j, len(c), 4):
+            yield f"part{j} = part{j} + {c[k]} * t{k - j}"
+    yield f"{result} = (part0 + t * part1) + t2 * (part2 + t * part3)"

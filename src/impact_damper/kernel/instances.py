@@ -1,0 +1,62 @@
+"""The step compiled for a number of lanes and the orders of its series."""
+
+import importlib.util
+import inspect
+import os
+import sys
+from functools import cache
+
+from impact_damper.kernel.by_address import by_address
+from impact_damper.kernel.compiling import CACHE_DIRECTORY
+from impact_damper.kernel.evaluation import Source
+from impact_damper.kernel.series import SERIES, SINGLE
+from impact_damper.kernel.templates import contact, forcing, release, step
+
+FLIGHT_ORDER = 18
+CONTACT_ORDER = 23
+
+
+def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
+    """The functions of the templates for a number of lanes and the orders of the series.
+
+    Their source is written to a module beside the compiled kernels, whose directory is named
+    by the digest of all sources.
+    """
+    name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
+    if name in sys.modules:
+        return sys.modules[name]
+    path = CACHE_DIRECTORY / f"{name}.py"
+    if not path.exists():
+        part = path.with_name(f"{path.name}.part-{os.getpid()}")
+        part.write_text(_source(Source(lanes, flight_order, contact_order)))
+        os.replace(part, path)
+    specification = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[name] = module
+    specification.loader.exec_module(module)
+    return module
+
+
+@cache
+def steps(made):
+    """Steps of an instance in flight, in contact and of their tangents, to be called by address."""
+    each = made.flight_step, made.contact_step, made.flight_tangents, made.contact_tangents
+    return list(map(by_address, each))
+
+
+def _source(writer):
+    """Constants, the series, and the templates."""
+    constants = {
+        "LANES": writer.lanes,
+        "TANGENTS": writer.tangents,
+        "FLIGHT_ORDER": writer.orders["flight"],
+        "CONTACT_ORDER": writer.orders["contact"],
+        "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
+        "SIZE": writer.rows["ROWS"] * writer.lanes,
+        "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
+    }
+    constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
+    lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
+    return "\n\n".join(
+        [lines, writer.text(), *map(inspect.getsource, (forcing, contact, release, step))]
+    )

@@ -1,0 +1,162 @@
+"""The event-driven flow of one trajectory, in steps that end at events.
+
+A state is (Z1, Z1', Z2, Z2') with the wall that the loose mass touches (`side`: -1, 0 in
+flight, +1). Tangents are carried along if there are any.
+"""
+
+import numpy as np
+
+from impact_damper.kernel import instances
+from impact_damper.kernel.compiling import LINE, aligned, kernel, pointer, within
+
+_ONE = instances.instance(1)
+kept_series = _ONE.kept_series
+STEPS = instances.steps(_ONE)
+flight_step, contact_step, flight_tangents, contact_tangents = STEPS
+SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
+# Where the tangents' numbers begin in a workspace: at a cache line.
+BEHIND = -(-SIZE // LINE) * LINE
+SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
+    _ONE.SIDE,
+    _ONE.TIME,
+    _ONE.LONGEST,
+    _ONE.TOLERANCE,
+    _ONE.LENGTH,
+)
+PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
+
+
+@kernel
+def workspace():
+    """Array for the numbers of one trajectory and of its tangents, as `step` keeps them."""
+    return aligned(BEHIND + TANGENT_SIZE)
+
+
+@kernel
+def assign(target, state):
+    """`target[:] = state`, which to compile takes numba three seconds."""
+    for i in range(4):
+        target[i] = state[i]
+
+
+@kernel
+def polynomial(c, order, t):
+    """Value and first derivative of a polynomial at t."""
+    value = c[order]
+    slope = 0.0
+    for k in range(order - 1, -1, -1):
+        slope = slope * t + value
+        value = value * t + c[k]
+    return value, slope
+
+
+@within
+def place(p, y, side, tolerance, a):
+    """Put a trajectory into a workspace, whose first rows are the same for series of any orders."""
+    for i in range(7):
+        a[PARAMETERS + i] = p[i]
+    for i in range(4):
+        a[STATE + i] = y[i]
+    a[SIDE] = side
+    a[TOLERANCE] = tolerance
+    a[KNOWN] = np.inf
+
+
+@kernel
+def load(p, y, tangents, side, tolerance, a, d):
+    """Put a trajectory and its tangents into the workspace."""
+    place(p, y, side, tolerance, a)
+    kept_series(a)
+    if len(tangents) > 0:
+        for i in range(COLUMNS):
+            for j in range(4):
+                d[COLUMNS * j + i] = tangents[i, j] if i < len(tangents) else 0.0
+
+
+@within
+def unload(y, tangents, a, d):
+    """Take the state and the tangents out of the workspace."""
+    for i in range(4):
+        y[i] = a[STATE + i]
+    for i in range(len(tangents)):
+        for j in range(4):
+            tangents[i, j] = d[COLUMNS * j + i]
+
+
+@within
+def step_loaded(count, t, longest, a, d):
+    """`step` of a trajectory that stays in the workspace, and of so many tangents."""
+    a[TIME] = t
+    a[LONGEST] = longest
+    if a[SIDE] == 0.0:
+        flight_step(a)
+        if count > 0:
+            flight_tangents(a, d)
+    else:
+        contact_step(a)
+        if count > 0:
+            contact_tangents(a, d)
+    return a[LENGTH], np.int64(a[SIDE])
+
+
+@kernel
+def step(p, y, tangents, side, t, longest, tolerance, work):
+    """One step of the flow, ended early by an event.
+
+    Parameters
+    ----------
+    p : array, shape (7,)
+        Packed parameters (`parameters.pack`).
+    y : array, shape (4,)
+        Z1, Z1', Z2, Z2'; replaced.
+    tangents : array, shape (m, 4)
+        Solutions of the variational equations, m from 0 to 4; replaced.
+    side : int
+        Wall in contact, -1 or 1, or 0 in flight.
+    t, longest, tolerance : float
+        Time (only its forcing phase counts), longest step, local error allowed.
+    work : array
+        `workspace()`. From X and Q on it holds the series of Z1 and, in contact, of Z2 -+ d0 over
+        the step afterwards.
+
+    Returns
+    -------
+    length : float
+        Time gone by.
+    side : int
+        Wall in contact after the step.
+    """
+    a, d = pointer(work), pointer(work[BEHIND:])
+    load(p, y, tangents, side, tolerance, a, d)
+    length, side = step_loaded(len(tangents), t, longest, a, d)
+    unload(y, tangents, a, d)
+    return length, side
+
+
+@kernel
+def side_of(p, y):
+    """Wall in contact in a state: beyond it, or on it and moving outward."""
+    if y[2] > p[3] or (y[2] == p[3] and y[3] > 0.0):
+        return 1
+    if y[2] < -p[3] or (y[2] == -p[3] and y[3] < 0.0):
+        return -1
+    return 0
+
+
+@kernel
+def advance(p, y, tangents, side, t, end, tolerance, work):
+    """Integrate from t to end. Returns the side after it, contacts begun and time in contact."""
+    contacts = 0
+    touching = 0.0
+    a, d = pointer(work), pointer(work[BEHIND:])
+    load(p, y, tangents, side, tolerance, a, d)
+    while t < end:
+        before = side
+        length, side = step_loaded(len(tangents), t, end - t, a, d)
+        t = end if length >= end - t else t + length
+        if before == 0 and side != 0:
+            contacts += 1
+        if before != 0:
+            touching += length
+    unload(y, tangents, a, d)
+    return side, contacts, touching

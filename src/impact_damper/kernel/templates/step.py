@@ -1,0 +1,213 @@
+"""One certified Taylor step of the event-driven flow, for one trajectory or several in lockstep.
+
+A step takes trajectories that are all in flight, or all in contact, to the next event or to
+the end of the step, whichever is first for each. Events are the beginning and the end of
+contacts; `events` and `release` search for them.
+
+This file is a template: `widths.instance` compiles it for each number of lanes and each pair of
+orders that is wanted, after the constants and the functions that `sums` writes for them. All
+numbers stand in flat arrays, `a` for trajectories and `d` for tangents; names in capitals are
+the beginnings of their rows. Trajectories do not touch each other: what one comes to does not
+depend on its neighbours.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.kernel.compiling import within
+
+LANES: int
+TANGENTS: int
+FLIGHT_ORDER: int
+CONTACT_ORDER: int
+EARLY: int
+SIZE: int
+TANGENT_SIZE: int
+
+ONE = 1023 << 52
+# Local errors pass through contacts, which amplify them; this share of the tolerance
+# keeps the error of settled motions within 10 times of it.
+SAFETY = 0.05
+# The last terms of a flight whose length was foreseen may be so many times larger.
+BEYOND = 4.0
+
+
+@within
+def bits(x):
+    """The bits of a number: if positive, about 2^52 times its logarithm to base 2, plus ONE."""
+    return np.float64(x).view(np.int64)
+
+
+@within
+def number(x):
+    """The number of some bits."""
+    return np.int64(x).view(np.float64)
+
+
+@within
+def allowed(a, i):
+    """How large the last terms of the series may be."""
+    return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
+
+
+@within
+def limit_length(a, series, order, excess):
+    """Shorten LENGTH so that the last two terms of a series' slope stay below the tolerance.
+
+    Only where TAIL exceeds that so many times: whatever the neighbours need. Roots are taken by
+    division of the bits, within a few per cent.
+    """
+    for i in range(LANES):
+        most = bits(allowed(a, i))
+        last = most - bits(abs(order * a[series + order * LANES + i]))
+        before = most - bits(abs((order - 1) * a[series + (order - 1) * LANES + i]))
+        last = (last >> 28) * ((1 << 28) // (order - 1))
+        before = (before >> 28) * ((1 << 28) // (order - 2))
+        shorter = min(a[LENGTH + i], number(ONE + min(last, before)))
+        a[LENGTH + i] = shorter if a[TAIL + i] > excess * allowed(a, i) else a[LENGTH + i]
+
+
+@within
+def foresee_length(a):
+    """Find a LENGTH in which the last terms of the series of Z1' may be expected to stay small.
+
+    Not beyond LONGEST. By three terms, those of Z1 from EARLY on, as if all fell from SCALE at one
+    rate; the next step and its forcing need not wait for the last ones then.
+    """
+    last = FLIGHT_ORDER - 1
+    for i in range(LANES):
+        a[SCALE + i] = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
+        fall = ((bits(SAFETY * a[TOLERANCE + i]) - ONE) >> 28) * ((1 << 28) // last)
+        top = bits(a[SCALE + i])
+        first = (top - bits(abs(EARLY * a[X + EARLY * LANES + i]))) >> 28
+        second = (top - bits(abs((EARLY + 1) * a[X + (EARLY + 1) * LANES + i]))) >> 28
+        third = (top - bits(abs((EARLY + 2) * a[X + (EARLY + 2) * LANES + i]))) >> 28
+        first *= (1 << 28) // (EARLY - 1)
+        second *= (1 << 28) // EARLY
+        third *= (1 << 28) // (EARLY + 1)
+        length = number(ONE + fall + min(first, min(second, third)))
+        a[LENGTH + i] = min(a[LONGEST + i], length)
+        a[T + i] = a[LENGTH + i]
+
+
+@within
+def end_flight(a):
+    """Find Z1 and its slope at T, where the step may END.
+
+    T is moved back where the last terms are too large there.
+    """
+    flight_slope(a)
+    beyond = 0
+    for i in range(LANES):
+        beyond += 1 if a[TAIL + i] > BEYOND * allowed(a, i) else 0
+    if beyond > 0:
+        limit_length(a, X, FLIGHT_ORDER, BEYOND)
+        for i in range(LANES):
+            a[T + i] = min(a[T + i], a[LENGTH + i])
+        flight_slope(a)
+    for i in range(LANES):
+        a[END_Z1 + i] = a[Z1 + i]
+        a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
+
+
+@within
+def flight_step(a):
+    """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
+    forcing(a)
+    flight_series(a)
+    foresee_length(a)
+    walls = 0
+    for i in range(LANES):
+        a[MODE + i] = MISSED
+        walls += 1 if a[CLEARANCE + i] < math.inf else 0
+    if walls > 0:
+        expect_contact(a)
+    look_ahead(a)
+    end_flight(a)
+    if walls > 0:
+        flight_change(a)
+        find_contact(a)
+    for i in range(LANES):
+        t = a[T + i]
+        met = a[MODE + i] == MET
+        offset = a[Y2 + i] - a[Y0 + i]
+        drift = a[Y3 + i] - a[Y1 + i]
+        free = a[END_Z1 + i] + offset + drift * t
+        a[Y0 + i] = a[END_Z1 + i]
+        a[Y1 + i] = a[END_Z1_SLOPE + i]
+        a[Y2 + i] = a[WALL + i] * a[CLEARANCE + i] if met else free
+        a[Y3 + i] = a[END_Z1_SLOPE + i] + drift
+        a[SIDE + i] = a[WALL + i] if met else 0.0
+        a[LENGTH + i] = t
+
+
+@within
+def flight_tangents(a, d):
+    """Carry tangents through the flight that `flight_step` has just made."""
+    flight_squares(a)
+    flight_tangent_series(a, d)
+    for i in range(TANGENTS):
+        d[2 * TANGENTS + i] -= d[i]
+        d[3 * TANGENTS + i] -= d[TANGENTS + i]
+    flight_tangent_value(a, d)
+    for i in range(TANGENTS):
+        d[2 * TANGENTS + i] += d[i] + d[3 * TANGENTS + i] * a[LENGTH + i % LANES]
+        d[3 * TANGENTS + i] += d[TANGENTS + i]
+    dashpot_jump(a, d, -1.0)
+
+
+@within
+def contact_tangents(a, d):
+    """Carry tangents through the contact that `contact_step` has just made."""
+    contact_squares(a)
+    contact_tangent_series(a, d)
+    contact_tangent_value(a, d)
+    dashpot_jump(a, d, 1.0)
+
+
+@within
+def dashpot_jump(a, d, direction):
+    """Jump of tangents where the dashpot's force has set in (-1) or ended (+1).
+
+    Saltation across Z2 = +-d0: only the force is discontinuous, so the jump is linear in
+    the relative displacement, does not depend on the speed, and has determinant 1.
+    """
+    for i in range(TANGENTS):
+        j = i % LANES
+        begun = a[SIDE + j] != 0.0
+        crossed = begun if direction < 0.0 else not begun
+        jump = direction * a[DASHPOT + j] * d[2 * TANGENTS + i] if crossed else 0.0
+        d[TANGENTS + i] += jump
+        d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS + j])
+
+
+@within
+def contact_step(a):
+    """Step of trajectories in contact, whose SIDE becomes 0 where it ends."""
+    forcing(a)
+    foresee_release(a)
+    contact_series(a)
+    look_ahead(a)
+    contact_bound(a)
+    beyond = 0
+    for i in range(LANES):
+        scale = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
+        a[SCALE + i] = max(scale, abs(a[Y3 + i]))
+        beyond += 1 if a[TAIL + i] > allowed(a, i) else 0
+    if beyond > 0:
+        limit_length(a, X, CONTACT_ORDER, 1.0)
+        limit_length(a, Q, CONTACT_ORDER, 1.0)
+        for i in range(LANES):
+            a[T + i] = min(a[T + i], a[LENGTH + i])
+        contact_bound(a)
+    find_release(a)
+    for i in range(LANES):
+        released = a[MODE + i] == MET
+        wall = a[SIDE + i] * a[CLEARANCE + i]
+        a[Y0 + i] = a[END_Z1 + i]
+        a[Y1 + i] = a[END_Z1_SLOPE + i]
+        a[Y2 + i] = wall if released else wall + a[END_DEPTH + i]
+        a[Y3 + i] = a[END_DEPTH_SLOPE + i]
+        a[SIDE + i] = 0.0 if released else a[SIDE + i]
+        a[LENGTH + i] = a[T + i]

@@ -1,0 +1,136 @@
+"""A run of the migration controller, in numbers.
+
+From the resonance branch the damper is switched on and off again, until the free oscillator
+settles on its non-resonance branch. See `releases` for how the damper is switched on. It is
+switched off in the forcing periods after its motion is recognised as settled, near a stable
+orbit, at a phase drawn uniformly over the period of that motion; or, if it has not settled
+within a longest hold, in the forcing period after that.
+"""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag
+from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
+from impact_damper.migration import legs
+from impact_damper.migration.damper_release import destination, kinds
+from impact_damper.motions.records import MOTION, trace
+
+MARGIN = 10
+SAMPLES = 40
+SWITCHING = np.dtype(
+    [
+        ("on_time", "f8"),
+        ("off_time", "f8"),
+        ("end_time", "f8"),
+        ("released_period", "i2"),
+        ("released_displacement", "f8"),
+        ("destination", "i1"),
+        ("destination_displacement", "f8"),
+    ]
+)
+
+
+def draw(seed, switchings):
+    """Phases and places of one run: the first rows are the same for any number of switchings."""
+    return np.random.default_rng(seed).random((switchings, 3))
+
+
+def blank(shape):
+    """Log of switchings that are not made."""
+    log = np.zeros(shape, SWITCHING)
+    for name in SWITCHING.names:
+        if SWITCHING[name].kind == "f":
+            log[name] = np.nan
+    log["destination"] = FREE_MOTION["none"]
+    return log
+
+
+def control(here, draws, longest_hold, settling, periods):
+    """One run of the controller: rows of its path, and its log.
+
+    A row of `draws` holds for one switching the phase of switching on, the place of the loose
+    mass and the phase of release, phases as a share of the period of the motion before. A row of
+    the path is (forcing periods from the first strobe, state), at each strobe and switching.
+    """
+    y = here.state.copy()
+    records = np.zeros(1, MOTION)
+    record = records[0]
+    record["period"] = 1
+    log = blank(len(draws))
+    rest = np.empty((max(longest_hold, settling.limit) + 2, 5))
+    path, strobe = [], 0.0
+
+    def leg(before, after, phase, place, limit):
+        nonlocal strobe
+        wait = phase * max(int(record["period"]), 1)
+        instant = strobe + wait
+        strobe = legs.leg(
+            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, records
+        )
+        path.append(rest[: record["periods_run"] + 2].copy())
+        return instant
+
+    for entry, draw in zip(log, draws, strict=True):
+        entry["on_time"] = leg(here.off, here.on, draw[0], 2 * draw[1] - 1, longest_hold)
+        entry["released_period"] = record["period"]
+        entry["released_displacement"] = record["maximum_displacement"]
+        entry["off_time"] = leg(here.on, here.off, draw[2], 0.0, settling.limit)
+        entry["end_time"] = strobe
+        entry["destination"] = destination(here.known, record)
+        entry["destination_displacement"] = record["maximum_displacement"]
+        if entry["destination"] == FREE_MOTION["non_resonance"] or strobe >= periods:
+            break
+    return np.concatenate(path), log
+
+
+def course(here, path, log, tolerance):
+    """Times T and Z1 along a run, and MARGIN periods before its first strobe and after its end.
+
+    Each stretch between two rows of the path is integrated by itself, so that a chaotic motion
+    is the very one that was controlled.
+    """
+    period = 2 * np.pi / here.on[0]
+    path = np.vstack([np.append(-MARGIN, here.state), path])
+    ends = np.append(path[1:, 0], path[-1, 0] + MARGIN)
+    times = np.arange(-MARGIN * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
+    log = log[log["destination"] != FREE_MOTION["none"]]
+    switched = np.stack([log["on_time"], log["off_time"]], axis=-1).ravel()
+    damped = np.searchsorted(switched, (path[:, 0] + ends) / 2) % 2 == 1
+    cuts = np.searchsorted(times, np.append(path[:, 0], ends[-1]))
+    states = np.empty((len(times), 4))
+    for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False):
+        trace(
+            here.on if on else here.off,
+            row[1:].copy(),
+            (row[0] + 0.25) * period,
+            (times[first:last] + 0.25) * period,
+            tolerance,
+            states[first:last],
+            np.empty((0, 5)),
+        )
+    return (times + 0.25) * period, states[:, 0]
+
+
+def switching_data(logs, here):
+    """Registered variables of each switching, over (..., switching)."""
+    period = 2 * np.pi / here.on[0]
+    kind = kinds(logs["released_period"], logs["released_displacement"], here.known)
+    absent = logs["destination"] == FREE_MOTION["none"]
+    data = {name: (logs[name] + 0.25) * period for name in ("on_time", "off_time", "end_time")}
+    data["released_from"] = np.where(absent, DAMPED_MOTION["none"], kind)
+    return data | {name: logs[name] for name in SWITCHING.names[3:]}
+
+
+def run_totals(logs):
+    """Registered variables of whole runs, in forcing periods from the first switching."""
+    first = logs["on_time"][..., 0]
+    reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
+    return {
+        "trial_outcome": np.where(
+            reached, flag("trial_outcome", "reached"), flag("trial_outcome", "not_reached")
+        ),
+        "switchings": np.sum(logs["destination"] != FREE_MOTION["none"], axis=-1),
+        "damper_time": np.nansum(logs["off_time"] - logs["on_time"], axis=-1),
+        "release_time": np.nanmax(logs["off_time"], axis=-1) - first,
+        "total_time": np.nanmax(logs["end_time"], axis=-1) - first,
+    }

@@ -1,0 +1,117 @@
+"""Ensembles of motions on all cores, with progress shown; the same results for any number.
+
+Kernels release the interpreter lock, so threads run them side by side. Every motion is
+computed by itself, hence nothing depends on how the work is shared out.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from tqdm import tqdm
+
+from impact_damper.motions.records import MOTION, measure
+from impact_damper.motions.settling import settle_many
+from impact_damper.system.parameters import check_count, check_number
+
+CHUNK = 128
+
+
+@dataclass(frozen=True)
+class Settling:
+    """How long motions are run and how closely.
+
+    Attributes
+    ----------
+    tolerance : float
+        Local error allowed in a step of the integrator, dimensionless.
+    patience : int
+        Forcing periods after which a motion that is chaotic beyond doubt is let go, and so is
+        one in which the loose mass hardly moves and has met no wall for as long.
+    limit : int
+        Forcing periods after which any motion is stopped: chaotic, if that is certain by then,
+        or unresolved.
+    watched : int
+        Further forcing periods over which a motion that has not settled is measured.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is not a number or out of range.
+    """
+
+    tolerance: float = 1e-9
+    patience: int = 300
+    limit: int = 1500
+    watched: int = 50
+
+    def __post_init__(self):
+        check_number("tolerance", self.tolerance, least=1e-14, most=1e-3)
+        check_count("patience", self.patience, least=100, most=10**7)
+        check_count("limit", self.limit, least=self.patience, most=10**8, why="not below patience")
+        check_count("watched", self.watched, most=10**6)
+
+
+def run_chunks(work, count, workers, progress, size=CHUNK):
+    """Call `work(slice)` for slices that cover range(count), on `workers` threads."""
+    check_count("workers", workers, most=4096)
+    slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
+    with (
+        ThreadPoolExecutor(workers) as pool,
+        tqdm(total=count, desc=progress, disable=progress is None, mininterval=1.0) as bar,
+    ):
+        for part, _ in zip(slices, pool.map(work, slices), strict=True):
+            bar.update(part.stop - part.start)
+
+
+def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, progress=None):
+    """Run motions until each has settled, and measure them.
+
+    Parameters
+    ----------
+    parameters : array, shape (m, 7)
+        Packed parameters of each motion.
+    states : array, shape (m, 4)
+        First states Z1, Z1', Z2, Z2', at T = 0 or, with `from_strobe`, at W T = pi/2.
+    settling : Settling, optional
+    from_strobe : bool
+        Whether the states are given at W T = pi/2.
+    workers : int
+        Threads.
+    progress : str, optional
+        Title of a progress bar; none is shown without.
+
+    Returns
+    -------
+    numpy.ndarray of recording.MOTION, shape (m,)
+
+    Raises
+    ------
+    ValueError
+        If parameters or states are not of these shapes.
+    """
+    settling = settling or Settling()
+    parameters = np.ascontiguousarray(parameters, float)
+    states = np.ascontiguousarray(states, float)
+    if states.shape[1:] != (4,) or parameters.shape != (len(states), 7):
+        raise ValueError(
+            f"parameters and states: must be of shapes (m, 7) and (m, 4), "
+            f"{parameters.shape} and {states.shape} given"
+        )
+    found = np.zeros(len(states), MOTION)
+
+    def work(part):
+        start = 0.5 * np.pi / parameters[part, 0] if from_strobe else np.zeros(len(found[part]))
+        settle_many(
+            parameters[part],
+            states[part],
+            start,
+            settling.tolerance,
+            settling.patience,
+            settling.limit,
+            found[part],
+        )
+        measure(parameters[part], settling.tolerance, settling.watched, found[part])
+
+    run_chunks(work, len(states), workers, progress)
+    return found

@@ -1,0 +1,129 @@
+"""The one-third subharmonic of the free oscillator: a symmetric motion of period 3."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.data.datasets import flag
+from impact_damper.motions import records, strobe_map
+from impact_damper.motions.simulate import check_settling, random_states
+from impact_damper.motions.sweep import FREQUENCY, SAME, record_at, sweep
+from impact_damper.system.parameters import pack
+
+SEARCHED = 81
+
+
+class FreeSubharmonic(NamedTuple):
+    """The free one-third subharmonic.
+
+    Attributes
+    ----------
+    parameters, states : numpy.ndarray, shapes (n, 7) and (n, 4)
+        It at the frequencies where it was found, at W T = pi/2; empty if it was not.
+    ends : numpy.ndarray, shape (2,)
+        Frequencies between which it exists, NaN if it was not found.
+    events : numpy.ndarray, shape (2,)
+        What ends it there, flags of `free_subharmonic_event`.
+    """
+
+    parameters: np.ndarray
+    states: np.ndarray
+    ends: np.ndarray
+    events: np.ndarray
+
+    @property
+    def found(self):
+        return len(self.states) > 0
+
+    def at(self, frequency):
+        """Record of the motion at a frequency, or None where it does not exist."""
+        if not self.ends[0] <= frequency <= self.ends[1]:
+            return None
+        k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))
+        p, y = self.parameters[k].copy(), self.states[k].copy()
+        return record_at(p, y, 3, FREQUENCY, frequency)
+
+
+def free_subharmonic(
+    oscillator, first, last, *, starts=96, radius=2.0, seed=1995, settling=None, workers=1
+) -> FreeSubharmonic:
+    """The symmetric motion of period 3 without a damper, sought from one frequency to another."""
+    frequencies = np.linspace(first, last, SEARCHED)
+    parameters = np.array([pack(oscillator, None, value) for value in frequencies])
+    states = np.array(
+        [random_states(starts, radius, None, [seed, i]) for i in range(len(frequencies))]
+    )
+    data = sweep(
+        parameters, FREQUENCY, "frequency", states, check_settling(settling), workers=workers
+    )
+    chosen = is_subharmonic(data) & (data["period"][1] == 3) & (data["asymmetry"][1] < SAME)
+    branches, counts = np.unique(data["branch"][1][chosen], return_counts=True)
+    if len(branches) == 0:
+        events = np.full(2, flag("free_subharmonic_event", "not_found"))
+        return FreeSubharmonic(np.empty((0, 7)), np.empty((0, 4)), np.full(2, np.nan), events)
+    branch = branches[np.argmax(counts)]
+    row, column = np.nonzero(chosen & (data["branch"][1] == branch))
+    ends, events = branch_ends(data, branch, frequencies, row)
+    return FreeSubharmonic(parameters[row], data["state"][1][row, column], ends, events)
+
+
+def switched_on(oscillator, p, state, loose, generator):
+    """States at T = 0 after the damper was switched on to the subharmonic at a random time.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    p : array, shape (7,)
+        Packed parameters with the damper.
+    state : array, shape (4,)
+        The free subharmonic at W T = pi/2.
+    loose : array, shape (m, 4)
+        Z2 and Z2' of the loose mass in the last two columns; every second Z2' is replaced by 0.
+    generator : numpy.random.Generator
+
+    Returns
+    -------
+    numpy.ndarray, shape (m, 4)
+    """
+    period = 2 * np.pi / p[FREQUENCY]
+    begin = strobe_map.strobe_time(p)
+    times = begin + np.sort(generator.random(len(loose))) * 3 * period
+    states, log = np.empty((len(loose), 4)), np.empty((0, 5))
+    free = pack(oscillator, None, p[FREQUENCY])
+    records.trace(free, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, log)
+    states[:, 2:] = loose[:, 2:]
+    states[::2, 3] = 0.0
+    for time, y in zip(times, states, strict=True):
+        until = np.array([np.ceil(time / period) * period])
+        records.trace(p, y, time, until, strobe_map.POLISH_TOLERANCE, np.empty((1, 4)), log)
+    return states
+
+
+def is_subharmonic(data):
+    """True for the settled motions whose period is a multiple of 3."""
+    return (data["outcome"][1] == flag("outcome", "settled")) & (data["period"][1] % 3 == 0)
+
+
+def branch_ends(data, branch, grid, rows):
+    """Both ends of a branch found at some rows of a sweep's grid, and their events.
+
+    Where no end was located it is the last point of the grid, flagged.
+    """
+    ends = grid[[min(rows), max(rows)]]
+    events = np.full(2, flag("free_subharmonic_event", "not_found"))
+    for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
+        if not 0 <= row + step < len(grid):
+            events[side] = flag("free_subharmonic_event", "sweep_ends")
+            continue
+        value = data["end_value"]
+        away = step * (value - grid[row])
+        fits = (
+            (data["end_branch"] == branch)
+            & (away >= 0)
+            & (data["end_direction"] == flag("end_direction", turn))
+            & (away <= abs(grid[row + step] - grid[row]))
+        )
+        if fits.any():
+            last = np.argmax(np.where(fits, away, -1.0))
+            ends[side], events[side] = value[last], data["end_event"][last]
+    return ends, events

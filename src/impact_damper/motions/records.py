@@ -1,0 +1,191 @@
+"""Records of motions: extremum, contacts and harmonics of an orbit, traces, first collisions."""
+
+import math
+
+import numpy as np
+
+from impact_damper.kernel.compiling import inlined, kernel, within
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
+from impact_damper.kernel.single import Q, X, assign, polynomial, side_of, step, workspace
+from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
+
+SAMPLES = 64
+
+# Outcomes of a motion that is run until it settles.
+UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = 0, 1, 2, 3, 4
+MOTION = np.dtype(
+    [
+        ("outcome", "i1"),
+        ("period", "i2"),
+        ("periods_run", "i4"),
+        ("multiplier", "c16"),
+        ("residual", "f8"),
+        ("lyapunov_exponent", "f8"),
+        ("lyapunov_error", "f8"),
+        ("state", "f8", 4),
+        ("maximum_displacement", "f8"),
+        ("contacts", "f8"),
+        ("asymmetry", "f8"),
+        ("harmonic_displacement", "c16"),
+        ("harmonic_relative", "c16"),
+    ]
+)
+
+
+@kernel
+def extremum(c, order, length, start):
+    """Largest |polynomial| over [0, length], at least `start`: eight points, then Newton's."""
+    best = start
+    for i in range(9):
+        t = length * i / 8.0
+        value, slope = polynomial(c, order, t)
+        if abs(value) > best - 0.1:
+            for _ in range(6):
+                bend = 0.0
+                for k in range(order, 1, -1):
+                    bend = bend * t + k * (k - 1) * c[k]
+                if bend == 0.0:
+                    break
+                t = min(max(t - slope / bend, 0.0), length)
+                value, slope = polynomial(c, order, t)
+        best = max(best, abs(value))
+    return best
+
+
+@within
+def series_of_step(work, side, y, t):
+    """Z1, its rate, Z2 or the signed penetration, and its rate, at time t into a step from y."""
+    if side == 0:
+        x, v = polynomial(work[X:], FLIGHT_ORDER, t)
+        return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
+    x, v = polynomial(work[X:], CONTACT_ORDER, t)
+    q, w = polynomial(work[Q:], CONTACT_ORDER, t)
+    return x, v, q, w
+
+
+@inlined
+def measure_one(p, y, periods, tolerance, out):
+    """`measure` of one motion over so many forcing periods."""
+    work = workspace()
+    none = np.empty((0, 4))
+    period = 2.0 * math.pi / p[0]
+    begin = strobe_time(p)
+    end = begin + periods * period
+    spacing = period / SAMPLES
+    start = y.copy()
+    state = y.copy()
+    half = begin + 0.5 * periods * period if periods % 2 == 1 else math.inf
+    side = side_of(p, y)
+    largest, contacts, t, sample = abs(y[0]), 0, begin, 0
+    first, second = 0.0j, 0.0j
+    out.asymmetry = np.nan
+    while t < end:
+        stop = min(end, half) if t < half else end
+        assign(start, state)
+        before = side
+        length, side = step(p, state, none, side, t, stop - t, tolerance, work)
+        order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
+        largest = extremum(work[X:], order, length, largest)
+        contacts += before == 0 and side != 0
+        while begin + sample * spacing < t + length and sample < periods * SAMPLES:
+            x, _, z, _ = series_of_step(work, before, start, begin + sample * spacing - t)
+            z += before * p[3] if before != 0 else 0.0
+            angle = p[0] * (begin + sample * spacing)
+            turn = complex(math.cos(angle), -math.sin(angle))
+            first += x * turn
+            second += z * turn
+            sample += 1
+        t = stop if length >= stop - t else t + length
+        if t == half:
+            out.asymmetry = distance(-state, y, speed_weight(p, side))
+    out.maximum_displacement = largest
+    out.contacts = contacts / periods
+    out.harmonic_displacement = first * (2.0 / sample)
+    out.harmonic_relative = second * (2.0 / sample)
+
+
+@kernel
+def measure(parameters, tolerance, watched, out):
+    """Add to records what is found from their states at a strobe on, unless they have diverged.
+
+    Each is followed over its `period`, or over `watched` forcing periods where that is 0.
+    `maximum_displacement` is the extremum of |Z1|; `contacts` is per forcing period;
+    `asymmetry` the distance of the state half the time later from the mirrored start, which
+    vanishes for a symmetric motion of odd period; the harmonics are complex amplitudes c of
+    Re(c exp(i W T)) in Z1 and Z2, by the trapezoidal rule.
+    """
+    for i in range(len(out)):
+        if out[i].outcome != DIVERGED:
+            periods = out[i].period if out[i].period > 0 else watched
+            measure_one(parameters[i], out[i].state.copy(), periods, tolerance, out[i])
+
+
+def measured(p, y, periods, tolerance):
+    """Record of `measure` alone, over so many forcing periods from a state on an orbit."""
+    records = np.zeros(1, MOTION)
+    records["state"] = y
+    measure(p[None], tolerance, periods, records)
+    return records[0]
+
+
+@kernel
+def trace(p, y, t, times, tolerance, states, log):
+    """States (len(times), 4) at increasing times from t on, and a log of the contacts.
+
+    A row of `log` is a contact: wall, beginning, end, and Z2' at both. The last state is left
+    in y. Returns the number of contacts; those beyond the log's length are counted only.
+    """
+    work = workspace()
+    none = np.empty((0, 4))
+    start = y.copy()
+    side = side_of(p, y)
+    contacts = 0
+    if side != 0:
+        contacts = record_beginning(log, contacts, side, t, y[3])
+    sample = 0
+    while sample < len(times) and times[sample] <= t:
+        assign(states[sample], y)
+        sample += 1
+    while sample < len(times):
+        assign(start, y)
+        before = side
+        # the last sample is an end of a step, so that y is the state there
+        left = times[-1] - t
+        length, side = step(p, y, none, side, t, left, tolerance, work)
+        while sample < len(times) and (times[sample] - t < length or length >= left):
+            x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
+            states[sample, 0], states[sample, 1] = x, v
+            states[sample, 2], states[sample, 3] = z + (before * p[3] if before != 0 else 0.0), w
+            sample += 1
+        t += length
+        if before == 0 and side != 0:
+            contacts = record_beginning(log, contacts, side, t, y[3])
+        elif before != 0 and side == 0 and contacts <= len(log):
+            log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
+    return contacts
+
+
+@within
+def record_beginning(log, contacts, side, t, speed):
+    """Open a row of the contact log; returns the number of contacts."""
+    if contacts < len(log):
+        log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
+        log[contacts, 3], log[contacts, 4] = speed, np.nan
+    return contacts + 1
+
+
+@kernel
+def first_collisions(parameters, states, limit, tolerance, periods):
+    """Forcing periods from T = 0 to the first contact of each motion, infinite if none by then."""
+    none = np.empty((0, 4))
+    work = workspace()
+    for i in range(len(states)):
+        p = parameters[i]
+        y = states[i].copy()
+        t = 0.0
+        side = side_of(p, y)
+        end = limit * 2.0 * math.pi / p[0]
+        while side == 0 and t < end:
+            length, side = step(p, y, none, side, t, end - t, tolerance, work)
+            t += length
+        periods[i] = t * p[0] / (2.0 * math.pi) if side != 0 else np.inf

@@ -1,0 +1,273 @@
+"""Single motions with labels: simulate one, find the steady motion it settles to."""
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, is_settled
+from impact_damper.motions import ensemble, records
+from impact_damper.system.parameters import (
+    check_count,
+    check_number,
+    check_numbers,
+    describe,
+    pack,
+    shown,
+)
+
+# Below this share of the first harmonic of Z1 another one is rounding and has no phase.
+PHASELESS = 1e-9
+# Beyond these a state moves so fast that a forcing period has no end.
+FARTHEST, FASTEST = 1e3, 1e6
+MOST_SEED = 2**63 - 1
+MOST_SAMPLES = 10**7
+COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
+
+
+def check_state(state, damper):
+    """Return a state as an array of four, or raise.
+
+    Without a damper the loose mass is left at rest at the origin, Z2 = Z1.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the state is not four numbers, or two without a damper, or out of range.
+    """
+    values = check_numbers("state", state)
+    allowed = "four finite numbers Z1, Z1', Z2, Z2'"
+    if damper is None:
+        allowed += ", or two without a damper"
+    if damper is None and values.shape == (2,):
+        values = np.concatenate([values, values])
+    if values.shape != (4,):
+        raise ValueError(
+            f"state = {shown(state)}: must be {allowed} "
+            "(the paper's figure 4 gives three; a state of this system has four)"
+        )
+    for i, (value, most) in enumerate(zip(values, [FARTHEST, FASTEST] * 2, strict=True)):
+        check_number(f"state[{i}]", value, least=-most, most=most)
+    return values
+
+
+def check_settling(settling) -> ensemble.Settling:
+    """Return how motions are run, the default for None, or raise TypeError."""
+    if settling is None:
+        return ensemble.Settling()
+    if not isinstance(settling, ensemble.Settling):
+        raise TypeError(f"settling = {shown(settling)}: must be a Settling")
+    return settling
+
+
+def random_states(count, radius, damper, seed, *, within_gap=True):
+    """States drawn uniformly from a ball around the origin.
+
+    Parameters
+    ----------
+    count : int
+    radius : float
+        Dimensionless; 2 in the paper. Within the gap at most 1000 clearances.
+    damper : Damper or None
+        Without a damper the ball is that of (Z1, Z1'), and Z2 = Z1.
+    seed : int or sequence of int
+    within_gap : bool
+        Draw again where |Z2| exceeds the clearance: beyond the wall the contact spring is
+        loaded, with an energy unlike that of any motion at rest. False is the literal ball.
+
+    Returns
+    -------
+    numpy.ndarray, shape (count, 4)
+
+    Raises
+    ------
+    TypeError, ValueError
+        If count, radius or seed is out of range.
+    """
+    check_count("count", count, least=0, most=10**8)
+    check_number("radius", radius, above=0.0, most=1e3)
+    if damper is not None and within_gap:
+        most = 1e3 * damper.clearance
+        check_number("radius", radius, above=0.0, most=most, why="hardly a draw is within the gap")
+    for value in np.atleast_1d(seed):
+        check_count("seed", value, least=0, most=MOST_SEED)
+    generator = np.random.default_rng(seed)
+    size = 2 if damper is None else 4
+    states = np.empty((0, size))
+    while len(states) < count:
+        direction = generator.standard_normal((count, size))
+        direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+        drawn = radius * direction * generator.random((count, 1)) ** (1 / size)
+        if damper is not None and within_gap:
+            drawn = drawn[np.abs(drawn[:, 2]) < damper.clearance]
+        states = np.concatenate([states, drawn])
+    states = states[:count]
+    return np.hstack([states, states]) if damper is None else states
+
+
+def simulate(
+    oscillator,
+    damper,
+    frequency,
+    state=(0.0, 0.0, 0.0, 0.0),
+    *,
+    periods=20,
+    samples=200,
+    start=0.0,
+    tolerance=1e-12,
+):
+    """Integrate one motion and label it.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+        None switches the damper off.
+    frequency : float
+        Forcing frequency W, dimensionless.
+    state : sequence of 4 floats, or 2 without a damper
+        Z1, Z1', Z2, Z2' at time `start`.
+    periods : float
+        Length in forcing periods.
+    samples : int
+        Samples per forcing period.
+    start : float
+        Time of the first state, dimensionless; the forcing is cos(W T).
+    tolerance : float
+        Local error allowed.
+
+    Returns
+    -------
+    xarray.Dataset
+        The state over `time`, and over `contact` the log of contacts: wall, beginning, end,
+        and Z2' at both (NaN for an end after the last sample).
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    p = pack(oscillator, damper, frequency)
+    y = check_state(state, damper)
+    check_number("periods", periods, above=0.0, most=1e6)
+    most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
+    check_count("samples", samples, least=2, most=most, why=f"{MOST_SAMPLES} in all")
+    check_number("tolerance", tolerance, least=1e-15, most=1e-2)
+    farthest = 1e6 * 2 * np.pi / p[0]
+    start = check_number("start", start, least=-farthest, most=farthest)
+    length = periods * 2 * np.pi / p[0]
+    times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
+    states = np.empty((len(times), 4))
+    log = np.empty((1024, 5))
+    first = y.copy()
+    count = records.trace(p, y, start, times, tolerance, states, log)
+    if count > len(log):
+        log = np.empty((count, 5))
+        records.trace(p, first, start, times, tolerance, states, log)
+    log = log[:count]
+    data = dict(zip(COMPONENTS, states.T, strict=True))
+    data |= {
+        "contact_wall": log[:, 0],
+        "contact_begin": log[:, 1],
+        "contact_end": log[:, 2],
+        "approach_velocity": log[:, 3],
+        "departure_velocity": log[:, 4],
+    }
+    made = describe(oscillator, damper) | {"frequency": float(frequency), "tolerance": tolerance}
+    return dataset(data, {"time": times}, made, "Motion of the oscillator")
+
+
+def phase_of(harmonic, reference):
+    """Phase of complex amplitudes to others, radian, NaN where the others are rounding only."""
+    phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
+    return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
+
+
+def tabulate(records):
+    """Registered variables, by name, of an array of motion records of any shape."""
+    first, second = records["harmonic_displacement"], records["harmonic_relative"]
+    return {
+        "outcome": records["outcome"],
+        "period": records["period"],
+        "contacts": records["contacts"],
+        "maximum_displacement": records["maximum_displacement"],
+        "asymmetry": records["asymmetry"],
+        "phase_relative": phase_of(first, second),
+        "phase_loose": phase_of(first, first - second),
+        "multiplier_real": records["multiplier"].real,
+        "multiplier_imaginary": records["multiplier"].imag,
+        "residual": records["residual"],
+        "lyapunov_exponent": records["lyapunov_exponent"],
+        "lyapunov_error": records["lyapunov_error"],
+        "periods_run": records["periods_run"],
+    }
+
+
+def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
+    """The steady motion that a state at T = 0 leads to.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        Forcing frequency W, dimensionless.
+    state : sequence of 4 floats, or 2 without a damper
+        Z1, Z1', Z2, Z2' at T = 0.
+    settling : Settling, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        Scalars: outcome, period (in forcing periods), contacts per forcing period, extremum of
+        |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent; and `state`,
+        a state of the motion at W T = pi/2.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    settling = check_settling(settling)
+    p = pack(oscillator, damper, frequency)
+    record = ensemble.settle(p[None], check_state(state, damper)[None], settling)[0]
+    data = {name: ((), value) for name, value in tabulate(record).items()}
+    data["state"] = (("component",), record["state"])
+    made = describe(oscillator, damper, settling) | {"frequency": float(frequency)}
+    return dataset(data, {"component": list(COMPONENTS)}, made, "Steady motion of the oscillator")
+
+
+def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=None):
+    """One period, sampled, of the steady motion that a state at T = 0 settles to.
+
+    Parameters
+    ----------
+    oscillator, damper, frequency, state, settling
+        As in `steady_motion`.
+    samples : int
+        Samples per forcing period.
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `simulate`, from W T = pi/2 on.
+
+    Raises
+    ------
+    ArithmeticError
+        If the motion does not settle.
+    """
+    settling = check_settling(settling)
+    steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
+    if not is_settled(steady):
+        raise ArithmeticError(
+            f"settling.limit = {settling.limit}: the motion has not settled by then; "
+            "a larger limit lets it run on, and steady_motion tells what it came to"
+        )
+    return simulate(
+        oscillator,
+        damper,
+        frequency,
+        steady["state"].values,
+        periods=int(steady["period"]),
+        samples=samples,
+        start=np.pi / (2 * frequency),
+        tolerance=settling.tolerance,
+    )

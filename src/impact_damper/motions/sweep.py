@@ -1,0 +1,255 @@
+"""Every motion along a sweep of one parameter that random starts and following reach.
+
+At each value motions are run from random starts. Each settled motion is then followed
+by Newton's method to the next value, upward and downward, so that motions with small
+basins are found too; where it cannot be followed, its branch has an end.
+"""
+
+from itertools import count
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from impact_damper.data.datasets import flag, is_settled
+from impact_damper.motions import ensemble, strobe_map
+from impact_damper.motions.records import MOTION, measured
+from impact_damper.motions.simulate import tabulate
+
+SAME = 1e-6
+CHAOTIC_GAP = 1.5
+RESOLUTION = 1e-8
+FREQUENCY, CLEARANCE = 0, 3
+
+
+class Catalogue:
+    """The distinct motions known at one value of the parameter.
+
+    Attributes
+    ----------
+    records : list of recording.MOTION
+    numbers : list of int
+        A number for each motion, unique over the sweep.
+    origins : list of int
+        Flags: found by a random start, or by following only.
+    shares : list of int
+        Random starts that lead to it.
+    """
+
+    def __init__(self, p, numbering):
+        self.p = p
+        self.numbering = numbering
+        self.records, self.numbers, self.origins, self.shares = [], [], [], []
+
+    def find(self, record):
+        """Index of a motion, its mirror image counting as the same, or None."""
+        for i, known in enumerate(self.records):
+            if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
+                continue
+            ratio = record["maximum_displacement"] / known["maximum_displacement"]
+            near = abs(ratio - 1) < SAME and abs(record["contacts"] - known["contacts"]) < 1e-9
+            alike = 1 / CHAOTIC_GAP < ratio < CHAOTIC_GAP
+            if near or (alike and not is_settled(record)):
+                return i
+        return None
+
+    def add(self, record, origin):
+        """Index of a motion, entered if it was not known; of two records the larger is kept."""
+        i = self.find(record)
+        if i is None:
+            i = len(self.records)
+            self.records.append(record)
+            self.numbers.append(next(self.numbering))
+            self.origins.append(flag("origin", origin))
+            self.shares.append(0)
+        elif record["maximum_displacement"] > self.records[i]["maximum_displacement"] + SAME:
+            self.records[i] = record
+        self.shares[i] += origin == "random_start"
+        return i
+
+    def order(self):
+        """Indices of the motions, the larger first."""
+        return np.argsort([record["maximum_displacement"] for record in self.records])[::-1]
+
+
+def _end_event(record, multiplier, beyond):
+    """What ends a branch, from the dominant multiplier at its last orbit and what lies beyond.
+
+    An orbit without a multiplier is one where Newton's method fails: the map is not smooth there.
+    """
+    if not abs(multiplier) >= 0.98:
+        return "not_smooth"
+    if abs(multiplier.imag) > 1e-3:
+        return "neimark_sacker"
+    if multiplier.real < 0:
+        return "period_doubling"
+    close = abs(beyond["maximum_displacement"] - record["maximum_displacement"]) < 0.05
+    splits = record["asymmetry"] < SAME and not beyond["asymmetry"] < SAME
+    if close and splits and beyond["period"] == record["period"]:
+        return "symmetry_breaking"
+    return "fold"
+
+
+def _follow(here, there, index, settling, links, ends):
+    """Follow every motion of one catalogue to the next value, noting links and ends."""
+    followed = [_carried(record, here.p, there.p[index], index) for record in here.records]
+    states = np.array([y for _, y, _ in followed]).reshape(-1, 4)
+    rows = np.tile(there.p, (len(states), 1))
+    settled = ensemble.settle(rows, states, settling, from_strobe=True)
+    for i, (record, beyond) in enumerate(zip(list(here.records), settled, strict=True)):
+        p, y, multiplier = followed[i]
+        j = there.add(beyond, "followed")
+        if not is_settled(record):
+            continue
+        arrived = p[index] == there.p[index]
+        if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
+            links.append((here.numbers[i], there.numbers[j]))
+            continue
+        last = measured(p, y, int(record["period"]), settling.tolerance)
+        ends.append(
+            {
+                "end_value": p[index],
+                "end_motion": here.numbers[i],
+                "end_direction": flag(
+                    "end_direction", "up" if there.p[index] > p[index] else "down"
+                ),
+                "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
+                "end_displacement": last["maximum_displacement"],
+                "end_multiplier_real": multiplier.real,
+                "end_multiplier_imaginary": multiplier.imag,
+            }
+        )
+
+
+def record_at(p, y, periods, index, value, tolerance=strobe_map.POLISH_TOLERANCE):
+    """Record and state of a stable orbit followed to a value of parameter `index`.
+
+    None where it ends before. The parameters and the state given move with it.
+    """
+    strobe_map.follow(p, y, periods, index, value, RESOLUTION, strobe_map.POLISH_TOLERANCE)
+    if p[index] != value:
+        return None
+    return measured(p, y, periods, tolerance)
+
+
+def _carried(record, p, target, index):
+    """Parameters, state and multiplier of a motion followed as far as its orbit goes."""
+    p, y, multiplier = p.copy(), record["state"].copy(), complex(np.nan)
+    if is_settled(record):
+        # As every other caller gives it: kernels are compiled anew for an integer of two bytes.
+        period = int(record["period"])
+        multiplier = strobe_map.follow(
+            p, y, period, index, target, RESOLUTION, strobe_map.POLISH_TOLERANCE
+        )
+    return p, y, multiplier
+
+
+def _branches(catalogues, links):
+    """Branch of every motion by its number: the connected components of the links."""
+    size = sum(len(catalogue.records) for catalogue in catalogues)
+    pairs = np.array(links or [(0, 0)]).T
+    return connected_components(coo_array((np.ones(len(pairs[0])), pairs), (size, size)), False)[1]
+
+
+def _tables(catalogues, branches, dimension):
+    """Arrays over (dimension, motion), the larger motions first, padded with 'absent'."""
+    width = max(len(catalogue.records) for catalogue in catalogues)
+    records = np.zeros((len(catalogues), width), MOTION)
+    records["outcome"] = flag("outcome", "absent")
+    for name in (
+        "residual",
+        "maximum_displacement",
+        "contacts",
+        "asymmetry",
+        "lyapunov_exponent",
+        "lyapunov_error",
+        "state",
+        "multiplier",
+        "harmonic_displacement",
+        "harmonic_relative",
+    ):
+        records[name] = np.nan
+    extra = {
+        "branch": np.full(records.shape, -1),
+        "share": np.zeros(records.shape, int),
+        "origin": np.full(records.shape, flag("origin", "absent")),
+    }
+    for row, catalogue in enumerate(catalogues):
+        for column, k in enumerate(catalogue.order()):
+            records[row, column] = catalogue.records[k]
+            extra["branch"][row, column] = branches[catalogue.numbers[k]]
+            extra["share"][row, column] = catalogue.shares[k]
+            extra["origin"][row, column] = catalogue.origins[k]
+    data = tabulate(records) | extra
+    dims = (dimension, "motion")
+    return {name: (dims, values) for name, values in data.items()} | {
+        "state": ((*dims, "component"), records["state"])
+    }
+
+
+def sweep(parameters, index, dimension, states, settling, *, workers=1, progress=None):
+    """All motions found along a sweep of one parameter.
+
+    Parameters
+    ----------
+    parameters : array, shape (n, 7)
+        Packed parameters in the order of the sweep, alike but for one.
+    index : int
+        Which parameter varies: FREQUENCY or CLEARANCE.
+    dimension : str
+        Name of the dimension it gives the data.
+    states : array, shape (n, m, 4)
+        Random starts at T = 0.
+    settling : ensemble.Settling
+    workers, progress
+        As in `ensemble.settle`.
+
+    Returns
+    -------
+    dict
+        Registered variables with their dimensions: over (dimension, motion) the distinct
+        motions, over (dimension, start) what the runs came to, over `end` the branches' ends.
+    """
+    size, starts = states.shape[:2]
+    runs = ensemble.settle(
+        np.repeat(parameters, starts, axis=0),
+        states.reshape(-1, 4),
+        settling,
+        workers=workers,
+        progress=progress,
+    ).reshape(size, starts)
+    numbering = count()
+    catalogues = [Catalogue(p, numbering) for p in parameters]
+    reached = [
+        [catalogue.add(record, "random_start") for record in row]
+        for catalogue, row in zip(catalogues, runs, strict=True)
+    ]
+    links, ends = [], {}
+    # The second sweep upward also follows what the one downward found.
+    for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
+        ends[turn] = []
+        for here, there in zip(order, order[1:], strict=False):
+            _follow(here, there, index, settling, links, ends[turn])
+    branches = _branches(catalogues, links)
+    ends = ends["down"] + ends["up"]
+    data = _tables(catalogues, branches, dimension)
+    columns = [
+        np.argsort(catalogue.order())[row]
+        for catalogue, row in zip(catalogues, reached, strict=True)
+    ]
+    data |= {
+        "run_outcome": ((dimension, "start"), runs["outcome"]),
+        "run_motion": ((dimension, "start"), np.array(columns)),
+        "run_length": ((dimension, "start"), runs["periods_run"]),
+    }
+    for name in (
+        "end_value",
+        "end_direction",
+        "end_event",
+        "end_displacement",
+        "end_multiplier_real",
+        "end_multiplier_imaginary",
+    ):
+        data[name] = np.array([end[name] for end in ends])
+    data["end_branch"] = np.array([branches[end["end_motion"]] for end in ends], int)
+    return data

@@ -1,0 +1,73 @@
+"""Averages of a chaotic motion with their standard errors, from batches of forcing periods."""
+
+import math
+
+import numpy as np
+
+from impact_damper.contact.rigid_impacts import rigid_map
+from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.motions.strobe_map import strobe_time
+
+STATISTICS = ("contact_rate", "displacement", "exponent")
+EXPONENT_TOLERANCE = 1e-9
+
+
+def of_run(p, run, begin, periods, batch):
+    """Contacts a period and mean of the largest |Z1| of a period, by batch.
+
+    Returns
+    -------
+    dict
+        Of arrays (periods // batch,), by statistic.
+    """
+    count = periods // batch
+    edges = begin + 2 * math.pi / p[0] * np.arange(count * batch + 1)
+    contacts = np.histogram(run.contact_times, edges)[0]
+    largest = np.zeros(count * batch)
+    within = np.searchsorted(edges, run.peak_times, side="right") - 1
+    kept = within < len(largest)
+    np.maximum.at(largest, within[kept], run.peaks[kept])
+    return {
+        "contact_rate": contacts.reshape(count, batch).mean(axis=1),
+        "displacement": largest.reshape(count, batch).mean(axis=1),
+    }
+
+
+def exponents(p, start, tolerance, periods, batch):
+    """Largest Lyapunov exponent of the Taylor series, a unit of time, by batch."""
+    y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
+    side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[0]
+    rows = np.empty(periods)
+    for k in range(periods):
+        side, _, _ = advance(p, y, tangent, side, begin, begin + period, tolerance, work)
+        tangent[0], growth = _renormalised(tangent[0])
+        rows[k] = growth / period
+    return rows[: periods // batch * batch].reshape(-1, batch).mean(axis=1)
+
+
+def rigid_exponents(restitution, p, start, tolerance, periods, batch):
+    """That of the rigid model."""
+    p = p.copy()
+    p[6] = 0.0
+    y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[0]
+    rows = np.empty(periods)
+    for k in range(periods):
+        y, matrix, _, _, _, _ = rigid_map(p, restitution, y, tolerance)
+        tangent, growth = _renormalised(matrix @ tangent)
+        rows[k] = growth / period
+    return rows[: periods // batch * batch].reshape(-1, batch).mean(axis=1)
+
+
+def _renormalised(tangent):
+    size = np.linalg.norm(tangent)
+    return tangent / size, math.log(size)
+
+
+def estimates(batches):
+    """Mean and standard error of each statistic, NaN where there is none; shape (2, 3)."""
+    found = np.full((2, len(STATISTICS)), np.nan)
+    for k, name in enumerate(STATISTICS):
+        if name in batches:
+            values = batches[name]
+            found[:, k] = values.mean(), values.std(ddof=1) / math.sqrt(len(values))
+    return found

@@ -1,0 +1,217 @@
+"""Models of a steady motion, which find an orbit and not a motion from a state, and their work.
+
+Where a balance has several solutions, the one nearest to the scene's state is taken: that is the
+best such a model can do. The work, in floating-point operations:
+
+- rigid balance (14): the eigenvalues of companion matrices of a polynomial of degree 6 and of its
+  derivative, 10 n^3 each, and a root by bracketing between extrema;
+- full balance (7): BALANCE_EVALUATIONS of the equation, of BALANCE_OPERATIONS each, with the
+  eigenvalues of a companion matrix of BALANCE_DEGREE, as the search for all its roots takes on the
+  scenes; of the free oscillator those of two cubics;
+- many harmonics: for each step of Newton's method, with n unknowns and N harmonics, 2/3 n^3 + 4 n^2
+  for the linear systems, 8 n^2 to fill the matrix, and Fourier transforms of 16 N and 4 N values,
+  5 M log2(M) each, two and three of them; with the smaller balances on the way;
+- rigid impacts and shooting: maps over a period that Newton's method takes, each with the steps of
+  the Taylor series with four tangents; with the balance of START_HARMONICS that it begins from.
+"""
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.contact.rigid_orbits import mended, mended_orbit, rigid_orbit
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.rivals.runs import rigid
+from impact_damper.rivals.taylor_runs import FLIGHT, all_steps, counted, step_work, steps_work
+from impact_damper.stages import harmonic_convergence
+from impact_damper.system.parameters import pack
+from impact_damper.theory import fourier, single_harmonic
+from impact_damper.theory.many_harmonics import Balance, Solution, solve
+
+BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
+START_HARMONICS = 15
+REACH = 10.0
+
+
+class Model(NamedTuple):
+    """A steady motion by some model.
+
+    Attributes
+    ----------
+    status : str
+        "ended", "failed" or "not_applicable".
+    operations : float
+        Counted work.
+    state : numpy.ndarray, shape (4,)
+        At the strobe W T = pi/2.
+    contact_phases : numpy.ndarray
+        W T in [0, 2 pi) at which contacts begin.
+    displacement : float
+        max |Z1|.
+    """
+
+    status: str
+    operations: float
+    state: np.ndarray
+    contact_phases: np.ndarray
+    displacement: float
+
+
+def without(status, work=0.0):
+    """A model that gives no motion."""
+    return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
+
+
+def of_coefficients(balance, coefficients, work):
+    """The model that Fourier coefficients of a balance are."""
+    state = harmonic_convergence.state_of(Solution(balance, coefficients, "", 0, 0.0))
+    rows = balance.contacts(coefficients)
+    phases = rows[:, 1] if balance.damper is not None else np.empty(0)
+    largest = fourier.largest(coefficients[0], balance.harmonics)
+    return Model("ended", work, state, phases, largest)
+
+
+def nearest(models, state):
+    """Of models the one whose primary mass is nearest to a state; None if there is none."""
+    return min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
+
+
+def rigid_balance(oscillator, damper, frequency, state):
+    """The single-term solution of (13) and (14), for rigid walls."""
+    if damper is None or damper.restitution != 1:
+        return without("not_applicable")
+    work = 10 * (6**3 + 5**3) + 6 * 10 * 12
+    found = single_harmonic.rigid_solutions(oscillator, damper, frequency)
+    models = []
+    for a, phase, pulling in zip(found.amplitude, found.phase, found.pulling, strict=True):
+        if not pulling:
+            turn = np.exp(1j * (np.pi / 2 + phase)) * np.array([1, 1j * frequency])
+            at = np.concatenate([a * turn.real, damper.clearance * turn.real])
+            touching = np.array([-phase, np.pi - phase]) % (2 * np.pi)
+            models.append(Model("ended", work, at, touching, abs(a)))
+    return nearest(models, state) or without("failed", work)
+
+
+def single_terms(oscillator, damper, frequency):
+    """Coefficients (1 or 2, 1) of every solution of (7), elastic, or of the free oscillator."""
+    if damper is None:
+        found = single_harmonic.free_solutions(oscillator, frequency)
+        sizes = found.amplitude[:, None]
+    else:
+        elastic = replace(damper, restitution=1.0)
+        found = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
+        sizes = np.stack([found.amplitude, found.relative_amplitude], axis=1)
+    return [
+        size[:, None] * np.exp(1j * phase) / 2
+        for size, phase in zip(sizes, found.phase, strict=True)
+    ]
+
+
+def full_balance(oscillator, damper, frequency, state):
+    """The single-term solution of (7), or of the cubic of the free oscillator."""
+    if damper is not None and damper.restitution != 1:
+        return without("not_applicable")
+    coefficients, work = begun(oscillator, damper, frequency, state)
+    if coefficients is None:
+        return without("failed", work)
+    balance = Balance(oscillator, damper, frequency, 1)
+    return of_coefficients(balance, coefficients, work)
+
+
+def begun(oscillator, damper, frequency, state):
+    """Coefficients of the single-term solution nearest to a state, None if there is none; work."""
+    work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
+    if damper is None:
+        work = 2 * 10 * 3**3
+    terms = single_terms(oscillator, damper, frequency)
+
+    def away(coefficients):
+        turned = 2j * coefficients[0, 0] * np.array([1, 1j * frequency])
+        return np.max(np.abs(turned.real - state[:2]))
+
+    return min(terms, key=away, default=None), work
+
+
+def many_harmonics(oscillator, damper, frequency, state, highest):
+    """Models by harmonic balance with 1, 3, 7, 15, ... harmonics, by their highest one.
+
+    Each begins from the last one that converged.
+    """
+    coefficients, work = begun(oscillator, damper, frequency, state)
+    models = {}
+    if coefficients is None:
+        return models
+    count = 3
+    while count <= highest:
+        balance = Balance(oscillator, damper, frequency, count)
+        found = solve(balance, coefficients)
+        work += found.iterations * newton_work(balance)
+        if found.status == "converged":
+            coefficients = found.coefficients
+            models[count] = of_coefficients(balance, coefficients, work)
+        else:
+            models[count] = without("failed", work)
+        count = 2 * count + 1
+    return models
+
+
+def newton_work(balance):
+    """Operations of one step of Newton's method with many harmonics."""
+    n, top = int(np.sum(balance.kept)), balance.highest
+    transforms = 2 * _transform(16 * top) + 3 * _transform(4 * top)
+    return 2 / 3 * n**3 + 12 * n**2 + transforms
+
+
+def _transform(samples):
+    return 5 * samples * math.log2(samples)
+
+
+def rigid_impacts(oscillator, damper, frequency, start):
+    """Orbits with rigid walls, and with walls that are mended to the order 1/r1, by name.
+
+    `start` is the model that Newton's method begins from.
+    """
+    models = {"rigid": without("not_applicable"), "rigid_mended": without("not_applicable")}
+    if damper is None:
+        return models
+    work = start.operations
+    orbit, _ = rigid_orbit(oscillator, damper, frequency, start.state, REACH)
+    if orbit is None:
+        return dict.fromkeys(models, without("failed", work))
+    p = pack(oscillator, damper, frequency)
+    run = rigid(p, damper.restitution, orbit.state, strobe_time(p), 1, POLISH_TOLERANCE)
+    each = run.operations / step_work(FLIGHT) * step_work(FLIGHT, 4)
+    work += orbit.maps * each
+    phases = _phases(p, run)
+    models["rigid"] = Model("ended", work, orbit.state, phases, orbit.displacement)
+    better, _ = mended_orbit(oscillator, damper, frequency, orbit, REACH)
+    if better is None:
+        return models | {"rigid_mended": without("failed", work)}
+    p[3], restitution = mended(oscillator, damper, orbit)
+    run = rigid(p, restitution, better.state, strobe_time(p), 1, POLISH_TOLERANCE)
+    phases = _phases(p, run)
+    work += better.maps * each
+    model = Model("ended", work, better.state, phases, better.displacement)
+    return models | {"rigid_mended": model}
+
+
+def _phases(p, run):
+    return p[0] * run.contact_times % (2 * math.pi)
+
+
+def shooting(oscillator, damper, frequency, start):
+    """The orbit by shooting on the Taylor series, from a model near it."""
+    p = pack(oscillator, damper, frequency)
+    orbit = find_orbit(p, start.state)
+    begin = strobe_time(p)
+    steps, _ = all_steps(p, start.state, begin, 1, POLISH_TOLERANCE)
+    each = steps_work(counted(steps), 4)
+    work = start.operations + orbit.maps * each
+    if not orbit.converged:
+        return without("failed", work)
+    phases = p[0] * orbit.contacts[:, 1] % (2 * math.pi) if orbit.touching else np.empty(0)
+    largest = float(orbit.record["maximum_displacement"])
+    return Model("ended", work, orbit.strobe_states[0], phases, largest)

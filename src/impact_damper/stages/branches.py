@@ -1,0 +1,273 @@
+"""Periodic orbits with labels: one of them, a branch in any parameter, all branches of a response.
+
+Orbits may be stable or not, of any period, and touch the walls in any sequence.
+"""
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.motions.simulate import COMPONENTS, check_state, phase_of
+from impact_damper.orbits.branches import SAME, follow_branch
+from impact_damper.orbits.continuation import Problem
+from impact_damper.orbits.shooting import STROBE, find_orbit
+from impact_damper.system.families import LINEAR, family_of
+from impact_damper.system.parameters import (
+    FREQUENCY_RANGE,
+    check_count,
+    check_number,
+    check_span,
+    describe,
+    pack,
+    shown,
+)
+
+NEARBY = 0.02
+# At a slower contact the 3/2-power term of the map at grazing is felt.
+SLOW = 0.01
+
+
+def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STROBE):
+    """The periodic orbit near a state, by Newton's method.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        Forcing frequency W, dimensionless.
+    state : sequence of 4 floats, or 2 without a damper
+        Z1, Z1', Z2, Z2' near the orbit.
+    period : int
+        Its period n in forcing periods.
+    phase : float
+        Phase W T of the state, radian.
+
+    Returns
+    -------
+    xarray.Dataset
+        The orbit as in `orbit_branch`, one point; and over `contact` walls, times and relative
+        speeds of its contacts. The phase of the state is moved into flight.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range.
+    ArithmeticError
+        If Newton's method does not converge.
+    """
+    orbit = _found(oscillator, damper, frequency, state, period, phase)
+    log = orbit.contacts
+    data = _orbits([(frequency, orbit)]) | {
+        "orbit_branch": np.zeros(1, int),
+        "contact_wall": log[:, 0],
+        "contact_begin": log[:, 1],
+        "contact_end": log[:, 2],
+        "approach_velocity": log[:, 3],
+        "departure_velocity": log[:, 4],
+    }
+    made = describe(oscillator, damper) | {"frequency": float(frequency), "period": period}
+    return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit")
+
+
+def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequency", period=1):
+    """The branch of orbits through the one near a state, followed in a parameter.
+
+    Parameters
+    ----------
+    oscillator, damper, frequency, state, period
+        As of `periodic_orbit`, the state at W T = pi/2.
+    span : tuple of float
+        Least and greatest value of the parameter.
+    parameter : str
+        frequency, damping, mass_ratio, clearance, restitution or contact_stiffness.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `point` the orbits in order along the branch: parameter, largest displacement,
+        stability, multipliers, contacts, state and its phase, status, residual, error of
+        Liouville's determinant. Over `event` folds, symmetry breakings, period doublings,
+        Neimark-Sacker points, and changes of contact, which are grazing (a contact is born in
+        flight) or merging (two contacts of a wall become one). Over (branch, edge) what ends the
+        branch.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range.
+    ArithmeticError
+        If Newton's method finds no orbit near the state.
+    """
+    family, value, span = family_of(oscillator, damper, frequency, parameter, span)
+    orbit = _found(oscillator, damper, frequency, state, period, STROBE)
+    branch = follow_branch(family, orbit, value, span)
+    made = describe(oscillator, damper) | {
+        "frequency": float(frequency),
+        "period": period,
+        "parameter": parameter,
+    }
+    back = float if parameter in LINEAR else np.exp
+    return branches_dataset([branch], back, made, "Branch of periodic orbits")
+
+
+def complete_branches(oscillator, damper, frequencies, motions):
+    """Every branch of orbits over frequency that settled motions lie on, as far as it goes.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequencies : tuple of float
+        Least and greatest frequency W, dimensionless.
+    motions : list of xarray.Dataset
+        Of `response.frequency_response` or `subharmonic.subharmonic_suppression` for them.
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `orbit_branch`, for all branches; and the number of motions that were used, and
+        that Newton's method led to no orbit from. Mirror images count as one branch. Motions
+        without contacts belong to the free oscillator and are left out where there is a damper.
+    """
+
+    frequencies = check_span("frequencies", frequencies, **FREQUENCY_RANGE)
+    if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
+        raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
+
+    def family(value):
+        return pack(oscillator, damper, value)
+
+    family(frequencies[0])
+    branches, seeds, lost = [], 0, 0
+    for period, frequency, _, state in sorted(_seeds(motions, damper), key=lambda s: s[:3]):
+        seeds += 1
+        orbit = find_orbit(family(frequency), state, period)
+        if not orbit.converged or orbit.repeats_sooner():
+            lost += 1
+        elif not any(_holds(branch, family, orbit, frequency) for branch in branches):
+            branches.append(follow_branch(family, orbit, frequency, frequencies))
+    made = describe(oscillator, damper) | {"parameter": "frequency"}
+    data = branches_dataset(branches, float, made, "Branches of periodic orbits")
+    counts = dataset({"seeds": seeds, "seeds_lost": lost}, {}, made, data.attrs["title"])
+    return data.assign(counts.variables)
+
+
+def _found(oscillator, damper, frequency, state, period, phase):
+    """The orbit near a state, or an error that says what is wrong or that there is none."""
+    check_count("period", period, most=1000)
+    check_number("phase", phase, least=-1e6, most=1e6)
+    p = pack(oscillator, damper, frequency)
+    orbit = find_orbit(p, check_state(state, damper), period, phase)
+    if not orbit.converged:
+        raise ArithmeticError(
+            f"no orbit of period {period} found: Newton's method left a residual of "
+            f"{orbit.residual:.2g}; a state closer to it, or another period, is needed"
+        )
+    return orbit
+
+
+def _seeds(motions, damper):
+    """Period, frequency, largest displacement and state of the settled motions of datasets."""
+    for data in motions:
+        chosen = data["outcome"].values == flag("outcome", "settled")
+        if damper is not None:
+            chosen &= data["contacts"].values > 0
+        for row, column in zip(*np.nonzero(chosen), strict=True):
+            motion = data.isel(frequency=row, motion=column)
+            yield (
+                int(motion["period"]),
+                float(motion["frequency"]),
+                float(motion["maximum_displacement"]),
+                motion["state"].values,
+            )
+
+
+def _holds(branch, family, orbit, value):
+    """Whether an orbit lies on a branch: whether one of its orbits there is the same."""
+    size = orbit.record["maximum_displacement"]
+    for here, there in zip(branch.points, branch.points[1:], strict=False):
+        if here.orbit.periods != orbit.periods:
+            return False
+        if (here.value - value) * (there.value - value) > 0:
+            continue
+        if abs(here.orbit.record["maximum_displacement"] - size) > NEARBY + abs(
+            here.orbit.record["maximum_displacement"] - there.orbit.record["maximum_displacement"]
+        ):
+            continue
+        nearer = min(here, there, key=lambda point: abs(point.value - value))
+        problem = Problem.of(family, nearer.orbit)
+        found = problem.at_value(nearer, value)
+        if found is not None and found.orbit.is_same(orbit, SAME):
+            return True
+    return False
+
+
+def _status(orbit):
+    """Flag that says how far an orbit and its multipliers can be relied on."""
+    if not orbit.converged:
+        return flag("orbit_status", "not_converged")
+    slow = orbit.touching > 0 and orbit.least_speed < SLOW
+    return flag("orbit_status", "near_grazing" if slow else "regular")
+
+
+def _orbits(pairs):
+    """Columns over `point` of pairs of a parameter and its orbit."""
+    values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
+    records = [orbit.record for orbit in orbits]
+    first, second = (
+        np.array([record[name] for record in records], complex)
+        for name in ("harmonic_displacement", "harmonic_relative")
+    )
+    multipliers = np.array([orbit.multipliers for orbit in orbits]).reshape(-1, 4)
+    stable = [flag("stability", "stable" if orbit.stable else "unstable") for orbit in orbits]
+    return {
+        "followed_value": np.array(values, float),
+        "orbit_displacement": np.array([record["maximum_displacement"] for record in records]),
+        "orbit_stability": np.array(stable, int),
+        "orbit_status": np.array([_status(orbit) for orbit in orbits], int),
+        "orbit_contacts": np.array([record["contacts"] for record in records]),
+        "orbit_asymmetry": np.array([record["asymmetry"] for record in records]),
+        "orbit_amplitude": np.abs(first),
+        "orbit_phase_relative": phase_of(first, second),
+        "orbit_phase_loose": phase_of(first, first - second),
+        "orbit_phase": np.array([orbit.phase for orbit in orbits]),
+        "orbit_state": np.array([orbit.state for orbit in orbits]).reshape(-1, 4),
+        "orbit_residual": np.array([orbit.residual for orbit in orbits]),
+        "orbit_multiplier_real": multipliers.real,
+        "orbit_multiplier_imaginary": multipliers.imag,
+        "liouville_error": np.array([orbit.liouville_error for orbit in orbits]),
+        "least_speed": np.array([orbit.least_speed for orbit in orbits]),
+        "orbit_restitution": np.array([orbit.restitution for orbit in orbits]),
+    }
+
+
+def branches_dataset(branches, back, parameters, title):
+    """Dataset of branches; `back` takes the coordinate along a branch to the parameter."""
+    points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
+    sizes = [len(branch.points) for branch in branches]
+    events = [
+        (number, place, event)
+        for number, branch in enumerate(branches)
+        for place, event in branch.events
+    ]
+    orbits = [event.point.orbit for _, _, event in events]
+    data = _orbits(points) | {
+        "orbit_branch": np.repeat(np.arange(len(branches)), sizes),
+        "branch_period": np.array([branch.points[0].orbit.periods for branch in branches], int),
+        "branch_events_lost": np.array([branch.lost for branch in branches], int),
+        "branch_end": np.array(
+            [[flag("branch_end", end) for end in branch.ends] for branch in branches]
+        ).reshape(-1, 2),
+        "event_branch": np.array([number for number, _, _ in events], int),
+        "event_place": np.array([place for _, place, _ in events], int),
+        "event_kind": np.array([flag("event_kind", event.kind) for _, _, event in events], int),
+        "event_value": np.array([back(event.point.value) for _, _, event in events]),
+        "event_displacement": np.array([o.record["maximum_displacement"] for o in orbits]),
+        "event_residual": np.array([orbit.residual for orbit in orbits]),
+        "event_speed": np.array([orbit.least_speed for orbit in orbits]),
+        "walls_before": np.array([event.before for _, _, event in events], object),
+        "walls_after": np.array([event.after for _, _, event in events], object),
+    }
+    coordinates = {"component": list(COMPONENTS), "edge": ["lower", "upper"]}
+    return dataset(data, coordinates, parameters, title)

@@ -1,0 +1,197 @@
+"""The contact model over restitution and load, and the contacts of real motions in it.
+
+Restitution e by (25) holds for an isolated contact that ends at zero penetration. Other forces
+load a contact, and walls that cannot pull end it sooner: the map says by how much either one
+changes what the contact returns. Contacts of simulated motions say where in the map a damper works.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from impact_damper.contact.contact_law import EXIT_RULES, contact, damping_ratio, tension
+from impact_damper.contact.logged_contacts import CLOSE, FAIR, SIZES, extreme_motions, scene
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables.contact import SCENE, VARIABLES
+from impact_damper.motions.simulate import check_settling
+from impact_damper.system.parameters import (
+    check_count,
+    check_damper,
+    check_frequencies,
+    check_increasing,
+    check_number,
+    describe,
+)
+
+LINEAR = 1e-3
+LOG = ("contact_used", "contact_row", "contact_size")
+SEEN = {
+    "load": "contact_load",
+    "restitution": "contact_restitution",
+    "duration": "contact_time",
+}
+
+COUNTED = ("scene_outcome", "scene_without_pull_status", "scene_contacts", "scene_unreleased")
+
+
+def contact_model(
+    oscillator,
+    damper,
+    frequencies,
+    restitutions,
+    loads,
+    *,
+    used,
+    starts=8,
+    periods=200,
+    seed=1995,
+    settling=None,
+):
+    """The contact model over restitution and load, and the contacts of motions of one damper.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+        Its restitution is replaced by those of `used`.
+    frequencies : sequence of float
+        Increasing forcing frequencies W at which motions are looked at, dimensionless.
+    restitutions, loads : sequence of float
+        Increasing e and G = g/(wn v0) of the map, dimensionless.
+    used : sequence of float
+        Increasing restitutions of the motions.
+    starts : int
+        Random starts that motions are looked for from, at each restitution and frequency.
+    periods : int
+        Forcing periods over which the contacts of a motion are logged.
+    seed : int
+    settling : Settling, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (exit_rule, load, restitution) the closed form; over `used` what it says without
+        load; over (used, frequency, size) the motions; and over `contact` all contacts.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    settling = check_settling(settling)
+    check_damper(damper)
+    check_count("starts", starts, most=10**6)
+    check_count("periods", periods, most=10**6)
+    frequencies = check_frequencies(frequencies)
+    restitutions, loads, used = (
+        check_increasing(name, values, "two")
+        for name, values in (("restitutions", restitutions), ("loads", loads), ("used", used))
+    )
+    dampers = [replace(damper, restitution=float(e)) for e in used]
+    data = (
+        contact_map(restitutions, loads)
+        | unloaded_table(used)
+        | _motions(oscillator, dampers, frequencies, starts, periods, seed, settling)
+    )
+    made = describe(oscillator, damper, settling)
+    made |= {"starts": starts, "periods": periods, "seed": seed}
+    del made["restitution"]
+    coordinates = {
+        "exit_rule": list(EXIT_RULES),
+        "load": loads,
+        "restitution": restitutions,
+        "used": used,
+        "frequency": frequencies,
+        "size": list(SIZES),
+    }
+    return dataset(data, coordinates, made, "The contact model over restitution and load")
+
+
+def spread_loads(largest, count):
+    """Loads from -largest to largest, evenly spread below LINEAR and in their logarithm above."""
+    check_number("largest", largest, above=0.0, most=1e3)
+    check_count("count", count, least=2, most=10**5)
+    return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
+
+
+def contact_map(restitutions, loads):
+    """Registered variables, over exit rule, load and restitution, of the contact in closed form.
+
+    Parameters
+    ----------
+    restitutions, loads : array
+        e and G = g/(wn v0), dimensionless.
+
+    Returns
+    -------
+    dict
+        Realised restitution (NaN where there is none), time in contact over that of an elastic
+        contact (NaN if it does not end), the verdict on each cell, and how much the walls pull.
+    """
+    shape = len(EXIT_RULES), len(loads), len(restitutions)
+    realised, duration = np.empty(shape), np.empty(shape)
+    verdict = np.empty(shape, np.int8)
+    impulse, peak = np.empty(shape[1:]), np.empty(shape[1:])
+    for j, load in enumerate(loads):
+        for k, restitution in enumerate(restitutions):
+            for i, rule in enumerate(EXIT_RULES):
+                found = contact(restitution, load, rule)
+                realised[i, j, k], duration[i, j, k] = found.departure, found.duration / np.pi
+                verdict[i, j, k] = flag("contact_verdict", _verdict(found, restitution))
+            _, impulse[j, k], peak[j, k] = tension(restitution, load)
+    return {
+        "realised_restitution": realised,
+        "contact_duration": np.where(np.isfinite(duration), duration, np.nan),
+        "contact_verdict": verdict,
+        "pull_impulse": impulse,
+        "pull_peak": peak,
+    }
+
+
+def _verdict(found, restitution):
+    """What a contact came to, or how far its restitution is from the intended one."""
+    if found.outcome != "released":
+        return found.outcome
+    error = abs(found.departure / restitution - 1)
+    return "close" if error <= CLOSE else "fair" if error <= FAIR else "off"
+
+
+def unloaded_table(restitutions):
+    """What (25) comes to without a load: the closed form that claim 15 rests on."""
+    ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
+    pulls = [tension(e, 0.0) for e in restitutions]
+    return {
+        "unloaded_damping": [damping_ratio(e) for e in restitutions],
+        "unloaded_restitution": [[end.departure for end in row] for row in ends],
+        "unloaded_duration": [[end.duration / np.pi for end in row] for row in ends],
+        "unloaded_pull_time": [pull.time for pull in pulls],
+        "unloaded_pull_impulse": [pull.impulse for pull in pulls],
+        "unloaded_pull_peak": [pull.peak for pull in pulls],
+    }
+
+
+def _motions(oscillator, dampers, frequencies, starts, periods, seed, settling):
+    """Registered variables of the motions and of all their contacts."""
+    shape = len(dampers), len(frequencies), len(SIZES)
+    table = {
+        name: np.zeros(shape, np.int64) if name in COUNTED else np.full(shape, np.nan)
+        for name, entry in VARIABLES.items()
+        if entry.dims == SCENE
+    }
+    log = {name: [np.empty(0, np.int64)] for name in LOG} | {
+        name: [np.empty(0)] for name in SEEN.values()
+    }
+    for i, damper in enumerate(dampers):
+        for j, frequency in enumerate(frequencies):
+            found = extreme_motions(oscillator, damper, frequency, starts, [seed, i, j], settling)
+            for k, motion in enumerate(found):
+                row, seen = scene(oscillator, damper, frequency, motion, periods)
+                for name, value in row.items():
+                    table[name][i, j, k] = value
+                if seen is None:
+                    continue
+                for name, place in zip(LOG, (i, j, k), strict=True):
+                    log[name].append(np.full(len(seen["load"]), place))
+                for name, column in SEEN.items():
+                    log[column].append(seen[name])
+    return table | {name: np.concatenate(parts) for name, parts in log.items()}

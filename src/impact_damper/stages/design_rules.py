@@ -1,0 +1,239 @@
+"""How well each rule for the clearance predicts the optimum of the motion itself.
+
+The quiet motion is found by Newton's method on its exact orbit, from the state that the theory of
+`flight` puts it in, whatever its stability. Clearances are given as rm W^2 d0, which rule (18)
+sets to 1, and displacements as W^2 Z1.
+"""
+
+import itertools
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+from tqdm import tqdm
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.motions import records, strobe_map
+from impact_damper.system.parameters import (
+    Damper,
+    check_frequencies,
+    check_increasing,
+    describe,
+    pack,
+)
+from impact_damper.theory.optimum_clearance import FIRST_HARMONIC_RATIO
+from impact_damper.theory.straight_flight import (
+    Flight,
+    elastic_ratios,
+    flight_of,
+    least_displacement_ratio,
+    least_harmonic_ratio,
+)
+
+CRITERIA = ("displacement", "first_harmonic")
+RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
+SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
+CLEARANCE = 3
+SAMPLES = 1024
+SAME = 1e-4
+STEP = 0.02
+MOST_STEPS = 40
+PRECISION = 1e-8
+# Steps from a minimum by which its kind is told; as they are halved the rise falls fourfold or
+# twofold.
+CLOSE, KINK = 1e-3, 0.36
+# Size of a motion that does not exist, for a search that needs a number.
+ABSENT = 1e3
+IMPULSES = 400
+
+
+def design_rules(
+    oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
+):
+    """Optimum clearances over a grid of dampers and frequencies, and what rules make of them.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    mass_ratios, restitutions, contact_stiffnesses, frequencies : sequence of float
+        rm, e, r1 and W, each increasing; every combination is computed.
+    progress : str, optional
+        Label of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        For two criteria, the least max |Z1| and the least first harmonic of Z1: rm W^2 d0 at the
+        optimum, what is least there in units of 1/W^2, the kind of minimum, and the largest
+        Floquet multiplier's modulus and stability of the motion. Over `rule` what each rule
+        predicts, and the excess of max |Z1| at its clearance over the least:
+
+        - balance, equation (18): 1;
+        - gap_harmonic, pi^2/8: as (18), the loose mass crossing the gap in straight lines;
+        - straight_flight: rigid walls, neither damping nor stiffness;
+        - elastic: `flight.elastic_ratios`, explicit, absent for e < 1;
+        - flight: the theory of `flight` with all its corrections.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a sequence does not increase or a value is out of range.
+    """
+    given = {
+        name: check_increasing(name, values)
+        for name, values in zip(
+            ("mass_ratios", "restitutions", "contact_stiffnesses"),
+            (mass_ratios, restitutions, contact_stiffnesses),
+            strict=True,
+        )
+    }
+    given["frequencies"] = check_frequencies(frequencies)
+    shape = tuple(len(values) for values in given.values())
+    cells = itertools.product(*given.values())
+    rows = [
+        _cell(oscillator, *values)
+        for values in tqdm(
+            cells, desc=progress, total=np.prod(shape), disable=progress is None, ascii=True
+        )
+    ]
+    names = rows[0]
+    data = {
+        name: np.array([row[name] for row in rows]).reshape(*shape, *np.shape(names[name]))
+        for name in names
+    }
+    coordinates = dict(zip(SWEPT, given.values(), strict=True))
+    coordinates |= {"criterion": list(CRITERIA), "rule": list(RULES)}
+    return dataset(data, coordinates, describe(oscillator), "Rules for the optimum clearance")
+
+
+def rule_ratios(oscillator, damper, frequency):
+    """rm W^2 d0 by each rule for each criterion, shape (2, 5), as `CRITERIA` and `RULES`.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+        Of any clearance.
+    frequency : float
+    """
+    flight = flight_of(oscillator, damper, frequency)
+    straight = Flight(damper.mass_ratio, damper.restitution)
+    elastic = elastic_ratios(flight)
+    return np.array(
+        [
+            [1.0, FIRST_HARMONIC_RATIO, least(straight), elastic[i], least(flight)]
+            for i, least in enumerate((least_displacement_ratio, least_harmonic_ratio))
+        ]
+    )
+
+
+def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
+    """Optima by both criteria, and what each rule makes of them."""
+    damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
+    rules = rule_ratios(oscillator, damper, frequency)
+    motion = QuietMotion(oscillator, damper, frequency)
+    optima = [motion.least(i, rules[i, -1]) for i in range(len(CRITERIA))]
+    ratios = np.array([ratio for ratio, _ in optima])
+    found = [motion.at(ratio) for ratio in ratios]
+    sizes = np.array([values[i] for i, values in enumerate(found)])
+    reached = np.array([motion.at(ratio)[0] for ratio in rules[0]])
+    multiplier = np.array([values[-1] for values in found])
+    stability = ["absent" if np.isnan(m) else "stable" if m < 1 else "unstable" for m in multiplier]
+    return {
+        "best_ratio": ratios,
+        "best_size": np.where(np.isfinite(sizes), sizes, np.nan),
+        "best_kind": [flag("best_kind", kind) for _, kind in optima],
+        "best_multiplier": multiplier,
+        "best_stability": [flag("best_stability", each) for each in stability],
+        "rule_ratio": rules,
+        "rule_excess": np.where(np.isfinite(reached), reached / sizes[0] - 1, np.nan),
+    }
+
+
+class QuietMotion:
+    """The symmetric motion of period 1 with two contacts, over the ratio rm W^2 d0."""
+
+    def __init__(self, oscillator, damper, frequency):
+        flight = flight_of(oscillator, damper, frequency)
+        self._parameters = pack(oscillator, damper, frequency)
+        self._unit = 1 / (damper.mass_ratio * frequency**2)
+        self._known = {}
+        impulse = np.linspace(0, flight.most, IMPULSES + 2)[1:-1]
+        strobe = np.pi / 2 + flight.forced_lag
+        x, speed, _ = flight.motion(strobe, impulse)
+        loose = -impulse / damper.mass_ratio * (1 - 2 / np.pi * (strobe - flight.lag(impulse)))
+        loose_speed = 2 / np.pi * impulse / damper.mass_ratio
+        self._ratios = flight.ratio(impulse)
+        self._states = np.array([x, speed, x - loose, speed - loose_speed])
+        self._states /= np.array([[frequency**2, frequency] * 2]).T
+
+    def at(self, ratio):
+        """W^2 max |Z1|, W^2 |first harmonic of Z1|, and the dominant multiplier's modulus.
+
+        Infinite, infinite and NaN where there is no such motion.
+        """
+        if ratio not in self._known:
+            self._known[ratio] = self._orbit(ratio)
+        return self._known[ratio]
+
+    def _orbit(self, ratio):
+        absent = np.inf, np.inf, np.nan
+        if not self._ratios[0] < ratio < self._ratios[-1] or ratio <= 0:
+            return absent
+        p = self._parameters.copy()
+        p[CLEARANCE] = ratio * self._unit
+        y = np.array([np.interp(ratio, self._ratios, each) for each in self._states])
+        found, _, multiplier = strobe_map.polish(
+            p, y, 1, p[CLEARANCE] / 2, strobe_map.POLISH_TOLERANCE
+        )
+        if not found:
+            return absent
+        record = records.measured(p, y, 1, strobe_map.POLISH_TOLERANCE)
+        if record["contacts"] != 2 or not record["asymmetry"] < SAME * p[CLEARANCE]:
+            return absent
+        size = record["maximum_displacement"], abs(first_harmonic(p, y))
+        return *(p[0] ** 2 * each for each in size), abs(multiplier)
+
+    def least(self, criterion, guess):
+        """The ratio where a size is least, and the kind of minimum; downhill from a guess.
+
+        The kind is `edge` where MOST_STEPS do not lead to a minimum, `jump` where the motion ends
+        before it.
+        """
+        middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
+
+        def size(ratio):
+            return self.at(ratio)[criterion]
+
+        if not np.isfinite(size(guess)):
+            return np.nan, "not_found"
+        for _ in range(MOST_STEPS):
+            lower, upper = middle * (1 - STEP), middle * (1 + STEP)
+            lowest = min((middle, lower, upper), key=size)
+            if lowest == middle:
+                break
+            middle = lowest
+        else:
+            return middle, "edge"
+        found = minimize_scalar(
+            lambda ratio: min(size(ratio), ABSENT),
+            bounds=(lower, upper),
+            method="bounded",
+            options={"xatol": PRECISION},
+        ).x
+        if not np.isfinite([size(found - CLOSE), size(found + CLOSE)]).all():
+            return found, "jump"
+        rises = [size(found - h) + size(found + h) - 2 * size(found) for h in (CLOSE, CLOSE / 2)]
+        return found, "kink" if rises[1] > KINK * rises[0] else "smooth"
+
+
+def first_harmonic(p, y) -> complex:
+    """Complex amplitude c of Re(c exp(i W T)) in Z1, of an orbit of period 1 by its strobe state.
+
+    From SAMPLES of a period by the trapezoidal rule, whose error for a kink in Z1 is of second
+    order: below 1e-5 of what an impact adds.
+    """
+    start = strobe_map.strobe_time(p)
+    times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[0] * SAMPLES)
+    states, log = np.empty((SAMPLES + 1, 4)), np.empty((0, 5))
+    records.trace(p, y.copy(), start, times, strobe_map.POLISH_TOLERANCE, states, log)
+    return 2 * np.mean(states[:-1, 0] * np.exp(-1j * p[0] * times[:-1]))

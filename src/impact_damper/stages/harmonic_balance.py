@@ -1,0 +1,285 @@
+"""Design of an elastic impact damper by single-term harmonic balance (section 3)."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.system.parameters import (
+    MASS_RATIO_RANGE,
+    check_frequencies,
+    check_number,
+    check_oscillator,
+    describe,
+)
+from impact_damper.theory import single_harmonic as balance
+from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
+
+MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6  # six impacting ones seen at most
+SEARCH_STEP = 0.005
+SEARCHED = (0.2, 2.0)
+EDGE_TOLERANCE = 1e-10
+
+
+def optimum_clearance(oscillator, mass_ratio) -> float:
+    """Clearance d0 = 1/(rm Wp^2) of rule (19), for which a = 0 solves (13) at the peak.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    mass_ratio : float
+        rm, dimensionless.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the mass ratio is not a number or out of range.
+    """
+    check_oscillator(oscillator)
+    mass_ratio = check_number("mass_ratio", mass_ratio, **MASS_RATIO_RANGE)
+    return float(1 / (mass_ratio * balance.peak_frequency(oscillator) ** 2))
+
+
+def harmonic_balance_response(oscillator, damper, frequencies):
+    """Frequency response by harmonic balance: every solution, stable or not.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+        Elastic; without a damper only the free response is returned.
+    frequencies : array_like, shape (n,)
+        Increasing forcing frequencies W, dimensionless.
+
+    Returns
+    -------
+    xarray.Dataset
+        On (frequency, free_solution) the motions without the damper. With a damper
+        also, on (frequency, solution), the solutions of (7) and those in which the
+        loose mass rests (judged by the free slow flow: the place of the loose mass is
+        neutral), and on (frequency, root) the roots of (14). Missing entries are NaN or
+        flagged absent, and counted.
+
+    Raises
+    ------
+    ValueError
+        If the damper is not elastic, or frequencies are not positive and increasing.
+    """
+    check_oscillator(oscillator)
+    frequencies = check_frequencies(frequencies)
+    tables = [_free_table(oscillator, frequencies)]
+    if damper is not None:
+        tables += [
+            _solution_table(oscillator, damper, frequencies),
+            _rigid_table(oscillator, damper, frequencies),
+        ]
+    data = {name: values for table in tables for name, values in table.items()}
+    return dataset(
+        data,
+        {"frequency": frequencies},
+        describe(oscillator, damper),
+        "Frequency response by harmonic balance",
+    )
+
+
+def _padded(rows, size, fill=np.nan):
+    """Rows of unequal length as one array of shape (len(rows), size)."""
+    table = np.full((len(rows), size), fill)
+    for target, row in zip(table, rows, strict=True):
+        target[: len(row)] = row
+    return table
+
+
+def _free_table(oscillator, frequencies):
+    free = [balance.free_solutions(oscillator, frequency) for frequency in frequencies]
+    signs = [
+        stability(growth_rate(fixed_points(each), oscillator, None, frequency))
+        for each, frequency in zip(free, frequencies, strict=True)
+    ]
+    return {
+        "free_amplitude": _padded([each.amplitude for each in free], MOST_FREE),
+        "free_phase": _padded([each.phase for each in free], MOST_FREE),
+        "free_stability": _padded(signs, MOST_FREE, flag("free_stability", "absent")),
+        "free_count": [len(each.phase) for each in free],
+    }
+
+
+def _solution_table(oscillator, damper, frequencies):
+    rows, status = [], []
+    for frequency in frequencies:
+        resting = balance.resting_solutions(oscillator, damper, frequency)
+        status.append(flag("balance_status", "solved"))
+        try:
+            impacting = balance.impacting_solutions(oscillator, damper, frequency)
+        except ArithmeticError:
+            impacting = balance.Solutions(*np.empty((3, 0)))
+            status[-1] = flag("balance_status", "unresolved")
+        growth = np.concatenate(
+            [
+                growth_rate(fixed_points(impacting), oscillator, damper, frequency),
+                growth_rate(fixed_points(resting)[:, :2], oscillator, None, frequency),
+            ]
+        )
+        kinds = np.repeat(
+            [flag("kind", "impacting"), flag("kind", "resting")],
+            [len(impacting.phase), len(resting.phase)],
+        )
+        rows.append([*map(np.concatenate, zip(impacting, resting, strict=True)), growth, kinds])
+    amplitude, relative, phase, growth, kinds = zip(*rows, strict=True)
+    return {
+        "amplitude": _padded(amplitude, MOST_SOLUTIONS),
+        "relative_amplitude": _padded(relative, MOST_SOLUTIONS),
+        "phase": _padded(phase, MOST_SOLUTIONS),
+        "growth_rate": _padded(growth, MOST_SOLUTIONS),
+        "stability": _padded(
+            [stability(row) for row in growth], MOST_SOLUTIONS, flag("stability", "absent")
+        ),
+        "kind": _padded(kinds, MOST_SOLUTIONS, flag("kind", "absent")),
+        "solution_count": [len(row) for row in amplitude],
+        "balance_status": status,
+    }
+
+
+def _rigid_table(oscillator, damper, frequencies):
+    rigid = [balance.rigid_solutions(oscillator, damper, frequency) for frequency in frequencies]
+    walls = [
+        np.where(each.pulling, flag("rigid_wall", "pulls"), flag("rigid_wall", "pushes"))
+        for each in rigid
+    ]
+    return {
+        "rigid_tangent": _padded([each.tangent for each in rigid], MOST_ROOTS),
+        "rigid_amplitude": _padded([each.amplitude for each in rigid], MOST_ROOTS),
+        "rigid_phase": _padded([each.phase for each in rigid], MOST_ROOTS),
+        "rigid_residual": _padded([each.residual for each in rigid], MOST_ROOTS),
+        "rigid_wall": _padded(walls, MOST_ROOTS, flag("rigid_wall", "absent")),
+        "rigid_count": [len(each.phase) for each in rigid],
+    }
+
+
+def suppression_band(oscillator, damper):
+    """Frequency range around the peak in which one quiet motion replaces the resonance branch.
+
+    A frequency belongs to the band if (7) has exactly one stable solution there, and its
+    |a| is below the amplitude of the free resonance branch. The band is the connected
+    range of such frequencies that holds the peak frequency Wp. The free resonance branch
+    is the upper branch of the free response: it ends at the upper fold, and so does the
+    band, at the latest; where the free response has no fold it is the whole curve.
+    Motions in which the loose mass rests do not count, as in the paper.
+
+    The search goes from Wp in steps of 0.005 Wp down to 0.2 Wp and up to 2 Wp, and the
+    edges are bisected to 1e-10; a gap narrower than a step can be passed over.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+        Elastic.
+
+    Returns
+    -------
+    xarray.Dataset
+        Edges on `edge` (lower, upper) with what ends the band there, its width, the
+        reduction of |a| at Wp and at the edges, and the frequency above Wp at which the
+        quiet motion is no smaller than the smallest free one, the band's end if the
+        end of the resonance branch is disregarded. NaN and a flag where there is none.
+
+    Raises
+    ------
+    ValueError
+        If the damper is not elastic.
+    ArithmeticError
+        If (7) could not be resolved at a frequency.
+    """
+    check_oscillator(oscillator)
+    balance.check_elastic(damper)
+    peak = balance.peak_frequency(oscillator)
+    resonance = 1 / (oscillator.damping * peak)
+    folds = balance.free_folds(oscillator)
+    last = folds[-1].frequency if folds else np.inf
+
+    def look(frequency):
+        return _look(oscillator, damper, frequency, last)
+
+    middle = look(peak)
+    status, frequency, event, reduction = middle.status(), [np.nan] * 2, [0, 0], [np.nan] * 2
+    above = None
+    if status == "found":
+        for k, limit in enumerate(SEARCHED):
+            edge = _edge(lambda w: look(w).status() == "found", peak, limit)
+            if edge is not None:
+                inner, outer = look(edge[0]), look(edge[1])
+                frequency[k], event[k] = edge[0], flag("edge_event", _event(inner, outer))
+                reduction[k] = 1 - inner.stable[0] / inner.resonance
+        if middle.beats_free():
+            above = _edge(lambda w: look(w).beats_free(), peak, SEARCHED[1])
+    quiet = middle.stable[0] if len(middle.stable) else np.nan
+    return dataset(
+        {
+            "band_status": flag("band_status", status),
+            "edge_frequency": frequency,
+            "edge_event": event,
+            "edge_reduction": reduction,
+            "band_width": frequency[1] - frequency[0],
+            "peak_frequency": peak,
+            "peak_amplitude": resonance,
+            "quiet_amplitude": quiet,
+            "reduction": 1 - quiet / resonance,
+            "break_even_frequency": np.nan if above is None else above[0],
+        },
+        {"edge": ["lower", "upper"]},
+        describe(oscillator, damper),
+        "Suppression band by harmonic balance",
+    )
+
+
+class _Look(NamedTuple):
+    """The motions at one frequency: solutions of (7), |a| of the stable ones, free amplitudes."""
+
+    count: int
+    stable: np.ndarray
+    resonance: float
+    least_free: float
+
+    def status(self):
+        if len(self.stable) != 1:
+            return "no_single_motion"
+        return "found" if self.stable[0] < self.resonance else "no_reduction"
+
+    def beats_free(self):
+        return len(self.stable) > 0 and self.stable[0] < self.least_free
+
+
+def _look(oscillator, damper, frequency, last):
+    solutions = balance.impacting_solutions(oscillator, damper, frequency)
+    growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
+    free = balance.free_solutions(oscillator, frequency).amplitude
+    stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
+    return _Look(len(growth), stable, free[-1] if frequency <= last else np.nan, free[0])
+
+
+def _edge(inside, peak, limit):
+    """Last frequency inside and first one outside, from the peak to limit * peak, or None."""
+    step = np.sign(limit - 1) * SEARCH_STEP * peak
+    inner = peak
+    for outer in np.arange(peak + step, limit * peak, step):
+        if not inside(outer):
+            break
+        inner = outer
+    else:
+        return None
+    while abs(outer - inner) > EDGE_TOLERANCE:
+        middle = (inner + outer) / 2
+        inner, outer = (middle, outer) if inside(middle) else (inner, middle)
+    return inner, outer
+
+
+def _event(inner, outer):
+    """What ends the band between a look inside and a look outside it."""
+    if np.isnan(outer.resonance):
+        return "resonance_branch_ends"
+    same = inner.count == outer.count
+    if len(outer.stable) > 1:
+        return "other_motion_stabilises" if same else "other_motion_appears"
+    if len(outer.stable) == 0:
+        return "quiet_motion_destabilises" if same else "quiet_motion_folds"
+    return "no_reduction"

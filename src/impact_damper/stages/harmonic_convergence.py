@@ -1,0 +1,271 @@
+"""Harmonic balance with more and more harmonics, against the exact orbit of the true system."""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.motions.simulate import simulate
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.system.parameters import (
+    check_count,
+    check_counts,
+    check_increasing,
+    describe,
+    pack,
+    shown,
+)
+from impact_damper.theory import convergence, fourier, hill, single_harmonic
+from impact_damper.theory.many_harmonics import Balance, solve
+
+SAMPLES = 2**14
+HIGHEST = 2**14
+SAME = 1e-6
+# Errors below are rounding, and left out of the fits.
+ROUNDING = 1e-12
+FINEST = 1e-14
+
+
+def ladder(highest) -> np.ndarray:
+    """Odd numbers of harmonics up to `highest`: all to 15, then three to an octave."""
+    check_count("highest", highest, most=HIGHEST)
+    powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
+    chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
+    return np.unique(chosen[chosen <= highest])
+
+
+def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
+    """Symmetric motions by harmonic balance and by Hill's method, and their errors.
+
+    The first motion is the single-term solution of (7) with the least |a|, the damper taken as
+    elastic, or without a damper the one with the greatest. Every balance begins from the last
+    one that converged. The exact orbit is found from the last one of all.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        Forcing frequency W, dimensionless.
+    harmonics : sequence of int
+        Increasing odd numbers N, each the highest of the harmonics 1, 3, ... N.
+    cold : sequence of int
+        Those of `harmonics` that are tried from the single-term solution at once as well.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `highest_harmonic`: status, steps and residual of Newton's method, largest
+        displacement, errors against the exact orbit (NaN if it was not found), Floquet
+        multipliers by Hill's method, and what the cold start came to; the rates at which errors
+        fall, and those predicted (`harmonics_theory`).
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    ArithmeticError
+        If there is no single-term solution to begin from.
+    """
+    harmonics = check_counts("harmonics", harmonics, most=HIGHEST)
+    check_increasing("harmonics", harmonics)
+    if np.any(harmonics % 2 == 0):
+        given = shown(harmonics.tolist())
+        raise ValueError(f"harmonics = {given}: must be odd (the motion is symmetric)")
+    if not set(check_counts("cold", cold)) <= set(harmonics):
+        given = shown(harmonics.tolist())
+        raise ValueError(f"cold = {shown(cold)}: must be among the harmonics {given}")
+    balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
+    first = single_term(oscillator, damper, frequency)
+    solutions = refine(balances, first)
+    best = [each for each in solutions if each.status == "converged"]
+    state = state_of(best[-1]) if best else np.zeros(4)
+    p = pack(oscillator, damper, frequency)
+    exact = find_orbit(p, state)
+    data = {
+        "series_status": [flag("series_status", each.status) for each in solutions],
+        "series_steps": [each.iterations for each in solutions],
+        "series_residual": [each.residual for each in solutions],
+        "series_maximum": [
+            fourier.largest(each.coefficients[0], each.balance.harmonics)
+            if each.status == "converged"
+            else np.nan
+            for each in solutions
+        ],
+        "cold_status": [
+            cold_status(each, first) if each.balance.highest in cold else -1 for each in solutions
+        ],
+    }
+    data |= hill_table(solutions, exact)
+    data |= exact_table(exact, 2 if damper is None else 4)
+    data["series_error"] = errors(data, solutions, exact, p)
+    data |= decay_table(harmonics, data, damper, p, exact)
+    made = describe(oscillator, damper) | {"frequency": float(frequency)}
+    return dataset(
+        data,
+        {"highest_harmonic": harmonics, "error_measure": list(convergence.MEASURES)},
+        made,
+        "Harmonic balance with many harmonics against the exact orbit",
+    )
+
+
+def single_term(oscillator, damper, frequency) -> np.ndarray:
+    """Coefficients (1 or 2, 1) of the single-term solution to begin from.
+
+    Raises
+    ------
+    ArithmeticError
+        If there is none with contacts.
+    """
+    if damper is None:
+        found = single_harmonic.free_solutions(oscillator, frequency)
+        sizes = found.amplitude[-1:]
+        phase = found.phase[-1]
+    else:
+        found = single_harmonic.impacting_solutions(
+            oscillator, replace(damper, restitution=1.0), frequency
+        )
+        if not len(found.amplitude):
+            raise ArithmeticError(f"frequency = {frequency:g}: (7) has no solution with contacts")
+        least = np.argmin(np.abs(found.amplitude))
+        sizes = np.array([found.amplitude[least], found.relative_amplitude[least]])
+        phase = found.phase[least]
+    return sizes[:, None] * np.exp(1j * phase) / 2
+
+
+def refine(balances, start) -> list:
+    """Solutions of balances with more and more harmonics, each from the last that converged."""
+    solutions = []
+    for balance in balances:
+        solutions.append(solve(balance, start))
+        if solutions[-1].status == "converged":
+            start = solutions[-1].coefficients
+    return solutions
+
+
+def state_of(solution) -> np.ndarray:
+    """Z1, Z1', Z2, Z2' at W T = pi/2; without a damper Z2 = Z1."""
+    balance = solution.balance
+    state = [
+        fourier.value(each, balance.harmonics, np.pi / 2, order) * balance.frequency**order
+        for each in solution.coefficients
+        for order in (0, 1)
+    ]
+    return np.array(state if len(state) == 4 else 2 * state)
+
+
+def cold_status(warm, first) -> int:
+    """What a start from the single-term solution comes to, as a flag."""
+    found = solve(warm.balance, first)
+    if found.status != "converged":
+        return flag("cold_status", found.status)
+    away = np.max(np.abs(found.coefficients - warm.coefficients))
+    same = warm.status == "converged" and away <= SAME * np.max(np.abs(found.coefficients))
+    return flag("cold_status", "same_motion" if same else "another_motion")
+
+
+def hill_table(solutions, exact):
+    """Floquet multipliers by Hill's method."""
+    oscillator, damper, frequency = (
+        getattr(solutions[0].balance, name) for name in ("oscillator", "damper", "frequency")
+    )
+    period = 2 * np.pi / frequency
+    trace = -oscillator.damping
+    if damper is not None:
+        # in contact the dashpot adds its own rate to Liouville's theorem
+        trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.touching / period
+    multipliers = np.full((len(solutions), 2 if damper is None else 4), complex(np.nan, np.nan))
+    status = np.full(len(solutions), flag("hill_status", "not_tried"))
+    traces = np.full(len(solutions), np.nan)
+    for k, solution in enumerate(solutions):
+        if solution.status == "converged":
+            found = hill.exponents(solution)
+            status[k] = flag("hill_status", found.status)
+            multipliers[k] = found.multipliers(period)
+            traces[k] = np.sum(found.values.real)
+    return {
+        "hill_status": status,
+        "hill_multiplier_real": multipliers.real,
+        "hill_multiplier_imaginary": multipliers.imag,
+        "hill_trace_error": np.abs(traces - trace)
+        if exact.converged
+        else np.full_like(traces, np.nan),
+    }
+
+
+def exact_table(exact, number):
+    """What is known of the exact orbit, with so many multipliers."""
+    found = exact.converged and exact.active == number
+    multipliers = exact.multipliers[:number] if found else np.full(number, complex(np.nan, np.nan))
+    maximum = exact.record["maximum_displacement"]
+    return {
+        "exact_status": flag("exact_status", "found" if found else "not_found"),
+        "exact_residual": exact.residual,
+        "exact_maximum": maximum if found else np.nan,
+        "exact_multiplier_real": multipliers.real,
+        "exact_multiplier_imaginary": multipliers.imag,
+    }
+
+
+def errors(data, solutions, exact, p):
+    """Errors against the exact orbit, shape (4, N): see `harmonics_theory.MEASURES`."""
+    found = np.full((4, len(solutions)), np.nan)
+    if data["exact_status"] == flag("exact_status", "not_found"):
+        return found
+    balance, size = solutions[0].balance, data["exact_maximum"]
+    start = exact.strobe_states[0]
+    orbit = simulate(
+        balance.oscillator,
+        balance.damper,
+        balance.frequency,
+        start if balance.damper is not None else start[:2],
+        periods=1,
+        samples=SAMPLES,
+        start=np.pi / (2 * balance.frequency),
+        tolerance=FINEST,
+    )
+    # the orbit begins a quarter of a forcing period late
+    coefficients = np.fft.rfft(np.roll(orbit["displacement"].values[:-1], SAMPLES // 4)) / SAMPLES
+    for k, solution in enumerate(solutions):
+        if solution.status == "converged":
+            away = coefficients.copy()
+            away[solution.balance.harmonics] -= solution.coefficients[0]
+            first_omitted = solution.balance.highest + 1
+            found[0, k] = abs(data["series_maximum"][k] - size) / size
+            found[1, k] = np.sqrt(2 * np.sum(np.abs(away[:first_omitted]) ** 2)) / size
+            found[2, k] = np.sqrt(2 * np.sum(np.abs(away[first_omitted:]) ** 2)) / size
+            multipliers = (
+                data["hill_multiplier_real"][k] + 1j * data["hill_multiplier_imaginary"][k]
+            )
+            found[3, k] = _farthest(multipliers, exact.multipliers[: exact.active])
+    return found
+
+
+def _farthest(values, references):
+    """Largest distance of complex numbers from references, paired so that distances are least."""
+    if np.isnan(values).any():
+        return np.nan
+    away = np.abs(values[:, None] - references)
+    return np.max(away[linear_sum_assignment(away)])
+
+
+def decay_table(harmonics, data, damper, p, exact):
+    """Rates at which the errors fall from `harmonics_theory.asymptotic_harmonic` on."""
+    measures = len(convergence.MEASURES)
+    lowest = convergence.asymptotic_harmonic(damper, p[0])
+    kind, predicted = convergence.decay(damper, p, exact.strobe_states[0])
+    scale = np.log(harmonics) if kind == "algebraic" else harmonics
+    observed, fitted = np.full(measures, np.nan), np.zeros(measures, int)
+    for k, error in enumerate(data["series_error"]):
+        used = (harmonics >= lowest) & (error > ROUNDING)
+        fitted[k] = np.sum(used)
+        if fitted[k] > 2:
+            observed[k] = -np.polyfit(scale[used], np.log(error[used]), 1)[0]
+    return {
+        "asymptotic_harmonic": lowest,
+        "decay_kind": flag("decay_kind", kind),
+        "decay_observed": ("error_measure", observed),
+        "decay_fitted": ("error_measure", fitted),
+        "decay_predicted": ("error_measure", predicted),
+    }

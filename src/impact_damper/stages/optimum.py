@@ -1,0 +1,276 @@
+"""Largest displacement against clearance, and the clearance where it is least (figures 6, 7, 11).
+
+The quiet motion repeats every forcing period, is symmetric and has two contacts in it. The
+branch that holds it at the clearance nearest to rule (18) is followed over the sweep, and
+its largest displacement is what the figures draw.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.motions import records, strobe_map
+from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
+from impact_damper.motions.sweep import CLEARANCE, RESOLUTION, SAME, sweep
+from impact_damper.stages.harmonic_balance import optimum_clearance
+from impact_damper.system.parameters import (
+    CLEARANCE_RANGE,
+    Damper,
+    check_count,
+    check_frequency,
+    check_increasing,
+    check_numbers,
+    check_starts,
+    describe,
+    pack,
+    shown,
+)
+from impact_damper.theory.optimum_clearance import analytical_table, excess_table
+
+NEAR_MINIMUM = 1.1
+SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
+
+
+def clearance_sweep(
+    oscillator,
+    damper,
+    frequency,
+    clearances,
+    *,
+    starts=24,
+    radius=2.0,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """Motions over a sweep of the clearance, and the optimum clearance refined on them.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : dict
+        Arguments of `Damper` without the clearance.
+    frequency : float
+        Forcing frequency W, dimensionless.
+    clearances : sequence of float
+        Increasing clearances d0, dimensionless.
+    starts, radius, seed, settling, workers, progress
+        As in `response.frequency_response`, for each clearance.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (clearance, motion) all motions found, as in a frequency response. Over `clearance`
+        the largest displacement of the quiet motion, of all motions that random starts reach,
+        and |a| of the quietest stable solution of (7). Scalars: the optimum and what kind of
+        minimum it is, both for the motion and for (7); rules (18) and (19); rm W^2 d0 at the
+        optimum and which shares of its excess over 1 two corrections of (18) explain: that
+        of the first harmonic for a loose mass that flies straight, pi^2/8, and
+        `optimum_theory.straight_flight_ratio`. Over `edge` the range of clearance within 10 % of
+        the minimum.
+
+    Raises
+    ------
+    TypeError
+        If `damper` is not such a dictionary.
+    ValueError
+        If clearances are not increasing, or a parameter is out of range.
+    """
+    settling = check_settling(settling)
+    check_count("seed", seed, least=0, most=MOST_SEED)
+    frequency = check_frequency(frequency)
+    if not isinstance(damper, dict) or not {"mass_ratio"} <= damper.keys() <= SWEPT_WITH:
+        raise TypeError(
+            f"damper = {shown(damper)}: must be a dictionary of the arguments of Damper without "
+            "the clearance, which is swept"
+        )
+    clearances = check_numbers("clearances", clearances, **CLEARANCE_RANGE)
+    clearances = check_increasing("clearances", clearances, "two")
+    check_starts(starts, len(clearances))
+    dampers = [Damper(clearance=float(value), **damper) for value in clearances]
+    parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
+    states = np.array(
+        [random_states(starts, radius, each, [seed, i]) for i, each in enumerate(dampers)]
+    )
+    data = sweep(
+        parameters, CLEARANCE, "clearance", states, settling, workers=workers, progress=progress
+    )
+    inertia = dampers[0].mass_ratio * frequency**2
+    branch = _quiet_branch(data, parameters, 1 / inertia)
+    data |= (
+        _quiet_table(branch)
+        | _optimum_table(branch)
+        | analytical_table(oscillator, dampers, frequency)
+    )
+    data |= {
+        "largest_displacement": _largest(data),
+        "rule_clearance": 1 / inertia,
+        "peak_rule_clearance": optimum_clearance(oscillator, dampers[0].mass_ratio),
+    }
+    data |= excess_table(inertia * data["optimum_clearance"], dampers[0])
+    made = (
+        describe(oscillator, settling)
+        | damper
+        | {"frequency": frequency, "starts": starts, "radius": radius, "seed": seed}
+    )
+    coordinates = {
+        "clearance": clearances,
+        "component": list(COMPONENTS),
+        "edge": ["lower", "upper"],
+    }
+    return dataset(data, coordinates, made, "Largest displacement against clearance")
+
+
+class _Branch(NamedTuple):
+    """A branch of motions of period 1 along a sweep of the clearance.
+
+    Attributes
+    ----------
+    parameters : numpy.ndarray, shape (n, 7)
+    states : numpy.ndarray, shape (n, 4)
+        State of the motion, NaN where it is absent.
+    displacements : numpy.ndarray, shape (n,)
+        max |Z1|, NaN where it is absent.
+    """
+
+    parameters: np.ndarray
+    states: np.ndarray
+    displacements: np.ndarray
+
+    def follow(self, start, clearance):
+        """Parameters and state where following from the point nearest to `start` arrives."""
+        away = np.abs(self.parameters[:, CLEARANCE] - start)
+        k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
+        p, y = self.parameters[k].copy(), self.states[k].copy()
+        strobe_map.follow(p, y, 1, CLEARANCE, clearance, RESOLUTION, strobe_map.POLISH_TOLERANCE)
+        return p, y
+
+    def displacement(self, clearance):
+        """max |Z1| at a clearance, infinite where the branch has ended."""
+        p, y = self.follow(clearance, clearance)
+        if p[CLEARANCE] != clearance:
+            return np.inf
+        return records.measured(p, y, 1, strobe_map.POLISH_TOLERANCE)["maximum_displacement"]
+
+    def limit(self, clearance, step):
+        """The next point of the sweep, or the end of branch or sweep if that comes first."""
+        grid = self.parameters[:, CLEARANCE]
+        beyond = grid[grid > clearance][:1] if step > 0 else grid[grid < clearance][-1:]
+        if len(beyond) == 0:
+            return clearance, "sweep_ends"
+        reached = self.follow(clearance, beyond[0])[0][CLEARANCE]
+        if reached == beyond[0]:
+            return reached, "crossed"
+        return reached - 10 * step * RESOLUTION, "branch_ends"
+
+
+def _quiet_branch(data, parameters, rule):
+    """The branch of the quiet motion nearest to a clearance, absent everywhere if there is none."""
+    table = {
+        name: data[name][1]
+        for name in (
+            "outcome",
+            "period",
+            "contacts",
+            "asymmetry",
+            "maximum_displacement",
+            "branch",
+            "state",
+        )
+    }
+    quiet = (
+        (table["outcome"] == flag("outcome", "settled"))
+        & (table["period"] == 1)
+        & (np.abs(table["contacts"] - 2) < SAME)
+        & (table["asymmetry"] < SAME)
+    )
+    size = np.where(quiet, table["maximum_displacement"], np.nan)
+    rows = np.flatnonzero(quiet.any(axis=1))
+    chosen = np.zeros_like(quiet)
+    if len(rows):
+        anchor = rows[np.argmin(np.abs(np.log(parameters[rows, CLEARANCE] / rule)))]
+        number = table["branch"][anchor, np.nanargmin(size[anchor])]
+        chosen = quiet & (table["branch"] == number)
+    column = np.argmax(chosen, axis=1)
+    row = np.arange(len(parameters))
+    found = chosen.any(axis=1)
+    return _Branch(
+        parameters,
+        np.where(found[:, None], table["state"][row, column], np.nan),
+        np.where(found, size[row, column], np.nan),
+    )
+
+
+def _quiet_table(branch):
+    found = np.isfinite(branch.displacements)
+    return {
+        "quiet_displacement": branch.displacements,
+        "quiet_status": np.where(
+            found, flag("quiet_status", "found"), flag("quiet_status", "absent")
+        ),
+    }
+
+
+def _largest(data):
+    """max |Z1| over the motions that random starts reach."""
+    sizes = np.where(data["share"][1] > 0, data["maximum_displacement"][1], -np.inf)
+    return np.max(sizes, axis=1)
+
+
+def _optimum_table(branch):
+    """The least max |Z1| of a branch, what kind of minimum it is, and the range near it."""
+    if not np.isfinite(branch.displacements).any():
+        return {
+            "optimum_clearance": np.nan,
+            "optimum_displacement": np.nan,
+            "optimum_kind": flag("optimum_kind", "not_found"),
+            "near_clearance": np.full(2, np.nan),
+            "near_status": np.full(2, flag("near_status", "not_found")),
+        }
+    middle = branch.parameters[np.nanargmin(branch.displacements), CLEARANCE]
+    limits = [branch.limit(middle, step) for step in (-1, 1)]
+    bounds = [value for value, _ in limits]
+    inner = minimize_scalar(
+        branch.displacement, bounds=bounds, method="bounded", options={"xatol": 1e-9}
+    )
+    candidates = {value: branch.displacement(value) for value in bounds} | {inner.x: inner.fun}
+    best = min(candidates, key=candidates.get)
+    room = [abs(best - value) for value, event in limits if event == "branch_ends"]
+    kind = _kind(branch, best, candidates[best], min([1e-3 * best, *room]))
+    for value, event in limits:
+        if abs(best - value) < 1e-6 and event != "crossed":
+            kind = "jump" if event == "branch_ends" else "edge"
+    near = [_near(branch, best, NEAR_MINIMUM * candidates[best], step) for step in (-1, 1)]
+    return {
+        "optimum_clearance": best,
+        "optimum_displacement": candidates[best],
+        "optimum_kind": flag("optimum_kind", kind),
+        "near_clearance": np.array([value for value, _ in near]),
+        "near_status": np.array([flag("near_status", event) for _, event in near]),
+    }
+
+
+def _kind(branch, best, least, longest):
+    """Smooth or kink: as the step is halved the rise on both sides falls fourfold or twofold.
+
+    No step goes beyond `longest`, where the branch may end.
+    """
+    rises = [
+        branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
+        for step in (longest, longest / 2)
+    ]
+    return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
+
+
+def _near(branch, best, level, step):
+    """Where max |Z1| reaches a level on one side of the optimum, or what ends the branch before."""
+    outside, event = best, "crossed"
+    while event == "crossed":
+        inside = outside
+        outside, event = branch.limit(inside, step)
+        if branch.displacement(outside) > level:
+            return brentq(lambda x: branch.displacement(x) - level, inside, outside), "crossed"
+    return outside, event

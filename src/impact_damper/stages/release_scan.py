@@ -1,0 +1,124 @@
+"""Where releases of the damper lead at each forcing frequency."""
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.shares import BOUNDS, LEAD
+from impact_damper.data.variables import VARIABLES
+from impact_damper.migration.damper_release import DESTINATIONS, release_data, scene, watch
+from impact_damper.motions import records
+from impact_damper.motions.simulate import check_settling
+from impact_damper.stages.response import frequency_response
+from impact_damper.system.parameters import check_count, describe
+
+
+def _scan_records(response):
+    """Records of the settled motions at one frequency of a frequency response."""
+    keep = response["outcome"].values == flag("outcome", "settled")
+    found = np.zeros(np.sum(keep), records.MOTION)
+    for name in ("period", "maximum_displacement", "contacts", "state"):
+        found[name] = response[name].values[keep]
+    return found[::-1]
+
+
+def _padded(values, length):
+    """Array with its first axis filled up to a length by what stands for nothing."""
+    missing = np.full(
+        (length - len(values), *values.shape[1:]),
+        np.nan if values.dtype.kind == "f" else -1,
+        values.dtype,
+    )
+    return np.concatenate([values, missing])
+
+
+def release_scan(
+    oscillator,
+    damper,
+    frequencies,
+    *,
+    starts=24,
+    radius=2.0,
+    releases=100,
+    lifetime=200,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """Where releases lead from every damped motion, at each frequency.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequencies : sequence of float
+        Increasing forcing frequencies at which both free period-1 motions exist.
+    starts : int
+        Random starts a frequency; the motions found are followed in frequency as well.
+    radius : float
+        Of the ball around rest from which the starts are drawn.
+    releases : int
+        Releases of each motion.
+    lifetime : int
+        Forcing periods within which the motion that has not settled is released.
+    seed : int
+    settling : Settling, optional
+    workers, progress
+        As in `response.frequency_response`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (frequency, damped) the damped motions, first the one that has not settled, and
+        over (frequency, damped, free_motion, bound) the shares of their releases.
+
+    Raises
+    ------
+    ValueError
+        If the free oscillator has not both motions at a frequency, or an argument is out of range.
+    """
+    settling = check_settling(settling)
+    check_count("releases", releases, most=10**6)
+    check_count("lifetime", lifetime, least=2 * LEAD, most=10**7)
+    scenes = [scene(oscillator, damper, frequency, settling) for frequency in frequencies]
+    response = frequency_response(
+        oscillator,
+        damper,
+        frequencies,
+        starts=starts,
+        radius=radius,
+        seed=seed,
+        settling=settling,
+        workers=workers,
+        progress=progress,
+    )
+    seeds = np.random.SeedSequence(seed).spawn(len(scenes))
+    rows = []
+    for i, here in enumerate(scenes):
+        _, _, entries = watch(here, seeds[i].spawn(releases), lifetime, settling, workers, None)
+        rows.append(
+            release_data(here, _scan_records(response.isel(frequency=i)), entries, settling)
+        )
+    width = max(len(row["damped_kind"]) for row in rows)
+    names = (
+        "damped_kind",
+        "damped_period",
+        "damped_displacement",
+        "damped_contacts",
+        "release_share",
+    )
+    data = {name: np.array([_padded(row[name], width) for row in rows]) for name in names}
+    data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
+    made = describe(oscillator, damper, settling) | {
+        "starts": starts,
+        "radius": radius,
+        "releases": releases,
+        "lifetime": lifetime,
+        "seed": seed,
+    }
+    coordinates = {
+        "frequency": response["frequency"].values,
+        "free_motion": DESTINATIONS,
+        "bound": BOUNDS,
+    }
+    return dataset(data, coordinates, made, "Where releases of the damper lead")

@@ -1,0 +1,251 @@
+"""How wrong rigid impacts are at a finite contact stiffness r1, over r1 and frequency.
+
+The subject is the quiet motion: period 1, two symmetric contacts. Its orbit with compliant
+contact is followed over the whole grid, that of the rigid model over frequency, whether stable
+or not; the two are compared cell by cell.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.contact.logged_contacts import extreme_motions
+from impact_damper.contact.rigid_orbits import IMPACTS, mended_orbit, rigid_orbit
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.motions import records, strobe_map
+from impact_damper.motions.simulate import check_settling
+from impact_damper.orbits.grid_following import flood, march, point_of
+from impact_damper.system.parameters import (
+    check_count,
+    check_damper,
+    check_frequencies,
+    check_frequency,
+    check_increasing,
+    describe,
+    pack,
+)
+
+THRESHOLDS = (0.01, 0.1)
+REACH = 0.1
+SAME = 1e-6
+# The order is observed where the contact is short.
+STIFF = 1e4
+
+
+class Orbit(NamedTuple):
+    """A symmetric orbit with two compliant contacts; see `RigidOrbit`."""
+
+    state: np.ndarray
+    multiplier: complex
+    displacement: float
+
+
+def compliant_orbit(oscillator, damper, frequency, guess, reach):
+    """Newton's method onto an orbit with compliant contact; arguments as of `rigid_orbit`.
+
+    Returns
+    -------
+    orbit : Orbit or None
+    status : int
+        Flag of `compliant_status`.
+    """
+    p, y = pack(oscillator, damper, frequency), np.array(guess, float)
+    found, _, multiplier = strobe_map.polish(p, y, 1, reach, strobe_map.POLISH_TOLERANCE)
+    if not found:
+        return None, flag("compliant_status", "not_followed")
+    record = records.measured(p, y, 1, strobe_map.POLISH_TOLERANCE)
+    if record["contacts"] != IMPACTS or not record["asymmetry"] < SAME:
+        return None, flag("compliant_status", "other_contacts")
+    orbit = Orbit(y, multiplier, float(record["maximum_displacement"]))
+    return orbit, flag("compliant_status", "found")
+
+
+def rigid_limit(
+    oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling=None
+):
+    """Rigid impacts against compliant contact, over stiffness and frequency.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequency : float
+        W at which the quiet motion is looked for, with the damper's r1; dimensionless.
+    frequencies, stiffnesses : sequence of float
+        Increasing W and r1 of the grid, dimensionless; at least two each.
+    starts : int
+        Random starts from which it is looked for.
+    seed : int
+    settling : Settling, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (frequency, stiffness) the compliant orbit, the mended rigid one, errors and
+        verdict; over `frequency` the rigid orbit, observed orders, and the stiffness from which
+        on the error of max |Z1| is below each threshold; scalars for the damper's own r1.
+
+    Raises
+    ------
+    ArithmeticError
+        If no start leads to a quiet motion.
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    check_damper(damper)
+    check_count("starts", starts, most=10**6)
+    frequency = check_frequency(frequency)
+    frequencies = check_frequencies(frequencies, "two")
+    stiffnesses = check_increasing("stiffnesses", stiffnesses, "two")
+    settling = check_settling(settling)
+    axes = frequencies, np.log(stiffnesses)
+
+    def soft(point, guess):
+        each = replace(damper, contact_stiffness=float(np.exp(point[1])))
+        return compliant_orbit(oscillator, each, point[0], guess, REACH)
+
+    def rigid(point, guess):
+        return rigid_orbit(oscillator, damper, point[0], guess, REACH)
+
+    here = np.array([frequency, np.log(damper.contact_stiffness)])
+    quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
+    stiff = _reached(march(soft, here, np.array([frequency, axes[1][-1]]), quiet), "stiffnesses")
+    own = _reached(rigid(here, stiff.state), "stiffnesses")
+    cell = int(np.argmin(np.abs(axes[0] - here[0]))), int(np.argmin(np.abs(axes[1] - here[1])))
+    first = _reached(march(soft, here, point_of(axes, cell), quiet), "frequencies")
+    compliant = flood(soft, axes, cell, first, flag("compliant_status", "not_attempted"))
+    first = _reached(march(rigid, here[:1], axes[0][cell[0] : cell[0] + 1], own), "frequencies")
+    walls = flood(rigid, axes[:1], cell[:1], first, flag("rigid_status", "not_attempted"))
+    mended = _mended(oscillator, damper, frequencies, stiffnesses, walls[0])
+
+    data = (
+        _columns("compliant", *compliant) | _columns("rigid", *walls) | _columns("mended", *mended)
+    )
+    data |= _errors(data)
+    data |= _needed(stiffnesses, data["rigid_error"])
+    for name in ("rigid", "mended"):
+        data[f"{name}_order"] = _orders(stiffnesses, data[f"{name}_error"])
+    again = mended_orbit(oscillator, damper, frequency, own, REACH)[0]
+    data |= {
+        "own_displacement": quiet.displacement,
+        "own_error": own.displacement / quiet.displacement - 1,
+        "own_mended_error": np.nan
+        if again is None
+        else again.displacement / quiet.displacement - 1,
+        "own_decay_error": abs(own.multiplier) - abs(quiet.multiplier),
+    }
+    made = describe(oscillator, damper, settling)
+    made |= {"frequency": frequency, "starts": starts, "seed": seed}
+    coordinates = {
+        "frequency": frequencies,
+        "stiffness": stiffnesses,
+        "threshold": list(THRESHOLDS),
+    }
+    return dataset(data, coordinates, made, "Rigid impacts against compliant contact")
+
+
+def _quiet(oscillator, damper, frequency, starts, seed, settling):
+    """The quiet motion's orbit from random starts."""
+    motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
+    if motion is not None and motion["period"] == 1:
+        orbit, _ = compliant_orbit(oscillator, damper, frequency, motion["state"], REACH)
+        if orbit is not None:
+            return orbit
+    raise ArithmeticError(
+        f"frequency = {frequency:g}: no quiet motion, of period 1 with two symmetric contacts, is "
+        f"reached from {starts} starts; more of them or another frequency may help"
+    )
+
+
+def _reached(result, key):
+    """The orbit that a march arrived at."""
+    if result[0] is None:
+        raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
+    return result[0]
+
+
+def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
+    """Orbits of the mended rigid model by cell, and the status of each."""
+    found = {}
+    status = np.full((len(frequencies), len(stiffnesses)), flag("mended_status", "not_attempted"))
+    for (i,), orbit in rigid.items():
+        for j, stiffness in enumerate(stiffnesses):
+            each = replace(damper, contact_stiffness=float(stiffness))
+            mended, status[i, j] = mended_orbit(oscillator, each, frequencies[i], orbit, np.inf)
+            if mended is not None:
+                found[i, j] = mended
+    return found, status
+
+
+def _columns(name, found, status):
+    """Registered variables of orbits by cell."""
+    displacement, multiplier = np.full(status.shape, np.nan), np.full(status.shape, np.nan + 0j)
+    for cell, orbit in found.items():
+        displacement[cell], multiplier[cell] = orbit.displacement, orbit.multiplier
+    return {
+        f"{name}_status": status,
+        f"{name}_displacement": displacement,
+        f"{name}_multiplier_real": multiplier.real,
+        f"{name}_multiplier_imaginary": multiplier.imag,
+    }
+
+
+def _errors(data):
+    """Relative errors of max |Z1|, the error of the decay in a period, and the verdict."""
+    size = {
+        name: np.hypot(data[f"{name}_multiplier_real"], data[f"{name}_multiplier_imaginary"])
+        for name in ("compliant", "rigid")
+    }
+    rigid = size["rigid"][:, None]
+    stable = size["compliant"] < 1, np.broadcast_to(rigid < 1, size["compliant"].shape)
+    exists = np.isfinite(size["compliant"]), np.isfinite(rigid)
+    chosen = {
+        "both_stable": stable[0] & stable[1],
+        "stability_differs": exists[0] & exists[1] & (stable[0] != stable[1]),
+        "both_unstable": exists[0] & exists[1],
+        "rigid_only": exists[1],
+        "compliant_only": exists[0],
+    }
+    soft = data["compliant_displacement"]
+    return {
+        "rigid_error": data["rigid_displacement"][:, None] / soft - 1,
+        "mended_error": data["mended_displacement"] / soft - 1,
+        "decay_error": rigid - size["compliant"],
+        "rigid_verdict": np.select(
+            [np.broadcast_to(where, soft.shape) for where in chosen.values()],
+            [flag("rigid_verdict", name) for name in chosen],
+            flag("rigid_verdict", "neither"),
+        ),
+    }
+
+
+def _needed(stiffnesses, errors):
+    """Stiffness from which on |error| stays below each threshold, between two cells of the grid."""
+    shape = len(THRESHOLDS), len(errors)
+    needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
+    for j, row in enumerate(np.abs(errors)):
+        known = np.flatnonzero(np.isfinite(row))
+        if len(known) == 0 or known[-1] != len(row) - 1:
+            continue
+        for i, threshold in enumerate(THRESHOLDS):
+            above = known[row[known] > threshold]
+            if len(above) == 0:
+                status[i, j] = flag("needed_status", "below_grid")
+            elif above[-1] == len(row) - 1:
+                status[i, j] = flag("needed_status", "above_grid")
+            else:
+                k = slice(above[-1], above[-1] + 2)
+                place = np.interp(-np.log(threshold), -np.log(row[k]), np.log(stiffnesses[k]))
+                needed[i, j], status[i, j] = np.exp(place), flag("needed_status", "found")
+    return {"needed_stiffness": needed, "needed_status": status}
+
+
+def _orders(stiffnesses, errors):
+    """Exponent n of |error| ~ r1^-n by least squares where r1 is at least STIFF, or NaN."""
+    orders = np.full(len(errors), np.nan)
+    for i, row in enumerate(np.abs(errors)):
+        used = np.isfinite(row) & (stiffnesses >= STIFF)
+        if used.sum() > 2:
+            orders[i] = -np.polyfit(np.log(stiffnesses[used]), np.log(row[used]), 1)[0]
+    return orders

@@ -1,0 +1,130 @@
+"""Studies: what random starts come to over a grid of dampers and frequencies, chunk by chunk.
+
+The cells of a grid are numbered in the order of `AXES`, the last axis fastest, and a chunk is a
+range of these numbers. Starts are drawn by seed and number, so how a study is cut does not count.
+Runs are condensed cell by cell, so a chunk takes no more memory than a cell and its results.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.variables.studies import AXES, OUTCOMES
+from impact_damper.motions import ensemble
+from impact_damper.motions.simulate import random_states
+from impact_damper.orbits.quiet_orbits import is_symmetric_pair
+from impact_damper.system.parameters import Damper, check_count, check_increasing, describe, pack
+
+CELL = np.dtype(
+    [
+        ("outcome_count", "i4", len(OUTCOMES)),
+        ("quiet_count", "i4"),
+        ("largest_displacement", "f8"),
+        ("quiet_displacement", "f8"),
+    ]
+)
+
+
+def study_chunk(
+    oscillator,
+    axes,
+    cells,
+    *,
+    contact_stiffness=2000.0,
+    starts=8,
+    radius=2.0,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """What random starts come to in some cells of a grid.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    axes : dict
+        Increasing values of mass_ratio (rm), clearance (d0), frequency (W) and restitution (e).
+    cells : tuple of int
+        Number of the first cell of the chunk, and of the first one beyond it.
+    contact_stiffness : float
+        r1, the same in all cells.
+    starts, radius, seed, settling, workers, progress
+        As in `response.frequency_response`, for each cell.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `cell` the largest displacement of all motions that the starts lead to, that of the
+        quiet motion (period 1, two symmetric contacts), how many starts lead to it, and how many
+        to each outcome. The axes of the whole grid stand beside.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    settling = settling or ensemble.Settling()
+    check_count("starts", starts, most=10**6)
+    axes = _checked(axes)
+    shape = [len(values) for values in axes.values()]
+    first = check_count("cells[0]", cells[0], least=0, most=math.prod(shape) - 1)
+    last = check_count("cells[1]", cells[1], least=first + 1, most=math.prod(shape))
+
+    def system(place):
+        values = {name: axis[i] for (name, axis), i in zip(axes.items(), place, strict=True)}
+        frequency = values.pop("frequency")
+        damper = Damper(contact_stiffness=contact_stiffness, **values)
+        return pack(oscillator, damper, frequency), damper
+
+    # what is out of range is so at an end: it is to be told before hours of work
+    for end in (0, -1):
+        _, damper = system([end] * len(AXES))
+        random_states(0, radius, damper, seed)
+    found = np.empty(last - first, CELL)
+
+    def work(part):
+        rows, states = [], []
+        for cell in range(first + part.start, first + part.stop):
+            p, damper = system(np.unravel_index(cell, shape))
+            rows.append(np.tile(p, (starts, 1)))
+            states.append(random_states(starts, radius, damper, [seed, cell]))
+        runs = ensemble.settle(np.concatenate(rows), np.concatenate(states), settling)
+        for k, of_cell in enumerate(np.split(runs, len(rows)), part.start):
+            found[k] = _condensed(of_cell)
+
+    # as many cells at a time as fill the lanes, for the same memory whatever the chunk
+    together = max(1, ensemble.CHUNK // starts)
+    ensemble.run_chunks(work, last - first, workers, progress, size=together)
+    data = {
+        name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names
+    }
+    made = describe(oscillator, settling) | {
+        "contact_stiffness": contact_stiffness,
+        "starts": starts,
+        "radius": radius,
+        "seed": seed,
+    }
+    coordinates = axes | {"cell": np.arange(first, last), "counted_outcome": list(OUTCOMES)}
+    return dataset(data, coordinates, made, "What random starts come to over a grid")
+
+
+def _condensed(runs):
+    """What a study keeps of the runs in a cell, as a row of `CELL`."""
+    diverged = runs["outcome"] == flag("outcome", "diverged")
+    sizes = np.where(diverged, np.inf, runs["maximum_displacement"])
+    quiet = is_settled(runs) & is_symmetric_pair(runs)
+    return (
+        [np.sum(runs["outcome"] == flag("outcome", name)) for name in OUTCOMES],
+        np.sum(quiet),
+        np.max(sizes),
+        np.min(sizes[quiet]) if quiet.any() else np.nan,
+    )
+
+
+def _checked(axes):
+    """The axes as arrays in their order, or TypeError or ValueError."""
+    if not isinstance(axes, dict) or set(axes) != set(AXES):
+        raise TypeError(f"axes = {axes!r}: must be a dictionary of {', '.join(AXES)}")
+    return {name: check_increasing(f"axes[{name!r}]", np.atleast_1d(axes[name])) for name in AXES}

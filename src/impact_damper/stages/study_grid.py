@@ -1,0 +1,124 @@
+"""The chunks of a study as one file over its grid, with one chunk in memory at a time."""
+
+import math
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from impact_damper.data.datasets import dataset, load, seal, variable, write
+from impact_damper.data.variables.studies import AXES
+from impact_damper.data.whole_files import DELETE, BrokenFileError, whole_netcdf
+
+
+def gather_chunks(paths, path) -> None:
+    """Write the chunks of a study, in their order, into one file over its grid.
+
+    The file has the variables of a chunk over the axes in place of `cell`. Beside them stand, over
+    mass ratio, frequency and restitution, the clearance of the grid at which the largest
+    displacement is least, and that of rule (18).
+
+    Parameters
+    ----------
+    paths : sequence of str or pathlib.Path
+        Files of all chunks, as `study_chunk` made them.
+    path : str or pathlib.Path
+        File to write; it appears only when it is whole.
+
+    Raises
+    ------
+    BrokenFileError
+        If a chunk is not what a run has written, does not go on where the one before it ended, or
+        is not of the same study.
+    """
+    chunk = load(paths[0])
+    axes = {name: chunk[name].values for name in AXES}
+    shape = tuple(len(values) for values in axes.values())
+    others = {"counted_outcome": chunk["counted_outcome"].values}
+    head = dataset({}, axes | others, {}, "").assign_attrs(chunk.attrs)
+    with whole_netcdf(path) as part:
+        write(head, part)
+        with netCDF4.Dataset(part, "a") as file:
+            for name in chunk.data_vars:
+                _define(file, name, (*AXES, *chunk[name].dims[1:]), chunk[name].dtype)
+            done = 0
+            for each in paths:
+                chunk = load(each)
+                _check_next(chunk, each, done, head)
+                done += _place(file, chunk, done, shape)
+            if done != math.prod(shape):
+                found = f"ends at cell {done} of {math.prod(shape)}"
+                raise BrokenFileError(f"{paths[-1]} {found}: {DELETE}.")
+            _write_clearances(file, axes)
+        with xr.open_dataset(part, engine="netcdf4", cache=False) as data:
+            sealed = seal(data.variables, path)
+        with netCDF4.Dataset(part, "a") as file:
+            file.setncatts(sealed)
+
+
+def _place(file, chunk, first, shape):
+    """Write a chunk to its cells, from the number `first` on; returns how many there are."""
+    count = chunk.sizes["cell"]
+    for cells, block in blocks(first, first + count, shape):
+        lengths = [index.stop - index.start for index in block]
+        for name in chunk.data_vars:
+            values = chunk[name].values[cells.start - first : cells.stop - first]
+            file[name][block] = values.reshape(*lengths, *values.shape[1:])
+    return count
+
+
+def _define(file, name, dims, dtype):
+    """An empty registered variable in an open file."""
+    labelled = variable(name, np.empty((0,) * len(dims), dtype), dims)
+    missing = np.nan if labelled.dtype.kind == "f" else False
+    file.createVariable(name, labelled.dtype, dims, fill_value=missing).setncatts(labelled.attrs)
+
+
+def _check_next(chunk, path, first, head):
+    """Raise BrokenFileError unless a chunk begins at a cell and is of the study of `head`."""
+    same = chunk.attrs == head.attrs and all(
+        np.array_equal(chunk[name], head[name]) for name in (*AXES, "counted_outcome")
+    )
+    if not same or chunk["cell"].values[0] != first:
+        raise BrokenFileError(f"{path} must begin at cell {first} of the same study: {DELETE}.")
+
+
+def blocks(first, last, shape):
+    """Cut a range of cells, numbered with the last axis fastest, into blocks of the grid.
+
+    There are at most 2 n - 1 of them for n axes, however long the range is.
+
+    Parameters
+    ----------
+    first, last : int
+        Number of the first cell, and of the first one beyond.
+    shape : tuple of int
+
+    Yields
+    ------
+    slice, tuple of slice
+        Numbers of the cells in the block, and its place in the grid.
+    """
+    while first < last:
+        axis, stride = len(shape) - 1, 1
+        # the largest step that begins here and does not go beyond the end
+        while axis > 0 and first % (wider := stride * shape[axis]) == 0 and first + wider <= last:
+            axis, stride = axis - 1, wider
+        place = np.unravel_index(first, shape)
+        count = min((last - first) // stride, shape[axis] - int(place[axis]))
+        block = [slice(int(i), int(i) + 1) for i in place[:axis]]
+        block += [slice(int(place[axis]), int(place[axis]) + count)]
+        block += [slice(0, length) for length in shape[axis + 1 :]]
+        yield slice(first, first + count * stride), tuple(block)
+        first += count * stride
+
+
+def _write_clearances(file, axes):
+    """The best clearance of the grid and that of rule (18), a mass ratio at a time."""
+    dims = tuple(name for name in AXES if name != "clearance")
+    _define(file, "best_clearance", dims, float)
+    _define(file, "rule_clearance", ("mass_ratio", "frequency"), float)
+    for i, mass_ratio in enumerate(axes["mass_ratio"]):
+        sizes = np.ma.getdata(file["largest_displacement"][i])
+        file["best_clearance"][i] = axes["clearance"][np.argmin(sizes, axis=0)]
+        file["rule_clearance"][i] = 1 / (mass_ratio * axes["frequency"] ** 2)

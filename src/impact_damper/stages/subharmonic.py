@@ -1,0 +1,214 @@
+"""The one-third subharmonic of the free oscillator, and what a damper makes of it.
+
+Without the damper it is a symmetric motion of period 3. With the damper every motion is
+counted as one whose period is a multiple of 3.
+"""
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.motions.free_subharmonic import (
+    SEARCHED,
+    branch_ends,
+    free_subharmonic,
+    is_subharmonic,
+    switched_on,
+)
+from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
+from impact_damper.motions.sweep import FREQUENCY, SAME, sweep
+from impact_damper.system.parameters import (
+    check_count,
+    check_damper,
+    check_frequencies,
+    check_starts,
+    describe,
+    pack,
+)
+
+BEYOND = 0.1
+REDUCED = 0.95
+SWITCHED_MOTIONS = (
+    "quiet",
+    "other_period_1",
+    "subharmonic",
+    "other_period",
+    "chaotic",
+    "non_colliding",
+    "unsettled",
+)
+
+
+def subharmonic_suppression(
+    oscillator,
+    damper,
+    frequencies,
+    *,
+    starts=96,
+    radius=2.0,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """Motions with the damper wherever the free oscillator has its one-third subharmonic.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequencies : sequence of float
+        Increasing frequencies W, dimensionless. The free subharmonic is sought from the first
+        to the last; the damped motions are sought at as many frequencies, spread over its range
+        and a tenth of the width beyond each end. Without a free subharmonic at these themselves.
+    starts : int
+        Starts a frequency. Where the free subharmonic exists one half is random as in
+        `response.frequency_response`, and the other has the damper switched on to the
+        subharmonic at a random time, the loose mass placed as in a random start, every second
+        time at rest relative to the primary. Elsewhere all are random.
+    radius, seed, settling, workers, progress
+        As in `response.frequency_response`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (frequency, motion) all motions found, as in a frequency response. Over `frequency`
+        the largest displacement of the subharmonic without and with the damper (NaN where there
+        is none), their ratio, contacts and period of the damped one, and a flag for what became
+        of it, by all damped motions and by those that starts lead to. Over (frequency,
+        switched_motion) where switching on leads. Over `edge` the ends of the free
+        subharmonic, over (subharmonic, edge) those of each damped branch.
+
+    Raises
+    ------
+    TypeError
+        If there is no damper.
+    ValueError
+        If frequencies are not increasing, or a parameter is out of range.
+    """
+    settling = check_settling(settling)
+    check_damper(damper)
+    frequencies = check_frequencies(frequencies, "two")
+    check_starts(starts, max(SEARCHED, len(frequencies)), least=2)
+    check_count("seed", seed, least=0, most=MOST_SEED)
+    free = free_subharmonic(
+        oscillator,
+        frequencies[0],
+        frequencies[-1],
+        starts=starts,
+        radius=radius,
+        seed=seed,
+        settling=settling,
+        workers=workers,
+    )
+    if free.found:
+        margin = BEYOND * (free.ends[1] - free.ends[0])
+        frequencies = np.linspace(free.ends[0] - margin, free.ends[1] + margin, len(frequencies))
+    parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
+    states, size = _starts(oscillator, damper, parameters, free, starts, radius, seed)
+    data = sweep(
+        parameters, FREQUENCY, "frequency", states, settling, workers=workers, progress=progress
+    )
+    data |= _subharmonic_table(data, size) | _branch_table(data, frequencies)
+    data |= {
+        "switched_share": _shares(data, np.isfinite(size), starts // 2),
+        "free_subharmonic_frequency": free.ends,
+        "free_subharmonic_event": free.events,
+    }
+    made = describe(oscillator, damper, settling) | {
+        "starts": starts,
+        "radius": radius,
+        "seed": seed,
+    }
+    coordinates = {
+        "frequency": frequencies,
+        "component": list(COMPONENTS),
+        "edge": ["lower", "upper"],
+        "switched_motion": list(SWITCHED_MOTIONS),
+    }
+    return dataset(data, coordinates, made, "One-third subharmonic without and with the damper")
+
+
+def _starts(oscillator, damper, parameters, free, starts, radius, seed):
+    """Starts (n, starts, 4), and max |Z1| (n,) of the free subharmonic or NaN."""
+    states = np.array(
+        [random_states(starts, radius, damper, [seed, i]) for i in range(len(parameters))]
+    )
+    size = np.full(len(parameters), np.nan)
+    half = starts // 2
+    for i, p in enumerate(parameters):
+        record = free.at(p[FREQUENCY])
+        if record is not None:
+            size[i] = record["maximum_displacement"]
+            generator = np.random.default_rng([seed, i, half])
+            states[i, :half] = switched_on(
+                oscillator, p, record["state"], states[i, :half], generator
+            )
+    return states, size
+
+
+def _subharmonic_table(data, free):
+    """Largest displacement, free and damped, over frequency, and what the damper changed."""
+    size = np.where(is_subharmonic(data), data["maximum_displacement"][1], -np.inf)
+    place = np.argmax(size, axis=1)
+    row = np.arange(len(size))
+    damped = size[row, place]
+    exists = damped > 0
+    reached = np.max(np.where(data["share"][1] > 0, size, -np.inf), axis=1)
+    table = {"free_subharmonic": free, "subharmonic_ratio": np.where(exists, damped, 0) / free}
+    for name, values in (("damped_subharmonic", damped), ("reached_subharmonic", reached)):
+        table[name] = np.where(values > 0, values, np.nan)
+    for name, values in (("suppression", damped), ("reached_suppression", reached)):
+        table[name] = _suppression(values, free)
+    table["damped_subharmonic_period"] = np.where(exists, data["period"][1][row, place], 0)
+    table["damped_subharmonic_contacts"] = np.where(exists, data["contacts"][1][row, place], np.nan)
+    return table
+
+
+def _suppression(damped, free):
+    """Flag for what the damper makes of a subharmonic, by its largest displacement."""
+    meanings = np.select(
+        [np.isnan(free), damped < 0, damped < REDUCED * free],
+        ["no_subharmonic_without_damper", "removed", "reduced"],
+        "unchanged",
+    )
+    return np.array([flag("suppression", meaning) for meaning in meanings])
+
+
+def _branch_table(data, frequencies):
+    """Ends and largest displacement of each damped branch of subharmonics."""
+    found = is_subharmonic(data)
+    branch, period = data["branch"][1], data["period"][1]
+    rows = []
+    for number, n in np.unique(np.stack([branch[found], period[found]], axis=1), axis=0):
+        cells = found & (branch == number) & (period == n)
+        ends, events = branch_ends(data, number, frequencies, np.flatnonzero(cells.any(axis=1)))
+        rows.append((number, n, np.max(data["maximum_displacement"][1][cells]), ends, events))
+    names = ("subharmonic_branch", "subharmonic_period", "subharmonic_displacement")
+    columns = zip(*rows, strict=True) if rows else [()] * 5
+    *scalars, ends, events = (np.array(column) for column in columns)
+    return dict(zip(names, scalars, strict=True)) | {
+        "subharmonic_frequency": ends.reshape(-1, 2),
+        "subharmonic_event": events.reshape(-1, 2),
+    }
+
+
+def _shares(data, present, count):
+    """Share of the first `count` starts by what they lead to, where they were switched on."""
+    settled = data["outcome"][1] == flag("outcome", "settled")
+    period = data["period"][1]
+    symmetric = (np.abs(data["contacts"][1] - 2) < SAME) & (data["asymmetry"][1] < SAME)
+    kinds = np.select(
+        [
+            settled & (period == 1) & symmetric,
+            settled & (period == 1),
+            is_subharmonic(data),
+            settled,
+            data["outcome"][1] == flag("outcome", "chaotic"),
+            data["outcome"][1] == flag("outcome", "non_colliding"),
+        ],
+        range(len(SWITCHED_MOTIONS) - 1),
+        len(SWITCHED_MOTIONS) - 1,
+    )
+    reached = np.take_along_axis(kinds, data["run_motion"][1][:, :count], axis=1)
+    shares = np.stack([np.mean(reached == k, axis=1) for k in range(len(SWITCHED_MOTIONS))], axis=1)
+    return np.where(present[:, None], shares, np.nan)

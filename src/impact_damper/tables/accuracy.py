@@ -1,0 +1,133 @@
+"""Scenes by model: error, work and the cheapest that is good enough; and what a user reads off."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import extract
+from impact_damper.data.datasets import parameters_of
+from impact_damper.rivals.cheapest import METHODS, choice
+from impact_damper.tables import paper
+
+ORBITS = ("rigid", "rigid_mended", "rigid_balance", "full_balance", "many_harmonics", "shooting")
+INTEGRATORS = tuple(name for name in METHODS if name not in ORBITS)
+WORDS = {
+    "amplitude": "max |Z1| to {:g} of it",
+    "state": "state to {:g}",
+    "contact_time": "contact times to {:g}",
+    "contacts": "number of contacts to {:g}",
+    "contact_rate": "contacts a period to {:g} of them",
+    "displacement": "mean max |Z1| to {:g} of it",
+    "exponent": "Lyapunov exponent to {:g} of it",
+}
+
+
+def models(datasets) -> pd.DataFrame:
+    """Each method on each scene, at the setting with the least work that meets the accuracy.
+
+    Where none does, the setting with the least error. The choice is the one with the least work
+    of all, and the cheapest that runs from any state where it is a model of orbits. Series of
+    further orders stand beside it: the package runs those it is compiled for.
+    """
+    rows = []
+    for name, data in datasets.get("accuracy", {}).items():
+        made = parameters_of(data)
+        asked = WORDS[made["accuracy"]["quantity"]].format(made["accuracy"]["within"])
+        best, integrator = choice(data), choice(data, INTEGRATORS)
+        others = sorted(set(data["method"].values) - set(METHODS))
+        for method in [*METHODS, *others]:
+            k = choice(data, (method,))
+            if k is None:
+                k = _most_accurate(data, method)
+            if k is None:
+                continue
+            of = data.isel(run=k)
+            words = "cheapest that meets it" if k == best else ""
+            if k == integrator != best:
+                words = "cheapest integrator"
+            used = made["tolerance"] if method == "taylor" else None
+            row = {
+                "scene": name,
+                "asks": asked,
+                "method": method,
+                "setting": float(of.setting),
+                "status": extract.meaning("run_status", of.run_status),
+                "operations": float(of.operations) or np.nan,
+                "meets it": extract.meaning("meets_accuracy", of.meets_accuracy),
+                "choice": words,
+                "tolerance in use": np.nan if used is None else used,
+            }
+            rows.append(row | (_averages(data, of) if "average" in data else _errors(of)))
+    return pd.DataFrame(rows)
+
+
+def _most_accurate(data, method):
+    """Number of the run of a method with the least error, the first if none has one."""
+    runs = np.flatnonzero(data["method"].values == method)
+    if not len(runs):
+        return None
+    if "average" in data:
+        away = data["average"].values[runs, 0] / data["reference_average"].values[0] - 1
+    else:
+        away = data["amplitude_error"].values[runs]
+    return runs[np.argmin(np.where(np.isnan(away), np.inf, np.abs(away)))]
+
+
+def _errors(of):
+    return {
+        "error of the state": float(of.state_error),
+        "of contact times": float(of.contact_time_error),
+        "of their number": float(of.contact_excess),
+        "of max |Z1|": float(of.amplitude_error),
+    }
+
+
+def _averages(data, of):
+    row = {}
+    names = {"contact_rate": "contacts a period", "displacement": "mean max |Z1|"}
+    for key, words in (names | {"exponent": "Lyapunov exponent"}).items():
+        row[words] = float(of.average.sel(statistic=key))
+        row[f"{words}, standard error"] = float(of.average_error.sel(statistic=key))
+        row[f"{words}, reference"] = float(data.reference_average.sel(statistic=key))
+    return row
+
+
+def readings(datasets) -> pd.DataFrame:
+    """Optimum clearances and edges of suppression bands by models, against the motions that exist.
+
+    An edge by simulation lies between two frequencies; no error is given within them.
+    """
+    rows = []
+    for sweep in paper.optima(datasets).to_dict("records"):
+        true = sweep["optimum d0"]
+        found = {
+            "rule (18)": sweep["d0 of (18) at W"],
+            "full balance (7)": sweep["optimum d0 of (7)"],
+            "straight flight": sweep["rm W^2 d0 of straight flight"] / sweep["rm W^2 d0"] * true,
+        }
+        rows += [
+            _reading(sweep["sweep"], "optimum d0", model, value, true, true)
+            for model, value in found.items()
+        ]
+    for band in paper.bands(datasets).to_dict("records"):
+        if not {"lower, balance", "lower, motions"} <= band.keys():
+            continue
+        for edge in ("lower", "upper"):
+            least = band[f"{edge}, motions"]
+            most = band["or up to"] if edge == "lower" else least
+            value = band[f"{edge}, balance"]
+            words = f"{edge} edge of the band"
+            rows.append(_reading(band["curve"], words, "full balance (7)", value, least, most))
+    return pd.DataFrame(rows).dropna(subset=["by the model", "by the motions"])
+
+
+def _reading(name, quantity, model, value, least, most):
+    nearest = np.clip(value, least, most)
+    return {
+        "data": name,
+        "quantity": quantity,
+        "model": model,
+        "by the model": value,
+        "by the motions": least,
+        "or up to": most if most != least else np.nan,
+        "relative error": value / nearest - 1,
+    }

@@ -1,0 +1,78 @@
+"""Counts of where harmonic balance fails, by map and class."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import extract
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.shares import wilson
+from impact_damper.data.variables import VARIABLES
+from impact_damper.data.variables.balance_map import BALANCE_VERDICT
+from impact_damper.stages.balance_map import NEAR
+
+QUESTIONS = {
+    "quiet motion": "quiet_verdict",
+    "start at the quiet solution": "quiet_run_motion",
+    "high motion": "high_verdict",
+}
+AMPLITUDES = {
+    "max |Z1|": "quiet_orbit_displacement",
+    "its first harmonic": "quiet_orbit_harmonic",
+}
+
+
+def balance_map(datasets) -> pd.DataFrame:
+    """Cells of each map by class, the share of chaos, and how far amplitudes are off.
+
+    A share has the 95 % interval that it would have for cells drawn at random.
+    """
+    rows = []
+    for name, data in datasets.get("balance_map", {}).items():
+        head = {"map": name, "over": f"W/Wp and {parameters_of(data)['parameter']}"}
+        for question, variable in QUESTIONS.items():
+            values = data[variable].values
+            for value in VARIABLES[variable].flags.values():
+                count = int(np.sum(values == value))
+                if count:
+                    words = _words(variable, value)
+                    rows.append(head | {"question": question} | words | _share(count, values.size))
+        rows += [head | row for row in _summary(data)]
+    return pd.DataFrame(rows)
+
+
+def _words(variable, value):
+    """What the balance says and what is true, from the meaning of a flag."""
+    words = extract.meaning(variable, value)
+    said, _, true = words.partition(" ")
+    if said in BALANCE_VERDICT and true:
+        return {"balance": said, "truth": true}
+    return {"balance": "", "truth": words}
+
+
+def _share(count, total):
+    share, lower, upper = wilson(count, total)
+    return {"cells": count, "of": total, "share": share, "lower": lower, "upper": upper}
+
+
+def _summary(data):
+    """Chaos among high motions, and what becomes of the stable quiet orbits."""
+    kinds = data["high_run_motion"].values
+    chaotic = np.sum(kinds == flag("high_run_motion", "high_chaotic"))
+    settled = np.sum(kinds == flag("high_run_motion", "high"))
+    yield _row("high motions found", "chaotic", chaotic, chaotic + settled)
+    long = data["high_long_outcome"].values
+    still = np.sum(long == flag("high_long_outcome", "chaotic"))
+    ran = np.sum(long != flag("high_long_outcome", "absent"))
+    yield _row("chaotic ones run ten times as long", "still chaotic", still, ran)
+    agreed = data["quiet_verdict"].values == flag("quiet_verdict", "stable_stable")
+    landed = data["quiet_run_motion"].values[agreed] == flag("quiet_run_motion", "quiet")
+    question = "balance stable, orbit stable"
+    yield _row(question, "reached from the balance's solution", landed.sum(), len(landed))
+    size = data["balance_quiet_amplitude"].values[agreed]
+    for words, true in AMPLITUDES.items():
+        near = np.abs(size / data[true].values[agreed] - 1) <= NEAR
+        yield _row(question, f"|a| within 20 % of {words}", near.sum(), len(near))
+
+
+def _row(question, truth, count, total):
+    return {"question": question, "balance": "", "truth": truth} | _share(int(count), int(total))

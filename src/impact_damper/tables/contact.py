@@ -1,0 +1,129 @@
+"""Tables of the contact model and of its rigid limit, with counts of the cells of their maps."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import extract
+from impact_damper.data.variables import VARIABLES
+from impact_damper.tables.paper import parameters_by_symbol
+
+
+def _shares(name, values):
+    """How many cells a map has of each flag."""
+    flags = VARIABLES[name].flags
+    return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
+
+
+def contact_model(datasets) -> pd.DataFrame:
+    """What the contact model comes to without load, by exit rule, and counts of the map's cells."""
+    rows = []
+    for name, data in datasets.get("contact_model", {}).items():
+        for rule in data.exit_rule.values:
+            cells = data.sel(exit_rule=rule)
+            counts = _shares("contact_verdict", cells.contact_verdict.values)
+            rows.append({"case": name, "exit": rule, "cells": cells.contact_verdict.size} | counts)
+            for i, restitution in enumerate(data.used.values):
+                rows.append(
+                    {"case": name, "exit": rule, "e": restitution}
+                    | _unloaded(cells.isel(used=i), rule == "zero_penetration")
+                )
+    return pd.DataFrame(rows)
+
+
+def _unloaded(data, pulls):
+    """Columns for a contact without load; the wall pulls only with the paper's rule."""
+    realised = float(data.unloaded_restitution)
+    row = {
+        "damping ratio": float(data.unloaded_damping),
+        "realised e": realised,
+        "energy lost": 1 - realised**2,
+        "time in contact": float(data.unloaded_duration),
+    }
+    if pulls:
+        row |= {
+            "share of it with pull": float(data.unloaded_pull_time),
+            "impulse of pull": float(data.unloaded_pull_impulse),
+            "largest pull": float(data.unloaded_pull_peak),
+        }
+    return row
+
+
+def contact_motions(datasets) -> pd.DataFrame:
+    """Contacts of simulated motions in the map, and max |Z1| by either rule for their end."""
+    rows = []
+    for name, data in datasets.get("contact_model", {}).items():
+        for place in np.ndindex(*(data.sizes[dim] for dim in data.scene_outcome.dims)):
+            motion = data.isel(dict(zip(data.scene_outcome.dims, place, strict=True)))
+            size = float(motion.scene_displacement)
+            rows.append(
+                {"case": name}
+                | parameters_by_symbol(data, "mass_ratio", "clearance")
+                | {
+                    "e": float(motion.used),
+                    "W": float(motion.frequency),
+                    "motion": str(motion["size"].values),
+                    "outcome": extract.meaning("scene_outcome", int(motion.scene_outcome)),
+                    "max |Z1|": size,
+                    "change without pull": float(motion.scene_without_pull) / size - 1,
+                    "without pull": extract.meaning(
+                        "scene_without_pull_status", int(motion.scene_without_pull_status)
+                    ),
+                    "contacts": int(motion.scene_contacts),
+                    "99 % of |load| below": float(motion.scene_load),
+                    "within 1 % of e": float(motion.scene_close),
+                    "within 5 % of e": float(motion.scene_fair),
+                    "least e": float(motion.scene_restitution_low),
+                    "largest e": float(motion.scene_restitution_high),
+                    "error of closed form": float(motion.scene_restitution_error),
+                    "error of its time": float(motion.scene_duration_error),
+                    "not released by it": int(motion.scene_unreleased),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def rigid_limit(datasets) -> pd.DataFrame:
+    """Errors of rigid impacts at the damper's own r1, their order, and counts of the cells."""
+    rows = []
+    for name, data in datasets.get("rigid_limit", {}).items():
+        own = data.sel(frequency=extract.parameter(data, "frequency"), method="nearest")
+        needed = own.needed_stiffness.values
+        where = [extract.meaning("needed_status", value) for value in own.needed_status.values]
+        error = np.abs(data.rigid_error.values)
+        both = np.isfinite(error)
+        edges = [0.0, *data.threshold.values, np.inf]
+        rows.append(
+            {"case": name}
+            | parameters_by_symbol(
+                data, "damping", "mass_ratio", "clearance", "restitution", "frequency"
+            )
+            | {
+                "r1": extract.parameter(data, "contact_stiffness"),
+                "max |Z1|": float(data.own_displacement),
+                "rigid error": float(data.own_error),
+                "mended error": float(data.own_mended_error),
+                "error of decay": float(data.own_decay_error),
+                "order": float(own.rigid_order),
+                "mended order": float(own.mended_order),
+            }
+            | {
+                f"r1 for {level:.0%}": where[i].replace("_", " ") if np.isnan(r1) else float(r1)
+                for i, (level, r1) in enumerate(zip(data.threshold.values, needed, strict=True))
+            }
+            | {"cells": error.size}
+            | _shares("rigid_verdict", data.rigid_verdict.values)
+            | {
+                f"error {low:.0%} to {high:.0%}" if high < np.inf else f"error over {low:.0%}": int(
+                    np.sum(both & (error >= low) & (error < high))
+                )
+                for low, high in zip(edges[:-1], edges[1:], strict=True)
+            }
+            | {
+                f"compliant {words}": count
+                for words, count in _shares(
+                    "compliant_status", data.compliant_status.values
+                ).items()
+                if words != "found"
+            }
+        )
+    return pd.DataFrame(rows)

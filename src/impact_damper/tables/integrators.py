@@ -1,0 +1,111 @@
+"""Tables of where integrators fail: contacts missed, stable steps, verdicts."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import extract
+from impact_damper.data.datasets import flag
+from impact_damper.data.shares import missed_share
+
+
+def grazing(datasets) -> pd.DataFrame:
+    """Contacts that each method finds and misses near grazing, by tolerance, over all depths."""
+    rows = []
+    for name, data in datasets.get("missed_contacts", {}).items():
+        contacts = data.passages * data.sizes["depth"]
+        for method in data.integrator.values:
+            for i, tolerance in enumerate(data.method_tolerance.values):
+                of = data.sel(integrator=method).isel(method_tolerance=i)
+                counts = of.passage_count.sum("depth")
+                missed = missed_share(of)
+                deep = data.depth.values[missed.values >= 0.5]
+                fixed = method == "runge_kutta_4"
+                rows.append(
+                    {
+                        "data": name,
+                        "method": method,
+                        "tolerance": np.nan if fixed else tolerance,
+                        "fixed steps": int(data.fixed_steps[i]) if fixed else np.nan,
+                        "mean steps a period": float(of.mean_steps),
+                        "median error of |Z2|": float(of.motion_error),
+                        "contacts": int(contacts.sel(integrator=method)),
+                        "found": int(counts.sel(contact_outcome="found")),
+                        "unseen": int(counts.sel(contact_outcome="unseen")),
+                        "not reached": int(counts.sel(contact_outcome="not_reached")),
+                        "failed": int(counts.sel(contact_outcome="failed")),
+                        "spurious": int(of.spurious_count.sum()),
+                        "half missed to depth": deep.max() if len(deep) else np.nan,
+                    }
+                )
+    return pd.DataFrame(rows)
+
+
+def steps(datasets) -> pd.DataFrame:
+    """Largest stable steps of fixed-step methods against the stiffness."""
+    rows = []
+    for name, data in datasets.get("stable_steps", {}).items():
+        for method in data.fixed_method.values:
+            for accuracy in data.accuracy.values:
+                of = data.sel(fixed_method=method, accuracy=accuracy)
+                for r1 in data.contact_stiffness.values:
+                    here = of.sel(contact_stiffness=r1)
+                    scaled = float(here.stable_step * here.contact_frequency)
+                    rows.append(
+                        {
+                            "data": name,
+                            "method": method,
+                            "within": accuracy,
+                            "r1": r1,
+                            "h": float(here.stable_step),
+                            "steps a period": 2
+                            * np.pi
+                            / extract.parameter(data, "frequency")
+                            / float(here.stable_step),
+                            "h omega_c": scaled,
+                            "linear limit of it": float(of.linear_limit),
+                            "larger h omega_c that holds": float(
+                                here.largest_holding_step * here.contact_frequency
+                            ),
+                            "slope of 1/h in r1": float(of.step_slope),
+                            "its error": float(of.step_slope_error),
+                        }
+                    )
+    return pd.DataFrame(rows)
+
+
+def verdicts(datasets) -> pd.DataFrame:
+    """The loosest tolerance, or fewest steps, from which on each method's verdict is right.
+
+    In words where there is none: the method was not run on the scene, was never right, or was
+    right somewhere but not at the strictest tolerance.
+    """
+    rows = []
+    for data in datasets.get("verdicts", {}).values():
+        for scene in data.scene.values:
+            of = data.sel(scene=scene)
+            rows.append(
+                {
+                    "scene": str(scene),
+                    "W": float(of.scene_frequency),
+                    "period": int(of.scene_period),
+                    "multiplier": float(of.scene_multiplier),
+                    "truth": extract.meaning("scene_truth", of.scene_truth),
+                    "comes to period": int(of.landing_period),
+                    "periods run": int(of.scene_periods),
+                }
+                | {
+                    str(method): _right_from(of.sel(verdict_method=method))
+                    for method in data.verdict_method.values
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def _right_from(data):
+    """Where a method's verdicts on a scene begin to be right, or why there is no such place."""
+    if np.isfinite(data.right_from):
+        return float(data.right_from)
+    if (data.verdict == flag("verdict", "not_run")).all():
+        return "not run"
+    right = (data.verdict == flag("verdict", "right")).any()
+    return "not at the strictest" if right else "never right"

@@ -1,0 +1,372 @@
+"""Claims: every verdict follows from the data, and changes with them."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from helpers.made_up import PEAKS, damped_branches, world
+
+from impact_damper.claims import exact, extract
+from impact_damper.claims.claim import (
+    DIFFERENT,
+    NOT_DECIDABLE,
+    NOT_REPRODUCED,
+    REPRODUCED,
+    Claim,
+    Missing,
+    Number,
+)
+from impact_damper.claims.extract import ELASTIC
+from impact_damper.claims.suppression import suppression_band
+from impact_damper.claims.verdicts import CLAIMS, claims
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.motions.simulate import steady_motion
+from impact_damper.stages.branches import orbit_branch
+from impact_damper.system.parameters import Oscillator
+
+BY_NUMBER = {claim.number: claim for claim in CLAIMS}
+
+
+@pytest.fixture
+def data():
+    return world()
+
+
+def scale(stage, name, **factors):
+    """A change of the made-up data: variables of a dataset times factors."""
+
+    def change(data):
+        for variable, factor in factors.items():
+            data[stage][name] = data[stage][name].assign(
+                {variable: data[stage][name][variable] * factor}
+            )
+
+    return change
+
+
+def assign(stage, name, **values):
+    """A change of the made-up data: variables of a dataset set to a value."""
+
+    def change(data):
+        for variable, value in values.items():
+            old = data[stage][name][variable]
+            data[stage][name] = data[stage][name].assign({variable: old.where(False, value)})
+
+    return change
+
+
+def each(names, change):
+    """A change of several made-up datasets."""
+
+    def changes(data):
+        for name in names:
+            change(name)(data)
+
+    return changes
+
+
+def copy(stage, name, source):
+    """A change of the made-up data: one dataset in place of another."""
+
+    def change(data):
+        data[stage][name] = data[stage][source]
+
+    return change
+
+
+def put(stage, name, dataset):
+    """A change of the made-up data: another dataset in place of one."""
+
+    def change(data):
+        data[stage][name] = dataset
+
+    return change
+
+
+def unstable(name, lower, upper):
+    """A change of the made-up data: no stable orbit between two frequencies over the peak."""
+
+    def change(data):
+        old = data["branches"][name]
+        peak = float(data["design"][name].peak_frequency)
+        kept = (old.followed_value < lower * peak) | (old.followed_value > upper * peak)
+        multipliers = old.orbit_multiplier_real.where(kept, 2.0)
+        data["branches"][name] = old.assign(orbit_multiplier_real=multipliers)
+
+    return change
+
+
+def share(name, kind, subharmonic):
+    """A change of the made-up data: where releases of a damped motion lead."""
+
+    def change(data):
+        case = data["migration"][name].copy(deep=True)
+        row = {"damped": ["unsettled", "quiet"].index(kind)}
+        case.release_share.loc[row | {"free_motion": "subharmonic"}] = subharmonic
+        case.release_share.loc[row | {"free_motion": "non_resonance"}] = 1 - subharmonic
+        data["migration"][name] = case
+
+    return change
+
+
+def early(subharmonic):
+    """A change of the made-up data: counts of the early releases to the subharmonic."""
+
+    def change(data):
+        case = data["migration"]["figure_16"].copy(deep=True)
+        case.destination_count.loc[{"damped_motion": "unsettled"}] = 0
+        for motion, count in (("subharmonic", subharmonic), ("non_resonance", 10 - subharmonic)):
+            case.destination_count.loc[{"damped_motion": "unsettled", "free_motion": motion}] = (
+                count
+            )
+        data["migration"]["figure_16"] = case
+
+    return change
+
+
+def power(data):
+    """A change of the made-up data: the penetration that the expansion of (6e) gives."""
+    old = data["design"]["figure_05a"]
+    clearance = extract.parameter(old, "clearance")
+    depth = old.relative_amplitude - clearance
+    data["design"]["figure_05a"] = old.assign(relative_amplitude=clearance + depth ** (1 / 3) / 100)
+
+
+def fourth(data):
+    """A change of the made-up data: the state's missing component."""
+    old = data["motion"]["figure_04"]
+    data["motion"]["figure_04"] = old.assign(relative_velocity=old.velocity)
+
+
+def renamed(stage, name, **values):
+    """A change of the made-up data: parameters that made a dataset."""
+
+    def change(data):
+        old = data[stage][name].copy()
+        old.attrs["parameters"] = json.dumps(parameters_of(old) | values)
+        data[stage][name] = old
+
+    return change
+
+
+REFUTED = {
+    "1": scale("design", "figure_03a_rule", quiet_amplitude=1000),
+    "2": scale("design", "figure_05a", rigid_amplitude=1.1),
+    "3": assign("design", "figure_03b", stability=flag("stability", "unstable")),
+    "4": scale("design", "figure_05c", band_width=0.1),
+    "5": assign("branches", "figure_05b", orbit_contacts=3.0),
+    "6": each(ELASTIC, lambda name: scale("response", name, contacts=0.5)),
+    "7": scale("branches", "figure_05a", orbit_phase_relative=0.5),
+    "8": scale("collisions", "figure_05a", colliding=0.5),
+    "9": scale("optimum", "0.215_0.12_1.0", optimum_clearance=0.9),
+    "10": copy("branches", "figure_05b", "figure_05c"),
+    "11": copy("branches", "figure_10", "figure_05c"),
+    "12": share("figure_13", "quiet", 0.1),
+    "13": share("figure_15", "quiet", 0.0),
+    "14": each(("figure_13", "figure_15"), lambda name: scale("migration", name, within_share=0.1)),
+    "15": renamed("response", "figure_10", restitution=0.2),
+    "16": scale("branches", "figure_05a", orbit_displacement=30),
+    "17": scale("branches", "figure_05c", orbit_displacement=10),
+    "18": scale("subharmonic", "figure_08", free_subharmonic=0.2),
+    "19": early(0),
+    "S1": power,
+    "S2": renamed("design", "figure_03a", clearance=0.69),
+    "S3": fourth,
+    "S4": renamed("design", "figure_05a", clearance=2),
+    "S5": scale("free_branches", "h150", event_value=1.02),
+    "S6": renamed("optimum", "0.215_0.12_0.75", frequency=1.0),
+}
+
+DIFFERENCES = {
+    "3": unstable("figure_05a", 0.8, 0.85),
+    "4": scale("design", "figure_03b", reduction=0.5),
+    "6": assign("response", "figure_05b", outcome=flag("outcome", "chaotic")),
+    "8": scale("collisions", "figure_05a", colliding=0.995),
+    "9": scale("optimum", "0.215_0.12_1.0", optimum_displacement=2),
+    "12": share("figure_13", "unsettled", 0.1),
+    "14": scale("migration", "figure_13", within_share=0.8),
+    "18": put("branches", "figure_08", damped_branches("figure_08", 0.107, third=0.8)),
+    "19": early(1),
+}
+
+
+def test_every_claim_and_slip_is_there_in_order():
+    numbers = [str(k) for k in range(1, 20)] + [f"S{k}" for k in range(1, 7)]
+    assert [claim.number for claim in CLAIMS] == numbers
+
+
+def test_all_are_reproduced_in_a_world_made_so(data):
+    # the time in contact that claim 15 speaks of is a closed form, whatever the data
+    expected = dict.fromkeys(BY_NUMBER, REPRODUCED) | {"15": DIFFERENT}
+    table = claims(data)
+    assert dict(zip(table.number, table.verdict, strict=True)) == expected
+    assert ((table.difference == "") == (table.verdict == REPRODUCED)).all()
+    assert (table.evidence != "").all()
+
+
+@pytest.mark.parametrize("number", BY_NUMBER)
+def test_data_refute(number, data):
+    REFUTED[number](data)
+    row = BY_NUMBER[number].judge(data)
+    assert row["verdict"] == NOT_REPRODUCED, row["evidence"]
+    assert row["difference"].startswith("Here ")
+
+
+@pytest.mark.parametrize("number", DIFFERENCES)
+def test_data_make_a_difference(number, data):
+    DIFFERENCES[number](data)
+    row = BY_NUMBER[number].judge(data)
+    assert row["verdict"] == DIFFERENT, row["evidence"]
+
+
+@pytest.mark.parametrize("number", BY_NUMBER)
+def test_missing_data_leave_it_open(number):
+    row = BY_NUMBER[number].judge({})
+    assert row["verdict"] == NOT_DECIDABLE
+    assert row["difference"].startswith("There ")
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
+def test_evidence_and_numbers_have_the_same_names(claim, data):
+    assert {number.name for number in claim.numbers} <= set(claim.evidence(data))
+    assert any(number.decisive for number in claim.numbers)
+
+
+def fitting(claim):
+    """Made-up evidence within all bounds of a claim."""
+    values = dict.fromkeys((number.name for number in claim.numbers), 0.0)
+    for number in claim.numbers:
+        values[number.name] = np.clip(values[number.name], number.least, number.most)
+    return values
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
+def test_made_up_evidence_flips_the_verdict(claim):
+    values = fitting(claim)
+    assert claim.verdict(values) == REPRODUCED
+    for number in claim.numbers:
+        if number.asked:
+            beyond = number.least - 1 if math.isfinite(number.least) else number.most + 1
+            decisive = any(
+                other.decisive and not other.holds(beyond)
+                for other in claim.numbers
+                if other.name == number.name
+            )
+            expected = NOT_REPRODUCED if decisive else DIFFERENT
+            assert claim.verdict(values | {number.name: beyond}) == expected
+            assert claim.verdict(values | {number.name: math.nan}) == NOT_DECIDABLE
+
+
+SHARP = Number("sharp", "the sharp number", most=1.0, decisive=True)
+FULL = Number("full", "the full number", least=0.0, most=2.0)
+NOTE = Number("note", "the note")
+
+
+@pytest.mark.parametrize(
+    "values, verdict",
+    [
+        ((1.0, 2.0, math.nan), REPRODUCED),
+        ((1.0, 2.1, 0.0), DIFFERENT),
+        ((1.1, 1.0, 0.0), NOT_REPRODUCED),
+        ((1.1, math.nan, 0.0), NOT_REPRODUCED),
+        ((math.nan, 1.0, 0.0), NOT_DECIDABLE),
+        ((1.0, math.nan, 0.0), NOT_DECIDABLE),
+    ],
+)
+def test_verdict(values, verdict):
+    evidence = dict(zip(("sharp", "full", "note"), values, strict=True))
+    claim = Claim("1", "", "", "", (SHARP, FULL, NOTE), lambda datasets: evidence)
+    assert claim.judge({})["verdict"] == verdict
+
+
+def test_words():
+    evidence = {"sharp": 1.23456, "full": math.nan, "note": math.nan}
+    row = Claim("1", "", "", "", (SHARP, FULL, NOTE), lambda datasets: evidence).judge({})
+    assert row["criterion"] == (
+        "Decided by: the sharp number at most 1. In full: the full number from 0 to 2."
+    )
+    assert row["evidence"] == "the sharp number: 1.235; the full number: none; the note: none"
+    assert row["difference"] == (
+        "Here the sharp number is 1.235 instead of at most 1; the full number is unknown."
+    )
+
+
+def test_an_unstable_quiet_orbit_refutes_whatever_omega_l(data):
+    assign("design_orbit", "figure_03a", orbit_multiplier_real=1.2)(data)
+    assert BY_NUMBER["3"].judge(data)["verdict"] == NOT_REPRODUCED
+
+
+def test_suppression_band(data):
+    """The edge is the end of the high orbits; a chaotic motion above it leaves a grid's step."""
+    peak = PEAKS[0.215]
+    band = suppression_band(data, "figure_05a")
+    assert band.lower == pytest.approx(0.95 * peak)
+    assert band.width == pytest.approx(0.05 * peak)
+    assert band.resolution == 0
+    response = data["response"]["figure_05a"]
+    chaos = np.abs(response.frequency / peak - 0.96) < 0.001
+    wild = response.assign(
+        outcome=response.outcome.where(~chaos, flag("outcome", "chaotic")),
+        maximum_displacement=response.maximum_displacement.where(~chaos, 2.0),
+        contacts=response.contacts.where(~chaos, 4.0),
+    )
+    band = suppression_band(data | {"response": {"figure_05a": wild}}, "figure_05a")
+    assert band.lower == pytest.approx(0.96 * peak)
+    assert band.least_width == pytest.approx(0.035 * peak)
+
+
+def test_band_without_high_motions_has_no_lower_edge(data):
+    unstable("figure_05a", 0.4, 1.6)(data)
+    calm = data["response"]["figure_05a"]
+    calm = calm.assign(contacts=calm.contacts.where(calm.contacts != 4, np.nan))
+    band = suppression_band(data | {"response": {"figure_05a": calm}}, "figure_05a")
+    assert np.isnan(band.lower) and np.isnan(band.width)
+
+
+def test_a_quiet_orbit_is_stable_and_smaller_than_half_the_resonance(data):
+    curve = exact.of_curve(data, "figure_05a")
+    quiet = exact.quiet(*curve)
+    assert exact.ranges(quiet) == [pytest.approx([1.0, 3.0])]
+    assert quiet["size"].max() < 0.2
+    unstable("figure_05a", 0.8, 0.9)(data)
+    broken = exact.ranges(exact.quiet(*exact.of_curve(data, "figure_05a")))
+    assert np.ravel(broken) == pytest.approx([1.0, 1.6, 1.8, 3.0], abs=0.02)
+    assert exact.covered(exact.high(*curve), 1.5, 2.0) == pytest.approx(0.4)
+
+
+def test_between_neighbouring_orbits_a_straight_line_is_close():
+    """Against motions simulated at other frequencies; the folds bound the stable pieces."""
+    oscillator, span = Oscillator(damping=0.215), (1.2, 2.6)
+    free = orbit_branch(oscillator, None, 1.8, (2.2, 0.1), span=span)
+    part = exact.pieces(free)
+    part = part[part.stable]
+    end, _ = exact.resonance_fold(free)
+    assert exact.ranges(part[part["size"] > 1.2]) == [pytest.approx([span[0], end])]
+    first = float(free.event_value.min())
+    assert exact.ranges(part[part["size"] < 1.2]) == [pytest.approx([first, span[1]])]
+    for frequency in (1.51, 1.77):
+        motion = steady_motion(oscillator, None, frequency, (2.2, 0.1))
+        size = exact.resonance(free, [frequency])
+        assert size == pytest.approx(float(motion.maximum_displacement), rel=1e-3)
+    assert np.isnan(exact.resonance(free, [2.2]))
+
+
+def test_release_phase_decides_in_the_nearest_range_of_all_scans(data):
+    values = BY_NUMBER["13"].evidence(data)
+    assert (values["quiet_first"], values["quiet_last"]) == (1.65, 1.8)
+    assert (values["unsettled_first"], values["unsettled_last"]) == (1.5, 1.8)
+    assert values["quiet_there"] == pytest.approx(0.8)
+
+
+def test_release_scans_of_another_damper_tell_nothing(data):
+    for name in ("wide", "close"):
+        renamed("release_scan", name, clearance=1.0)(data)
+    row = BY_NUMBER["13"].judge(data)
+    assert row["verdict"] == REPRODUCED
+    assert "lead to both: none" in row["evidence"]
+
+
+def test_unknown_dataset_is_named():
+    with pytest.raises(Missing, match="no dataset design/figure_05a"):
+        extract.get({}, "design", "figure_05a")

@@ -1,0 +1,275 @@
+"""Configurations that are broken on purpose, each in one place that is known."""
+
+import copy
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import yaml
+from hypothesis import strategies as st
+from snakemake.utils import update_config
+
+from impact_damper.data.variables.studies import AXES as STUDY_AXES
+from impact_damper.workflow.configuration import without_left_out
+
+ROOT = Path(__file__).parents[2]
+GONE = object()
+# Keys of whole numbers, beside those of whole sections.
+WHOLE = {
+    "starts",
+    "sweep_starts",
+    "scan_starts",
+    "study_starts",
+    "chunks",
+    "longest_hold",
+    "lifetime",
+    "highest",
+}
+WHOLE |= {"highest_cold", "periods", "passages", "implicit_passages", "points", "most_steps"}
+WHOLE |= {"period", "scipy_every"}
+ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "scipy_every", "within"}
+
+
+def small_configuration():
+    """That of the smoke run: an entry or two in each section."""
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+    update_config(config, yaml.safe_load((ROOT / "config/smoke.yaml").read_text()))
+    return without_left_out(config)
+
+
+SMALL = small_configuration()
+
+
+class Broken(NamedTuple):
+    """A change that breaks the small configuration.
+
+    Attributes
+    ----------
+    place, value
+        Path of keys that is set, and to what; GONE takes it out.
+    told, shown
+        Path of keys that is to be told, and what stands there, or GONE where only the key is told.
+    """
+
+    place: tuple
+    value: object
+    told: tuple
+    shown: object
+
+    def config(self):
+        """The broken configuration."""
+        config = copy.deepcopy(SMALL)
+        parent = config
+        for key in self.place[:-1]:
+            parent = parent[key]
+        if self.value is GONE:
+            del parent[self.place[-1]]
+        else:
+            parent[self.place[-1]] = self.value
+        return config
+
+
+def places(value, path=()):
+    """Every path of keys and list positions, with what stands there."""
+    yield path, value
+    if isinstance(value, (dict, list)):
+        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from places(part, (*path, key))
+
+
+def is_named(path):
+    """Whether the keys at a path are names of entries, free to choose."""
+    if path[:1] == ("verdicts",) and len(path) == 3:
+        return path[2] in ("damped", "free")
+    return len(path) == 1 and isinstance(next(iter(SMALL[path[0]].values())), dict)
+
+
+def is_number(value):
+    return isinstance(value, (int, float))
+
+
+def at(path):
+    """What the small configuration has at a path."""
+    place = SMALL
+    for key in path:
+        place = place[key]
+    return place
+
+
+MAPPINGS = [path for path, value in places(SMALL) if isinstance(value, dict)]
+FIXED = [path for path in MAPPINGS if not is_named(path)]
+NAMED = [path for path in MAPPINGS if is_named(path)]
+# Where a number or a range may stand.
+AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXES]
+LEAVES = [path for path, value in places(SMALL) if not isinstance(value, (dict, list))]
+NUMBERS = [path for path, value in places(SMALL) if is_number(value)]
+TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]
+# There may be no further orders.
+LISTS = [
+    path
+    for path, value in places(SMALL)
+    if isinstance(value, list) and path != ("comparison", "orders")
+]
+RANGES = [path for path in FIXED if {"first", "last"} <= at(path).keys()]
+COUNTS = [
+    path
+    for path in NUMBERS
+    if path[0] in ("points", "settling", "controller", "comparison")
+    and isinstance(at(path), int)
+    or "cells" in path
+    or path[-1] in WHOLE
+]
+REFERENCES = [p for p in TEXTS if p[-1] in ("oscillator", "scene") or p[-2:-1] == ("data",)]
+
+junk_text = st.text(max_size=20) | st.sampled_from(["nan", "1e-9", "2 000", "0,5", "yes", "\n"])
+junk = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | junk_text
+    | st.dates()
+    | st.binary(max_size=5),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(junk_text | st.integers() | st.none(), inner, max_size=4)
+    ),
+    max_leaves=8,
+)
+
+
+def changed(path, value):
+    """The small configuration with one value set, or taken out."""
+    return Broken(path, value, path, value)
+
+
+@st.composite
+def unknown_key(draw):
+    path = draw(st.sampled_from(FIXED))
+    known = {key for place in FIXED for key in at(place)}
+    key = draw((junk_text | st.integers() | st.none()).filter(lambda key: key not in known))
+    return changed((*path, key), draw(junk))
+
+
+@st.composite
+def missing_key(draw):
+    path = draw(st.sampled_from(FIXED))
+    return changed((*path, draw(st.sampled_from(sorted(at(path))))), GONE)
+
+
+@st.composite
+def wrong_kind(draw):
+    path = draw(st.sampled_from(LEAVES + LISTS))
+    value = at(path)
+    others = [st.none(), st.booleans(), st.dates(), st.binary(max_size=3)]
+    # of a list in a list, or of keys with values, what is within is told
+    others += [] if isinstance(value, list) else [st.just([value])]
+    others += [] if path in AXES else [st.dictionaries(junk_text, junk, max_size=2)]
+    if isinstance(value, str):
+        others += [st.integers(), st.floats()]
+    elif isinstance(value, list):
+        others += [st.just(value[0]), st.integers()]
+    else:
+        others += [junk_text.filter(lambda text: text != "rule")]
+        others += [st.floats(0.001, 1e9).filter(lambda x: x % 1)] if path in COUNTS else []
+    return changed(path, draw(st.one_of(others)))
+
+
+@st.composite
+def text_for_a_number(draw):
+    path = draw(st.sampled_from(NUMBERS))
+    form = draw(st.sampled_from(["{}", "{} ", "+{}", "{}e0", "{} Hz", "{!r}", "0x{}"]))
+    return changed(path, form.format(at(path)))
+
+
+@st.composite
+def not_finite(draw):
+    return changed(
+        draw(st.sampled_from(NUMBERS)), draw(st.sampled_from([math.nan, math.inf, -math.inf]))
+    )
+
+
+@st.composite
+def negative_or_zero(draw):
+    path = draw(st.sampled_from([path for path in NUMBERS if isinstance(path[-1], str)]))
+    below = st.integers(-(10**12), -1) | st.floats(-1e12, -1e-12)
+    if path[-1] not in ZERO_ALLOWED:
+        below |= st.sampled_from([0, 0.0, -0.0])
+    return changed(path, draw(below))
+
+
+@st.composite
+def too_large(draw):
+    path = draw(st.sampled_from(NUMBERS))
+    above = st.integers(10**10, 10**40) if path in COUNTS else st.floats(1e10, 1e300)
+    return changed(path, draw(above))
+
+
+@st.composite
+def endless_grid(draw):
+    return changed(draw(st.sampled_from(COUNTS)), draw(st.integers(10**9, 10**12)))
+
+
+@st.composite
+def empty(draw):
+    named = [path for path in NAMED if len(path) == 1]
+    texts = [path for path in TEXTS if path[-1] != "remark"]
+    path = draw(st.sampled_from(LISTS + FIXED[1:] + named + texts))
+    made = changed(path, type(at(path))())
+    # of a mapping the keys that are missing are told
+    return made._replace(shown=GONE) if path in FIXED else made
+
+
+@st.composite
+def reversed_range(draw):
+    path = draw(st.sampled_from(RANGES))
+    span = at(path)
+    first, last = draw(
+        st.sampled_from([(span["last"], span["first"]), (span["last"],) * 2, (span["first"],) * 2])
+    )
+    made = changed(path, span | {"first": first, "last": last})
+    return made._replace(told=(*path, "first"), shown=first)
+
+
+@st.composite
+def repeated(draw):
+    path = draw(st.sampled_from(LISTS))
+    values = at(path)
+    return changed(path, [*values, draw(st.sampled_from(values))])
+
+
+@st.composite
+def bad_name(draw):
+    path = draw(st.sampled_from(NAMED))
+    entry = next(iter(at(path).values()))
+    name = draw(
+        st.sampled_from(["", "a b", "../a", "a/b", "a.nc", "_a", "é", "a\n", "{x}", "<results>"])
+        | st.text("abc", min_size=65, max_size=300)
+        | st.integers()
+        | st.none()
+    )
+    made = changed(path, at(path) | {name: entry})
+    return made._replace(told=(*path, name), shown=GONE)
+
+
+@st.composite
+def unknown_reference(draw):
+    path = draw(st.sampled_from(REFERENCES))
+    return changed(path, draw(junk_text.filter(lambda name: name != at(path))))
+
+
+broken = st.one_of(
+    unknown_key(),
+    missing_key(),
+    wrong_kind(),
+    text_for_a_number(),
+    not_finite(),
+    negative_or_zero(),
+    too_large(),
+    endless_grid(),
+    empty(),
+    reversed_range(),
+    repeated(),
+    bad_name(),
+    unknown_reference(),
+)

@@ -1,0 +1,51 @@
+"""Made-up branches of orbits, with closed forms."""
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag
+
+
+def branch(frequency, size, *, stable=True, **others):
+    """A branch over frequencies: size, and whether it is stable, scalars or over frequency.
+
+    Others are `period`, `contacts`, `phase` of Z1 to Z2, `asymmetry` and `restitution`.
+    """
+    usual = {"period": 1, "contacts": 2.0, "phase": np.pi, "asymmetry": 0.0, "restitution": np.nan}
+    given = {"size": size, "multiplier": np.where(stable, 0.5, 2.0)} | usual | others
+    columns = {name: np.broadcast_to(value, np.shape(frequency)) for name, value in given.items()}
+    return {"frequency": np.asarray(frequency, float)} | columns
+
+
+def branches(*parts, folds=(), parameters):
+    """Dataset of branches, and of folds (branch, W, size) on them."""
+    table = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    number = np.repeat(np.arange(len(parts)), [len(part["frequency"]) for part in parts])
+    count = len(number)
+    place, value, size = (
+        (np.array(column) for column in zip(*folds, strict=True))
+        if folds
+        else (
+            np.empty(0, int),
+            np.empty(0),
+            np.empty(0),
+        )
+    )
+    data = {
+        "followed_value": table["frequency"],
+        "orbit_branch": number,
+        "orbit_displacement": table["size"],
+        "orbit_amplitude": table["size"],
+        "orbit_phase_relative": table["phase"],
+        "orbit_phase_loose": np.pi - table["phase"],
+        "orbit_multiplier_real": np.stack([table["multiplier"], np.zeros(count)], axis=1),
+        "orbit_multiplier_imaginary": np.zeros((count, 2)),
+        "orbit_contacts": table["contacts"],
+        "orbit_asymmetry": table["asymmetry"],
+        "orbit_restitution": table["restitution"],
+        "branch_period": np.array([part["period"][0] for part in parts]),
+        "event_branch": place,
+        "event_kind": np.full(len(place), flag("event_kind", "fold")),
+        "event_value": value,
+        "event_displacement": size,
+    }
+    return dataset(data, {}, parameters, "made up")

@@ -1,0 +1,22 @@
+"""Kernels that take pointers, called with arrays."""
+
+from functools import cache
+
+import numba
+
+from impact_damper.kernel.compiling import pointer
+
+
+@cache
+def pointed(kernel):
+    """The kernel as a function of one array, or of two."""
+
+    @numba.njit
+    def one(a):
+        kernel(pointer(a))
+
+    @numba.njit
+    def two(a, d):
+        kernel(pointer(a), pointer(d))
+
+    return lambda *arrays: (one if len(arrays) == 1 else two)(*arrays)

@@ -1,0 +1,26 @@
+"""Snakemake on copies of the project."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow", "src"]
+
+
+def snakemake(project, *arguments, **options):
+    """Run Snakemake on a project with the project's own package."""
+    environment = os.environ | {"PYTHONPATH": str(project / "src")} | options.pop("env", {})
+    command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+    options = {"cwd": project, "env": environment, "capture_output": True, "text": True} | options
+    return subprocess.run(command, check=False, **options)
+
+
+def copy_of_project(folder):
+    """A copy of all that a run needs."""
+    for part in PARTS:
+        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
+        copy(ROOT / part, folder / part)
+    return folder

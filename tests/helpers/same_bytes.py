@@ -1,0 +1,67 @@
+"""Two runs make the same bytes: one core and two, in two folders, one with a space in its name.
+
+    PYTHONPATH=src:tests python -m helpers.same_bytes [config/smoke.yaml]
+
+Every file of the results is compared but those that tell of the run itself.
+"""
+
+import hashlib
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+import yaml
+
+from helpers.running import copy_of_project, snakemake
+
+# What a run says of itself: logs, times and the machine.
+OF_THE_RUN = ("logs", "timings", "benchmarks", "provenance.json")
+
+
+def digests(results):
+    """Digest of each file of the results that is to be the same."""
+    return {
+        path.relative_to(results).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(results.rglob("*"))
+        if path.is_file() and path.relative_to(results).parts[0] not in OF_THE_RUN
+    }
+
+
+def run(project, cores, chosen):
+    """Digests of what a run of a copy of the project makes."""
+    copy_of_project(project)
+    arguments = ["--configfile", chosen] if chosen else []
+    ended = snakemake(project, "--cores", str(cores), *arguments, capture_output=False)
+    if ended.returncode:
+        sys.exit(f"The run on {cores} cores in {project} failed; its messages are above.")
+    files = ["config/config.yaml", *([chosen] if chosen else [])]
+    results = [yaml.safe_load((project / file).read_text()).get("results") for file in files]
+    return digests(project / next(filter(None, reversed(results))))
+
+
+def main(chosen=None):
+    folder = Path(tempfile.mkdtemp(prefix="same-bytes-"))
+    try:
+        one = run(_made(folder / "one"), 1, chosen)
+        two = run(_made(folder / "two cores"), 2, chosen)
+    finally:
+        shutil.rmtree(folder)
+    differing = sorted(path for path in one.keys() | two.keys() if one.get(path) != two.get(path))
+    kinds = sorted({Path(path).suffix for path in one})
+    print("| kind | files | that differ |\n|---|---|---|")
+    for kind in kinds:
+        count = sum(path.endswith(kind) for path in one)
+        print(f"| {kind} | {count} | {sum(path.endswith(kind) for path in differing)} |")
+    if differing:
+        sys.exit("Not the same bytes: " + ", ".join(differing))
+    print(f"All {len(one)} files are the same, byte for byte.")
+
+
+def _made(folder):
+    folder.mkdir()
+    return folder
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,113 @@
+"""Trajectories and contacts against heyoka.py with terminal events."""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.sampling import sample
+from helpers.scenes import DESIGN, INELASTIC, PAPER
+from numpy.testing import assert_allclose
+from scipy.optimize import brentq
+
+from impact_damper.kernel.single import side_of
+from impact_damper.motions.simulate import random_states
+from impact_damper.motions.strobe_map import period_map
+from impact_damper.system.parameters import Damper, Oscillator, pack
+
+TOLERANCES = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12]
+DAMPERS = pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
+
+
+def compare(references, p, state, start, times, atol, side=0):
+    """States at given times and all contacts of both references and of the kernel."""
+    states, log = sample(p, state, start, times, 1e-14)
+    for reference in references:
+        expected = reference.run(p, state, start, times, side)
+        assert len(expected.contacts) == len(log)
+        assert_allclose(states, expected.states, atol=atol)
+        assert np.array_equal(log[:, 0], expected.contacts[:, 0])
+        assert_allclose(log[:, 1:], expected.contacts[:, 1:], atol=atol)
+    return log
+
+
+@pytest.mark.parametrize("tolerance", TOLERANCES)
+def test_error_stays_within_ten_tolerances(scene, references, tolerance):
+    """After 20 periods, from the orbit and from beside it, at a phase of mid-flight."""
+    p, end = scene.parameters, scene.strobe + 20 * scene.period
+    for nudge in (0.0, 1e-2):
+        first = scene.state + nudge
+        expected = references[0].run(p, first, scene.strobe, [end])
+        (last,), log = sample(p, first, scene.strobe, [end], tolerance)
+        assert len(log) == len(expected.contacts)
+        assert np.max(np.abs(last - expected.states[0])) < 10 * tolerance
+
+
+def test_whole_motion(scene, references):
+    """Every sample and every contact, in contact too."""
+    times = scene.strobe + np.linspace(0, 5, 401)[1:] * scene.period
+    log = compare(references, scene.parameters, scene.state, scene.strobe, times, 1e-11)
+    assert len(log) == (10 if scene.damper else 0)
+
+
+@DAMPERS
+@pytest.mark.parametrize("linear_frequency", [0.0, 1.5])
+@pytest.mark.parametrize("speed", [-3.0, -0.5, 0.0, 0.5, 3.0])
+def test_start_in_contact(references, damper, linear_frequency, speed):
+    p = pack(Oscillator(0.215, linear_frequency), damper, 2.0)
+    times = np.linspace(0, 0.5, 51)[1:]
+    for side in (1, -1):
+        state = np.array([0.4, -0.3, side * (damper.clearance + 0.02), speed])
+        assert side_of(p, state) == side
+        log = compare(references, p, state, 0.0, times, 1e-11, side)
+        assert log[0, 0] == side and log[0, 1] == 0.0 and log[0, 3] == speed
+
+
+def grazing_state(reference, p, depth):
+    """A state whose Z2 would pass its first maximum at `depth` beyond the wall, and when."""
+    state = np.array([0.3, 0.5, 0.0, 0.9])
+    unbounded = p.copy()
+    unbounded[3] = 16.0
+
+    def free(t):
+        return reference.run(unbounded, state, 0.0, [t]).states[0]
+
+    instant = brentq(lambda t: free(t)[3], 0.3, 3.0, xtol=1e-14)
+    state[2] += p[3] + depth - free(instant)[2]
+    return state, instant
+
+
+@DAMPERS
+@pytest.mark.parametrize("exponent", range(3, 14))
+def test_no_grazing_contact_is_missed_or_invented(references, damper, exponent):
+    p = pack(PAPER, damper, 2.0)
+    depth = 10.0**-exponent
+    for sign in (1, -1):
+        state, instant = grazing_state(references[0], p, sign * depth)
+        _, log = sample(p, state, 0.0, [instant + 0.3])
+        assert len(log) == (sign == 1)
+        if sign == 1:
+            assert log[0, 1] < instant
+            assert 0 < log[0, 3] < 3 * math.sqrt(6 * depth)
+        # The speed of approach goes as the square root of a depth known to rounding.
+        compare(references, p, state, 0.0, [instant + 0.3], 3e-15 / math.sqrt(depth) + 1e-11)
+
+
+@pytest.mark.parametrize(
+    "damper", [DESIGN, INELASTIC, Damper(0.4, 0.625, 0.3)], ids=["elastic", "inelastic", "dead"]
+)
+def test_random_starts(references, damper):
+    """Contacts counted twice over; states agree as far as the motion's own sensitivity allows."""
+    p = pack(PAPER, damper, 1.7)
+    start, end = math.pi / 3.4, math.pi / 3.4 + 2 * math.pi / 1.7
+    counted = 0
+    for state in random_states(150, 2.0, damper, 3):
+        _, matrix, contacts = period_map(p, state, 1, 1e-14)
+        sensitivity = 1e-13 * (10 + np.linalg.norm(matrix))
+        (last,), log = sample(p, state, start, [end])
+        assert len(log) == contacts
+        for reference in references:
+            expected = reference.run(p, state, start, [end])
+            assert len(expected.contacts) == contacts
+            assert_allclose(last, expected.states[0], atol=sensitivity)
+        counted += contacts
+    assert counted > 150

@@ -1,0 +1,269 @@
+"""Coefficients of the Taylor series put back into the equations of motion."""
+
+import ast
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from helpers.pointed import pointed
+from numpy.polynomial import Polynomial
+from numpy.testing import assert_allclose
+
+from impact_damper.kernel import recurrence
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
+from impact_damper.system.parameters import Damper, Oscillator, pack
+
+ANGLE = 0.7
+LANE = 5
+ORDERS = {"flight": FLIGHT_ORDER, "contact": CONTACT_ORDER}
+LENGTH = max(ORDERS.values()) + 1
+widths = pytest.mark.parametrize("lanes", [1, 16])
+SIGNS = [(0.3, -1.1, 0.02, 0.9), (-1.7, 0.4, -0.01, -2.0), (0.0, 0.0, 0.0, 1.0)]
+
+
+@pytest.fixture(scope="module")
+def p():
+    return pack(Oscillator(0.3, 1.3), Damper(0.2, 1.5, 0.6, 40.0), 1.9)
+
+
+def drive(p):
+    """Series of cos(W (t + t0)) from its derivatives, each a quarter turn on."""
+    k = np.arange(LENGTH)
+    factorials = np.array([math.factorial(i) for i in k], float)
+    return Polynomial(p[0] ** k * np.cos(ANGLE + k * np.pi / 2) / factorials)
+
+
+def filled(lanes, p, state, phase):
+    """The array of an instance with the series of a step; every lane has a motion of its own."""
+    module = instance(lanes)
+    a = np.zeros((module.SIZE // lanes, lanes))
+    for i in range(lanes):
+        a[:7, i] = np.multiply(p, 1.0 + 0.01 * (i - LANE % lanes))
+        a[7:11, i] = np.multiply(state, 1.0 + 0.1 * (i - LANE % lanes))
+    a[module.SIDE // lanes] = 1.0
+    a[module.Y2 // lanes] += p[3]
+    a[module.COSINE // lanes], a[module.SINE // lanes] = math.cos(ANGLE), math.sin(ANGLE)
+    flat = a.ravel()
+    if lanes == 1:
+        pointed(module.kept_series)(flat)
+    pointed(getattr(module, f"{phase}_series"))(flat)
+    return module, flat
+
+
+def row(module, a, first, count):
+    """Coefficients of a series in the lane looked at."""
+    lanes = module.LANES
+    return a[first + LANE % lanes :: lanes][:count].copy()
+
+
+def state_series(lanes, p, state, phase):
+    """Z1 and penetration (None in flight) as polynomials."""
+    module, a = filled(lanes, p, state, phase)
+    order = ORDERS[phase]
+    x = Polynomial(row(module, a, module.X, order + 1))
+    terms, q = [x.deriv(2)], None
+    if phase == "contact":
+        q = Polynomial(row(module, a, module.Q, order + 1))
+        terms.append(contact_force(p, q))
+    g = Polynomial(row(module, a, module.G, order - 1))
+    vanishes(sum(terms, -g), order, size(*terms)[: order - 1])
+    return x, q
+
+
+def vanishes(polynomial, order, scale):
+    """All coefficients of an equation vanish, up to the order to which the series holds."""
+    coefficients = np.zeros(order - 1)
+    known = polynomial.coef[: order - 1]
+    coefficients[: len(known)] = known
+    assert_allclose(coefficients / scale, 0, atol=1e-14)
+
+
+def size(*polynomials):
+    """Size of each coefficient, as the rounding errors scale with it."""
+    width = LENGTH
+    padded = [np.pad(np.abs(q.coef[:width]), (0, max(0, width - len(q.coef)))) for q in polynomials]
+    return 1 + np.maximum.reduce(padded)
+
+
+def contact_force(p, q):
+    return p[4] * q + p[6] * q.deriv()
+
+
+@widths
+@pytest.mark.parametrize("state", SIGNS)
+def test_flight_solves_the_duffing_equation(lanes, p, state):
+    x, _ = state_series(lanes, p, state, "flight")
+    terms = [x.deriv(2), p[1] * x.deriv(), p[2] * x, x**3, -drive(p)]
+    vanishes(sum(terms, Polynomial([0.0])), FLIGHT_ORDER, size(*terms)[: FLIGHT_ORDER - 1])
+
+
+@widths
+@pytest.mark.parametrize("state", SIGNS)
+def test_contact_solves_20_to_24(lanes, p, state):
+    x, q = state_series(lanes, p, state, "contact")
+    force = contact_force(p, q)
+    terms = [x.deriv(2), p[1] * x.deriv(), p[2] * x, x**3, force, -drive(p)]
+    order = CONTACT_ORDER
+    vanishes(sum(terms, Polynomial([0.0])), order, size(*terms)[: order - 1])
+    relative = [q.deriv(2), p[5] * force, -x.deriv(2)]
+    vanishes(sum(relative, Polynomial([0.0])), order, size(*relative)[: order - 1])
+
+
+@widths
+@pytest.mark.parametrize("phase", ORDERS)
+def test_tangents_solve_the_variational_equations(lanes, p, phase):
+    x, _ = state_series(lanes, p, SIGNS[0], phase)
+    module, a = filled(lanes, p, SIGNS[0], phase)
+    order, columns = ORDERS[phase], module.TANGENTS
+    lane = LANE % columns
+    d = np.zeros((module.TANGENT_SIZE // columns, columns))
+    d[:4, lane] = 0.5, -0.8, 0.3, 1.2
+    # With several lanes a tangent belongs to the motion in its lane.
+    d = d.ravel()
+    pointed(getattr(module, f"{phase}_squares"))(a)
+    pointed(getattr(module, f"{phase}_tangent_series"))(a, d)
+    first, second = (
+        Polynomial(d[columns * place + lane :: columns][: order + 1]) for place in (4, 4 + LENGTH)
+    )
+    force = contact_force(p, second) if phase == "contact" else Polynomial([0.0])
+    terms = [first.deriv(2), p[1] * first.deriv(), p[2] * first, 3 * x**2 * first, force]
+    vanishes(sum(terms, Polynomial([0.0])), order, size(*terms)[: order - 1])
+    if phase == "contact":
+        relative = [second.deriv(2), p[5] * force, -first.deriv(2)]
+        vanishes(sum(relative, Polynomial([0.0])), order, size(*relative)[: order - 1])
+
+
+class Pair:
+    """Two exact numbers as `straight` takes them: each operation is done with both."""
+
+    def __init__(self, *numbers):
+        self.numbers = numbers
+
+    def __iter__(self):
+        return iter(self.numbers)
+
+    def __add__(self, other):
+        return Pair(*(a + b for a, b in zip(self, other, strict=True)))
+
+    def __mul__(self, other):
+        return Pair(*(a * b for a, b in zip(self, other, strict=True)))
+
+    def __rmul__(self, number):
+        return Pair(*(number * a for a in self))
+
+
+def exact(lines, numbers):
+    """The numbers that lines of arithmetic give, without rounding."""
+
+    class Exactly(ast.NodeTransformer):
+        def visit_Constant(self, node):
+            return ast.parse(f"Fraction({node.value!r}).limit_denominator(10**6)").body[0].value
+
+        def visit_Tuple(self, node):
+            self.generic_visit(node)
+            called = ast.Call(ast.Name("Pair", ast.Load()), node.elts, [])
+            return called if isinstance(node.ctx, ast.Load) else node
+
+    tree = Exactly().visit(ast.parse("\n".join(lines)))
+    exec(compile(ast.fix_missing_locations(tree), "", "exec"), {"Pair": Pair}, numbers)
+    return numbers
+
+
+@pytest.mark.parametrize("phase", ORDERS)
+@pytest.mark.parametrize("order", range(2, 28))
+def test_recurrence_without_rounding(phase, order):
+    """The lines of every order, odd or even, against the equations with all products written out.
+
+    The drive's coefficients are any, as are factors.
+    """
+    random = np.random.default_rng(order)
+    draw = lambda: Fraction(int(random.integers(-9, 10)), 4)  # noqa: E731
+    kept = [{name: draw() for name in "ehd"} for _ in range(order)]
+    given = {name: draw() for name in ("x0", "x1", "q0", "q1", "r1", "mobility", "omega")}
+    given |= {"cosine": Fraction(1), "sine": Fraction(1), "Fraction": Fraction}
+    x0 = given["x0"]
+    given |= {
+        "s0": x0**2,
+        "stiffness": given["omega"] + x0**2,
+        "linear": given["omega"] + 3 * x0**2,
+    }
+    for k, numbers in enumerate(kept):
+        given |= {f"{name}{k}": number for name, number in numbers.items()}
+    found = exact(recurrence.motion(order, phase, lambda k: []), dict(given))
+    squares = {f"x{k}": found[f"x{k}"] for k in range(order)} | {"Fraction": Fraction}
+    squares = exact(recurrence.squares(order - 1), squares)
+    cubed = {f"u{k}": squares[f"u{k}"] for k in range(order - 1)}
+    tangent = exact(recurrence.tangent(order, phase, lambda k: []), given | cubed)
+    x = [found[f"x{k}"] for k in range(order + 1)]
+    dx = [tangent[f"x{k}"] for k in range(order + 1)]
+    for k in range(order - 1):
+        square = [sum(x[i] * x[j - i] for i in range(j + 1)) for j in range(k + 1)]
+        assert cubed[f"u{k}"] == 3 * square[k]
+        for numbers, of, cube in (
+            (found, x, sum(square[j] * x[k - j] for j in range(k + 1))),
+            (tangent, dx, 3 * sum(square[j] * dx[k - j] for j in range(k + 1))),
+        ):
+            a, b = (f"a{k - 1}", f"b{k - 1}") if k else ("x1", "q1")
+            drive = kept[k]["e"] if numbers is found else 0
+            g = drive - given["omega"] * of[k] - cube - kept[k]["h"] * numbers[a]
+            assert numbers[f"g{k}"] == g
+            force = 0
+            if phase == "contact":
+                force = given["r1"] * numbers[f"q{k}"] + kept[k]["d"] * numbers[b]
+                b = g - given["mobility"] * force
+                assert numbers[f"b{k}"] == b and numbers[f"q{k + 2}"] == b / ((k + 1) * (k + 2))
+            assert numbers[f"a{k}"] == g - force
+            assert of[k + 2] == (g - force) / ((k + 1) * (k + 2))
+
+
+def test_kept_series(p):
+    module = instance(1)
+    a = np.zeros(module.SIZE)
+    a[:7] = p
+    pointed(module.kept_series)(a)
+    k = np.arange(max(ORDERS.values()) - 1)
+    signs = np.array([1, -1, -1, 1])[k % 4]
+    factorials = np.array([math.factorial(i) for i in k], float)
+    expected = {"E": signs * p[0] ** k / factorials}
+    expected |= {"H": p[1] / np.maximum(k, 1), "D": p[6] / np.maximum(k, 1)}
+    for name, numbers in expected.items():
+        assert_allclose(a[getattr(module, name) :][: len(k)], numbers, rtol=1e-14)
+
+
+@widths
+@pytest.mark.parametrize("orders", [(18, 23), (10, 13), (15, 20)])
+@pytest.mark.parametrize("phase", ORDERS)
+def test_tail_and_values(lanes, orders, phase):
+    """The last terms of the speeds' series, and what their sums come to, against numpy."""
+    module, order = instance(lanes, *orders), orders[list(ORDERS).index(phase)]
+    random = np.random.default_rng(order)
+    a = np.zeros((module.SIZE // lanes, lanes))
+    names = ["X", "Q"] if phase == "contact" else ["X"]
+    series = {}
+    for name in names:
+        series[name] = (
+            random.uniform(-1, 1, (order + 1, lanes)) * 0.5 ** np.arange(order + 1)[:, None]
+        )
+        a[getattr(module, name) // lanes :][: order + 1] = series[name]
+    time = random.uniform(0.3, 0.9, lanes)
+    a[module.T // lanes] = a[module.LENGTH // lanes] = time
+    searched = ["flight_slope"] if phase == "flight" else ["contact_bound", "contact_values"]
+    flat = a.ravel()
+    for each in searched:
+        pointed(getattr(module, each))(flat)
+    a = flat.reshape(a.shape)
+    places = {"X": (module.Z1, module.Z1_SLOPE)}
+    if phase == "contact":
+        places["Q"] = module.DEPTH, module.DEPTH_SLOPE
+    speeds = {name: Polynomial(c[:, 0]).deriv() for name, c in series.items()}
+    last = [
+        abs(speed.coef[k]) * time[0] ** k
+        for speed in speeds.values()
+        for k in (order - 2, order - 1)
+    ]
+    assert_allclose(a[module.TAIL // lanes, 0], max(last), rtol=1e-13)
+    for name, (value, slope) in places.items():
+        found = a[value // lanes, 0], a[slope // lanes, 0]
+        expected = Polynomial(series[name][:, 0])(time[0]), speeds[name](time[0])
+        assert_allclose(found, expected, rtol=1e-13)

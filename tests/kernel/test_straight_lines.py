@@ -1,0 +1,194 @@
+"""Lines of arithmetic against Python, and the forcing that is turned against the exact one."""
+
+import math
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from helpers.pointed import pointed
+from numpy.testing import assert_allclose, assert_array_equal
+
+import impact_damper
+from impact_damper.kernel.compiling import aligned, kernel
+from impact_damper.kernel.instances import instance
+from impact_damper.kernel.straight_lines import straight
+
+
+def one_lane(a):
+    for _ in range(1):
+        x = a[0]
+        y = -x / (a[1] - 0.5)
+        a[2] = max(abs(y), x) * 2.0
+        a[2] -= y
+
+
+def sixteen_lanes(a):
+    for i in range(16):
+        x = a[0 + i]
+        y = -x / (a[16 + i] - 0.5)
+        a[32 + i] = max(abs(y), x) * 2.0
+        a[32 + i] -= y
+
+
+def four_columns(a, d):
+    for i in range(4):
+        d[4 + i] = a[1] * d[0 + i] + 1.0
+
+
+def two_constants(a):
+    for i in range(2):
+        a[0 + i] = (3.0, -0.5)[i] * a[2] + a[0 + i]
+
+
+def pair_of_one(a):
+    for _ in range(1):
+        x = a[0]
+        pair = x * (a[1], x + 1.0) + (a[2], 0.0)
+        first, last = pair - (x, 2.0) * pair
+        a[3] = first / last
+        a[4] = x * last - a[1]
+
+
+def pairs_of_sixteen(a):
+    for i in range(16):
+        x = a[0 + i]
+        pair = x * (a[16 + i], x + 1.0) + (a[32 + i], 0.0)
+        first, last = pair - (x, 2.0) * pair
+        a[48 + i] = first / last
+        a[64 + i] = x * last - a[16 + i]
+
+
+def without_pairs(a):
+    x, y, z = a[: 3 * len(a) // 5].reshape(3, -1)
+    first, last = x * y + z, x * (x + 1.0)
+    first, last = first - x * first, last - 2.0 * last
+    a[3 * len(a) // 5 :] = [*(first / last), *(x * last - y)]
+
+
+one, two = straight(one_lane), straight(two_constants)
+sixteen, four = straight(sixteen_lanes), straight(four_columns)
+pair, pairs = straight(pair_of_one), straight(pairs_of_sixteen)
+
+
+@kernel
+def one_compiled(a):
+    one(a)
+
+
+@kernel
+def sixteen_compiled(a):
+    sixteen(a)
+
+
+@kernel
+def four_compiled(a, d):
+    four(a, d)
+
+
+@kernel
+def two_compiled(a):
+    two(a)
+
+
+@kernel
+def pair_compiled(a):
+    pair(a)
+
+
+@kernel
+def pairs_compiled(a):
+    pairs(a)
+
+
+@pytest.mark.parametrize(
+    ("compiled", "function", "sizes"),
+    [
+        (two_compiled, two_constants, [3]),
+        (one_compiled, one_lane, [3]),
+        (sixteen_compiled, sixteen_lanes, [48]),
+        (four_compiled, four_columns, [2, 8]),
+        (pair_compiled, without_pairs, [5]),
+        (pairs_compiled, without_pairs, [80]),
+    ],
+)
+def test_lines_do_what_python_does(compiled, function, sizes):
+    random = np.random.default_rng(1995)
+    given = [random.uniform(-1, 1, size) for size in sizes]
+    expected = [array.copy() for array in given]
+    function(*expected)
+    pointed(compiled)(*given)
+    for found, each in zip(given, expected, strict=True):
+        assert_allclose(found, each, rtol=1e-15, atol=1e-15)
+
+
+def test_each_lane_has_its_own_numbers():
+    a = np.tile(np.array([[1.0], [1.5], [0.0]]), 16)
+    a[0, 5] = 3.0
+    flat = a.ravel()
+    pointed(sixteen_compiled)(flat)
+    assert_array_equal(np.flatnonzero(flat[32:] != flat[32]), [5])
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e-9, 3e-5, -3e-5, 4.9e-5, 0.3, -2.0, math.inf])
+@pytest.mark.parametrize("time", [0.0, 1.0, 1234.5])
+def test_forcing_near_a_known_one(time, shift):
+    """Turned by little or found anew, it is that of its time, to rounding of the phase."""
+    module, frequency = instance(1), 2.0
+    a = np.zeros(module.SIZE)
+    a[module.FREQUENCY] = frequency
+    if math.isfinite(shift):
+        a[module.TIME], a[module.T] = time - 0.25, 0.25 + shift
+        pointed(module.look_ahead)(a)
+    else:
+        a[module.KNOWN] = shift
+    a[module.TIME] = time
+    pointed(module.forcing)(a)
+    found = [a[module.COSINE], a[module.SINE]]
+    assert_allclose(
+        found,
+        [math.cos(frequency * time), math.sin(frequency * time)],
+        rtol=0,
+        atol=1e-15 * (1 + time),
+    )
+
+
+def test_forcing_of_lanes():
+    """Each lane at its own time and frequency."""
+    module, random = instance(16), np.random.default_rng(1995)
+    a = np.zeros((module.SIZE // 16, 16))
+    time, frequency = random.uniform(0, 100, 16), random.uniform(0, 3, 16)
+    a[module.TIME // 16], a[module.FREQUENCY // 16] = time, frequency
+    pointed(module.forcing)(a.ravel())
+    assert_allclose(a[module.COSINE // 16], np.cos(frequency * time), rtol=0, atol=1e-13)
+    assert_allclose(a[module.SINE // 16], np.sin(frequency * time), rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("count", [1, 100, 4096])
+def test_aligned_arrays_begin_at_cache_lines(count):
+    for _ in range(20):
+        array = aligned(count)
+        assert array.ctypes.data % 64 == 0
+        assert_array_equal(array, np.zeros(count))
+
+
+@pytest.mark.parametrize(
+    "name", ["recurrence", "series", "sums", "straight", "forcing", "release", "step"]
+)
+def test_kernels_are_compiled_anew_after_an_edit(name, tmp_path):
+    """Of what writes them, too: the folder of compiled kernels is another one."""
+
+    def digest():
+        code = "from impact_damper.kernel.compiling import source_digest; print(source_digest())"
+        environment = os.environ | {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path)}
+        return subprocess.check_output([sys.executable, "-c", code], env=environment)
+
+    package = Path(impact_damper.__file__).parent
+    shutil.copytree(package, tmp_path / "impact_damper")
+    before = digest()
+    with (tmp_path / "impact_damper" / f"{name}.py").open("a") as file:
+        file.write("# edited\n")
+    assert digest() != before

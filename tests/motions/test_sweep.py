@@ -1,0 +1,162 @@
+"""Motions along a sweep: that they are motions, how they join, and where they end."""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.scenes import DESIGN, PAPER
+from numpy.testing import assert_allclose
+
+from impact_damper.data.datasets import flag
+from impact_damper.motions import ensemble, strobe_map
+from impact_damper.motions.records import MOTION, trace
+from impact_damper.motions.simulate import random_states
+from impact_damper.motions.sweep import CLEARANCE, FREQUENCY, Catalogue, _end_event, sweep
+from impact_damper.system.parameters import Damper, pack
+
+FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
+
+
+def free_sweep(frequencies, **options):
+    parameters = np.array([pack(PAPER, None, w) for w in frequencies])
+    states = np.array([random_states(12, 2.5, None, [2, i]) for i in range(len(frequencies))])
+    return sweep(parameters, FREQUENCY, "frequency", states, ensemble.Settling(), **options)
+
+
+@pytest.fixture(scope="module")
+def free():
+    return free_sweep(FREQUENCIES, workers=2)
+
+
+def ends_of(data, event="fold"):
+    """Value, direction and size of all ends of one kind."""
+    chosen = data["end_event"] == flag("end_event", event)
+    columns = (data["end_value"], data["end_direction"], data["end_displacement"])
+    return np.array(columns).T[chosen]
+
+
+def test_every_motion_returns(free):
+    """After its own period and no sooner, by integration from its state."""
+    period, state = free["period"][1], free["state"][1]
+    outcome = free["outcome"][1]
+    for i, frequency in enumerate(FREQUENCIES):
+        p = pack(PAPER, None, frequency)
+        for k in np.flatnonzero(outcome[i] == flag("outcome", "settled")):
+            back = [strobe_map.period_map(p, state[i, k], n, 1e-13)[0] for n in range(1, 4)]
+            apart = np.max(np.abs(back - state[i, k])[:, :2], axis=1)
+            assert np.argmax(apart < 1e-8) + 1 == period[i, k]
+
+
+def test_three_branches_of_the_free_oscillator(free):
+    """Resonance, non-resonance and one-third subharmonic, each where it exists and alone."""
+    period, size = free["period"][1], free["maximum_displacement"][1]
+    assert np.array_equal((period == 1).sum(axis=1), [1, 2, 2, 2, 2, 2, 1, 1])
+    assert np.array_equal((period == 3).sum(axis=1), [0, 0, 0, 1, 1, 1, 1, 0])
+    branch = free["branch"][1]
+    for chosen in ((period == 3), (period == 1) & (size > 1.5), (period == 1) & (size < 0.9)):
+        assert len(np.unique(branch[chosen])) == 1
+    assert len(np.unique(branch[period > 0])) == 3
+
+
+def test_branches_end_at_folds(free):
+    """The multiplier there is one, and the end does not depend on the grid of the sweep."""
+    ends = ends_of(free)
+    assert len(ends) == 4 == len(free["end_value"])
+    assert_allclose(free["end_multiplier_real"], 1, atol=0.01)
+    other = ends_of(free_sweep(np.array([1.28, 1.5, 1.8, 2.0, 2.03, 2.09])))
+    order, again = np.argsort(ends[:, 0]), np.argsort(other[:, 0])
+    assert_allclose(ends[order], other[again], atol=1e-4)
+    assert np.array_equal(ends[order][:, 1], [-1, -1, 1, 1])
+
+
+def test_motions_change_at_an_end(free):
+    """Followed across each end by plain settling, a motion leaves for another size."""
+    p = pack(PAPER, None, 2.0)
+    for value, direction, size in ends_of(free):
+        row = np.argmin(np.abs(FREQUENCIES - value) + 10 * ((FREQUENCIES - value) * direction > 0))
+        column = np.nanargmin(np.abs(free["maximum_displacement"][1][row] - size))
+        state, period = free["state"][1][row, column].copy(), free["period"][1][row, column]
+        p[0] = FREQUENCIES[row]
+        strobe_map.follow(p, state, int(period), FREQUENCY, value - 1e-4 * direction, 1e-8, 1e-12)
+        assert_allclose(p[0], value - 1e-4 * direction, rtol=1e-15)
+        sizes = []
+        for beyond in (-1e-4, 1e-3):
+            p[0] = value + beyond * direction
+            record = ensemble.settle(p[None], state[None], from_strobe=True)[0]
+            assert record["outcome"] == flag("outcome", "settled")
+            sizes.append(record["maximum_displacement"])
+        assert abs(sizes[0] - size) < 0.05
+        assert abs(sizes[1] - size) > 0.3
+
+
+def test_shares_and_runs(free):
+    dims, share = free["share"]
+    assert dims == ("frequency", "motion")
+    assert np.array_equal(share.sum(axis=1), np.full(len(FREQUENCIES), 12))
+    assert free["run_outcome"][1].shape == free["run_length"][1].shape == (len(FREQUENCIES), 12)
+    column = free["run_motion"][1]
+    assert np.array_equal(
+        np.take_along_axis(free["outcome"][1], column, axis=1), free["run_outcome"][1]
+    )
+    counted = [np.bincount(row, minlength=share.shape[1]) for row in column]
+    assert np.array_equal(share, counted)
+
+
+def test_following_finds_what_random_starts_miss():
+    """The upper resonance branch is out of reach of a start near rest, but not of following."""
+    frequencies = np.array([0.8, 1.1, 1.4, 1.7, 2.0])
+    parameters = np.array([pack(PAPER, None, w) for w in frequencies])
+    states = np.full((5, 1, 4), 0.01)
+    data = sweep(parameters, FREQUENCY, "frequency", states, ensemble.Settling())
+    top = np.nanmax(data["maximum_displacement"][1], axis=1)
+    assert np.all(np.diff(top) > 0) and top[-1] > 2.3
+    assert data["origin"][1][-1, 0] == flag("origin", "followed")
+    assert data["share"][1][-1, 0] == 0
+
+
+def test_mirrored_motion_is_the_same():
+    """The large motion with two contacts is not symmetric: it has a twin, which is not counted."""
+    p = pack(PAPER, DESIGN, 1.7)
+    y = np.array([1.87868319, -2.47688679, 0.02448582, -0.45289641])
+    later = y.copy()
+    half = 0.5 * math.pi / 1.7 + math.pi / 1.7
+    trace(p, later, 0.5 * math.pi / 1.7, np.array([half]), 1e-13, np.empty((1, 4)),
+                 np.empty((9, 5)))  # fmt: skip
+    records = ensemble.settle(np.tile(p, (2, 1)), np.array([y, -later]), from_strobe=True)
+    assert np.all(records["outcome"] == flag("outcome", "settled"))
+    assert np.max(np.abs(records["state"][0] - records["state"][1])) > 1
+    catalogue = Catalogue(p, iter(range(9)))
+    assert [catalogue.add(record, "random_start") for record in records] == [0, 0]
+    assert catalogue.shares == [2]
+
+
+def test_sweep_of_the_clearance():
+    """The quiet motion on one branch; at every clearance it is the one found by itself."""
+    clearances = np.array([1.9, 2.0, 2.1])
+    parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
+    # as the orbit for 2.0 is at T = 0, in contact
+    states = np.array([[[-0.006288, -0.060053, d + 0.020827, -0.571848]] for d in clearances])
+    data = sweep(parameters, CLEARANCE, "clearance", states, ensemble.Settling())
+    branch = data["branch"][1][data["contacts"][1] == 2]
+    assert len(branch) == 3 and len(np.unique(branch)) == 1
+    assert data["state"][0] == ("clearance", "motion", "component")
+    for i, p in enumerate(parameters):
+        column = int(np.flatnonzero(data["contacts"][1][i] == 2)[0])
+        back, _, _ = strobe_map.period_map(p, data["state"][1][i, column], 1, 1e-13)
+        assert_allclose(back, data["state"][1][i, column], atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    "multiplier, event",
+    [
+        (0.5, "not_smooth"),
+        (complex(math.nan, math.nan), "not_smooth"),
+        (-0.999, "period_doubling"),
+        (0.6 + 0.8j, "neimark_sacker"),
+        (0.999, "fold"),
+    ],
+)
+def test_event_by_the_multiplier(multiplier, event):
+    record = np.zeros(2, MOTION)
+    record["maximum_displacement"] = 1, 2
+    assert _end_event(record[0], complex(multiplier), record[1]) == event

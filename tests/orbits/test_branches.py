@@ -1,0 +1,237 @@
+"""Branches of orbits: closed forms, simulation on both sides of events, ends, and symmetry."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from helpers.scenes import DESIGN, PAPER, scene_of
+from numpy.testing import assert_allclose
+
+from impact_damper.motions import strobe_map
+from impact_damper.motions.ensemble import Settling, settle
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.stages.branches import complete_branches, orbit_branch, periodic_orbit
+from impact_damper.stages.response import frequency_response
+from impact_damper.system.parameters import Damper, pack
+
+SETTLING = Settling(tolerance=1e-10, patience=300, limit=3000)
+
+
+def free(value):
+    return pack(PAPER, None, value)
+
+
+def damped(value):
+    return pack(PAPER, DESIGN, value)
+
+
+@pytest.fixture(scope="module")
+def resonance():
+    orbit = find_orbit(free(2.0), scene_of("resonance").state)
+    return follow_branch(free, orbit, 2.0, (0.6, 2.6))
+
+
+@pytest.fixture(scope="module")
+def quiet():
+    orbit = find_orbit(damped(2.0), scene_of("design").state)
+    return follow_branch(damped, orbit, 2.0, (0.6, 2.6))
+
+
+def event(branch, kind, number=0):
+    """A located event of a kind, by its number."""
+    return [event for _, event in branch.events if event.kind == kind][number].point
+
+
+def test_every_orbit_is_exact(quiet, resonance):
+    for branch in (quiet, resonance):
+        for point in branch.points:
+            assert point.orbit.converged and point.orbit.liouville_error < 1e-10
+            assert point.orbit.p[0] == point.value
+
+
+def test_folds_are_where_one_multiplier_is_one(resonance):
+    """The other follows from Liouville's theorem: a check of the place to eight digits."""
+    for number in (0, 1):
+        fold = event(resonance, "fold", number)
+        values = np.sort(fold.orbit.multipliers[:2].real)[::-1]
+        assert_allclose(values[0], 1, atol=1e-4)
+        assert_allclose(
+            values[0] * values[1],
+            math.exp(-PAPER.damping * 2 * math.pi / fold.value),
+            rtol=1e-11,
+        )
+        place = next(k for k, found in resonance.events if found.point is fold)
+        beside = [resonance.points[k].value - fold.value for k in (place - 1, place + 1)]
+        assert np.sign(beside[0]) == np.sign(beside[1]) != 0
+
+
+def test_fold_by_simulation_on_both_sides(resonance):
+    """The resonance motion lives just below the upper fold, and is lost just above."""
+    fold = event(resonance, "fold")
+    p = free(fold.value - 1e-4)
+    below = [point for point in resonance.points if point.orbit.stable and point.value < fold.value]
+    nearest = max(below, key=lambda point: point.value)
+    y, at = nearest.orbit.strobe_states[0].copy(), nearest.orbit.p.copy()
+    strobe_map.follow(at, y, 1, 0, p[0], 1e-10, 1e-12)
+    assert at[0] == p[0]
+    record = settle(p[None], y[None] + 1e-6, SETTLING, from_strobe=True)[0]
+    assert record["maximum_displacement"] > 2.3
+    beyond = settle(free(fold.value + 1e-4)[None], y[None], SETTLING, from_strobe=True)[0]
+    assert beyond["maximum_displacement"] < 1
+
+
+def test_symmetry_is_lost_where_simulation_loses_it(resonance):
+    lost = event(resonance, "symmetry_breaking")
+    for side, symmetric in ((1e-3, True), (-1e-3, False)):
+        p = free(lost.value + side)
+        nudged = lost.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
+        record = settle(p[None], nudged[None], SETTLING, from_strobe=True)[0]
+        assert (record["asymmetry"] < 1e-6) == symmetric
+
+
+def test_period_doubles_where_simulation_doubles_it():
+    """The large motion, followed down in frequency: period 1 above the event, 2 below."""
+    orbit = find_orbit(damped(1.7), scene_of("large").state)
+    branch = follow_branch(damped, orbit, 1.7, (1.58, 1.8))
+    doubling = event(branch, "period_doubling")
+    for side, period in ((2e-3, 1), (-2e-3, 2)):
+        p = damped(doubling.value + side)
+        nudged = doubling.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
+        record = settle(p[None], nudged[None], SETTLING, from_strobe=True)[0]
+        assert (record["outcome"], record["period"]) == (1, period)
+
+
+def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
+    """One branch holds both; on it the quiet motion is stable from the fold on."""
+    assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
+    assert all(point.orbit.sequence == "+-" for point in quiet.points)
+    assert_allclose(
+        min(point.value for point in quiet.points if point.orbit.stable),
+        min(found.point.value for _, found in quiet.events if found.kind == "fold"),
+        atol=1e-5,
+    )
+    large = max(quiet.points, key=lambda point: point.orbit.record["maximum_displacement"])
+    assert not large.orbit.stable
+
+
+def test_stability_changes_only_at_events(quiet, resonance):
+    for branch in (quiet, resonance):
+        at = {place for place, _ in branch.events}
+        stable = [point.orbit.stable for point in branch.points]
+        for k in np.flatnonzero(np.diff(stable)):
+            assert {k, k + 1} & at
+
+
+def test_isola_is_closed():
+    """The one-third subharmonic: one closed curve between two folds, half of it stable."""
+    response = frequency_response(PAPER, None, [1.8], starts=96)
+    branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
+    third = int(np.flatnonzero(branches["branch_period"].values == 3)[0])
+    assert branches["branch_end"].values[third].tolist() == [1, 1]
+    points = branches.isel(point=np.flatnonzero(branches["orbit_branch"].values == third))
+    assert_allclose(points["followed_value"][0], points["followed_value"][-1])
+    assert_allclose(points["orbit_displacement"][0], points["orbit_displacement"][-1], atol=1e-8)
+    assert branches["seeds_lost"] == 0
+    assert np.all(points["orbit_asymmetry"] < 1e-8)
+    stable = points["orbit_stability"].values == 1
+    values = points["followed_value"].values
+    assert_allclose(values[stable].max(), values.max(), atol=1e-4)
+    assert not stable.all() and points["orbit_residual"].max() < 2e-12
+
+
+def test_branch_of_two_turns_is_recognised_from_every_motion_on_it():
+    """Motions of one branch at several frequencies make one branch, not several."""
+    response = frequency_response(PAPER, None, [1.0, 1.9, 2.2], starts=24)
+    branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
+    assert (branches["branch_period"].values == 1).sum() == 1
+    assert branches["seeds"] >= 4
+
+
+@pytest.mark.parametrize(
+    ("parameter", "span"),
+    [
+        ("clearance", (1.5, 2.5)),
+        ("mass_ratio", (0.05, 0.2)),
+        ("restitution", (0.8, 1.0)),
+        ("damping", (0.1, 0.4)),
+        ("contact_stiffness", (1e3, 1e5)),
+    ],
+)
+def test_any_parameter_ends_on_the_orbit_there(parameter, span):
+    """The last orbit of a branch is that of Newton's method with the parameter changed by hand."""
+    state = scene_of("design").state
+    branch = orbit_branch(PAPER, DESIGN, 2.0, state, parameter=parameter, span=span)
+    values = branch["followed_value"].values
+    assert_allclose([values.min(), values.max()], span, rtol=1e-12)
+    for row in (0, -1):
+        oscillator, damper = PAPER, DESIGN
+        if parameter == "damping":
+            oscillator = replace(PAPER, damping=values[row])
+        else:
+            damper = replace(DESIGN, **{parameter: min(values[row], span[1])})
+        found = periodic_orbit(
+            oscillator,
+            damper,
+            2.0,
+            branch["orbit_state"].values[row],
+            phase=float(branch["orbit_phase"][row]),
+        )
+        assert_allclose(found["orbit_displacement"], branch["orbit_displacement"][row], rtol=1e-9)
+        assert_allclose(
+            found["orbit_multiplier_real"][0],
+            branch["orbit_multiplier_real"].values[row],
+            atol=1e-7,
+        )
+
+
+@pytest.fixture(scope="module")
+def grazing():
+    """A branch on which the sequence of contacts changes, and where it does."""
+    soft = Damper(0.4, 0.625, contact_stiffness=50.0)
+    response = frequency_response(PAPER, soft, [1.2, 1.4, 2.0], starts=24)
+    branches = complete_branches(PAPER, soft, (0.9, 2.6), [response])
+    changes = np.flatnonzero(np.isin(branches["event_kind"].values, [5, 6]))
+    assert len(changes) > 0
+    return soft, branches, changes
+
+
+def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
+    _, branches, changes = grazing
+    for k in changes:
+        assert branches["walls_before"].values[k] != branches["walls_after"].values[k]
+        assert branches["event_speed"].values[k] < 1e-4, branches["event_kind"].values[k]
+
+
+def test_contacts_on_both_sides_of_grazing(grazing):
+    """The orbits next to the event, simulated over a period, touch as often as is said."""
+    soft, branches, changes = grazing
+    counts = branches["orbit_contacts"].values
+    periods = branches["branch_period"].values
+    for k in changes:
+        first = np.searchsorted(branches["orbit_branch"].values, branches["event_branch"].values[k])
+        place = first + int(branches["event_place"][k])
+        n = periods[branches["event_branch"].values[k]]
+        sides = {round(counts[place + side] * n) for side in (-1, 0, 1)}
+        words = branches["walls_before"].values[k], branches["walls_after"].values[k]
+        assert {len(words[0]), len(words[1])} <= sides
+
+
+def test_orbits_near_grazing_are_flagged(grazing):
+    _, branches, changes = grazing
+    slow = branches["least_speed"].values < 0.01
+    flagged = branches["orbit_status"].values == 2
+    assert np.array_equal(slow, flagged) and flagged.any() and not flagged.all()
+
+
+def test_bad_arguments_are_named():
+    state = scene_of("design").state
+    with pytest.raises(ValueError, match="parameter = 'gap'.*clearance"):
+        orbit_branch(PAPER, DESIGN, 2.0, state, parameter="gap", span=(1, 3))
+    with pytest.raises(ValueError, match="no damper to change"):
+        orbit_branch(PAPER, None, 2.0, (0, 0.5), parameter="clearance", span=(1, 3))
+    with pytest.raises(ValueError, match="must hold clearance = 2"):
+        orbit_branch(PAPER, DESIGN, 2.0, state, parameter="clearance", span=(3, 4))
+    with pytest.raises(ArithmeticError, match="residual"):
+        periodic_orbit(PAPER, Damper(0.12, 2.0), 2.0, (3.0, 9.0, 0.0, 30.0), period=5)

@@ -1,0 +1,125 @@
+"""Periodic orbits: residual, laws, symmetry, and multipliers against another program."""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.scenes import DESIGN, INELASTIC, PAPER, STARTS, scene_of
+from numpy.testing import assert_allclose
+
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.shooting import STROBE, TURN, find_orbit, shoot
+from impact_damper.system.parameters import Damper, pack
+
+
+@pytest.fixture(scope="module", params=list(STARTS))
+def orbit(request):
+    scene = scene_of(request.param)
+    return find_orbit(scene.parameters, scene.state)
+
+
+def test_residual_and_phase(orbit):
+    assert orbit.converged and orbit.residual <= 1e-12 * max(1, np.abs(orbit.state).max())
+    assert orbit.margin(orbit.phase) > 0.1
+
+
+def test_liouville(orbit):
+    """Elastic contact keeps volume, the dashpot shrinks it at a known rate."""
+    assert orbit.liouville_error < 1e-11
+
+
+def test_multipliers_by_heyoka(orbit):
+    pytest.importorskip("heyoka")
+    from references.variational import Variational
+
+    length = TURN / orbit.p[0]
+    end, matrix = Variational().monodromy(
+        orbit.p, orbit.state, orbit.phase / orbit.p[0], orbit.periods * length
+    )
+    assert_allclose(end, orbit.state, atol=1e-11)
+    expected = np.linalg.eigvals(matrix[: orbit.active, : orbit.active])
+    found = orbit.multipliers[: orbit.active]
+    order = np.lexsort((-expected.imag.round(9), -np.abs(expected).round(9)))
+    again = np.lexsort((-found.imag.round(9), -np.abs(found).round(9)))
+    assert_allclose(found[again], expected[order], atol=1e-9)
+
+
+def test_half_the_map_squared_is_the_whole(orbit):
+    """A symmetric orbit solves y = -map(half a period, y), and that map's square is the whole."""
+    if not orbit.record["asymmetry"] < 1e-6:
+        pytest.skip("the orbit is not symmetric")
+    half, end = shoot(orbit.p, orbit.state, 1, orbit.phase, symmetric=True)
+    assert_allclose(end, orbit.state, atol=1e-11)
+    assert_allclose(half.monodromy, orbit.monodromy, atol=1e-9)
+    assert_allclose(half.touching, orbit.touching, rtol=1e-9)
+
+
+def test_multipliers_do_not_depend_on_the_phase(orbit):
+    moved = find_orbit(orbit.p, orbit.at(orbit.phase + 0.5), 1, orbit.phase + 0.5)
+    assert_allclose(np.abs(moved.multipliers), np.abs(orbit.multipliers), atol=1e-9)
+
+
+def test_contacts_of_the_design_orbit():
+    """Two, half a period apart, as fast off the wall as onto it but for the forcing's work."""
+    scene = scene_of("design")
+    orbit = find_orbit(scene.parameters, scene.state)
+    wall, begin, end, approach, departure = orbit.contacts.T
+    assert orbit.sequence == "+-"
+    assert_allclose(begin[1] - begin[0], scene.period / 2, atol=1e-11)
+    assert_allclose(np.sign(approach), wall)
+    duration = math.pi / math.sqrt(DESIGN.contact_stiffness * (1 + 1 / DESIGN.mass_ratio))
+    assert_allclose(end - begin, duration, rtol=0.01)
+    assert_allclose(-departure, approach, rtol=0.01)
+    assert orbit.least_speed == np.abs(approach).min()
+
+
+def test_unstable_orbit_is_found_and_left_by_simulation():
+    """The large symmetric orbit: Newton's method holds it, the flow leaves it as its multiplier."""
+    branch = follow_branch(
+        lambda value: pack(PAPER, DESIGN, value),
+        find_orbit(pack(PAPER, DESIGN, 2.0), scene_of("design").state),
+        2.0,
+        (1.1, 2.0),
+    )
+    upper = max(branch.points, key=lambda point: point.orbit.record["maximum_displacement"])
+    unstable = upper.orbit
+    growth = unstable.multipliers[0].real
+    assert growth > 5
+    direction = np.linalg.eig(unstable.monodromy)
+    leading = direction.eigenvectors[:, np.argmax(np.abs(direction.eigenvalues))].real
+    nudged, end = shoot(unstable.p, unstable.state + 1e-7 * leading, 1, unstable.phase)
+    assert_allclose(end - unstable.state, growth * 1e-7 * leading, atol=2e-9)
+
+
+def test_no_orbit_is_said_so():
+    """No orbit of period 2 lives near a state far from all."""
+    orbit = find_orbit(pack(PAPER, Damper(0.12, 2.0), 2.0), np.array([1.0, 1.0, 0.0, 4.0]), 2)
+    assert not orbit.converged or orbit.repeats_sooner()
+
+
+def test_phase_leaves_a_contact():
+    """Begun inside a contact, at W T = 0 of the design orbit, the state is moved into flight."""
+    scene = scene_of("design")
+    reference = find_orbit(scene.parameters, scene.state)
+    inside = reference.p[0] * (reference.contacts[1, 1] + 0.01)
+    found = find_orbit(reference.p, reference.at(inside), 1, inside % TURN)
+    assert found.converged and found.margin(found.phase) > 0.1
+    assert found.is_same(reference)
+
+
+def test_mirror_image_counts_as_the_same():
+    scene = scene_of("large")
+    orbit = find_orbit(scene.parameters, scene.state)
+    mirrored = find_orbit(orbit.p, -orbit.at(STROBE + TURN / 2), 1)
+    assert np.abs(mirrored.strobe_states - orbit.strobe_states).max() > 0.1
+    assert mirrored.is_same(orbit)
+
+
+def test_inelastic_volume_shrinks_by_the_time_in_contact():
+    scene = scene_of("inelastic")
+    orbit = find_orbit(scene.parameters, scene.state)
+    h, period = scene.parameters[1], scene.period
+    rate = INELASTIC.dashpot * (1 + 1 / INELASTIC.mass_ratio)
+    expected = math.exp(-h * period - rate * orbit.touching)
+    assert_allclose(np.prod(orbit.multipliers).real, expected, rtol=1e-11)
+    assert_allclose(orbit.touching, np.sum(orbit.contacts[:, 2] - orbit.contacts[:, 1]), rtol=1e-10)

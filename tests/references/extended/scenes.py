@@ -1,0 +1,110 @@
+"""Reference motions of the scenes on which methods are compared, in 80-bit arithmetic.
+
+    PYTHONPATH=src:tests python -m extended.scenes > workflow/resources/references.json
+
+makes the file anew from the section `scenes` of `config/config.yaml`. It is JSON with 21
+significant digits, more than a double holds: `json.loads(text, parse_float=numpy.longdouble)`
+keeps them, plain `json.loads` rounds to doubles. For each scene, a chaotic one excepted, which
+no method can follow to its end:
+
+parameters
+    The seven doubles of `parameters.pack`, so that a changed scene is noticed.
+start, end
+    Times of the run, doubles: W T = pi/2, and `start + periods * (2 pi/W)` in double arithmetic.
+first, state
+    Z1, Z1', Z2, Z2' at both.
+amplitude
+    max |Z1| over the whole run.
+last_amplitude
+    max |Z1| over the last forcing period.
+contacts
+    Rows of wall, beginning, end, Z2' at both; null where a contact has not ended.
+error, contact_error
+    Largest difference of state and extremes, and of the contacts, from a run with another
+    tolerance and shorter steps. The time of a grazing contact is known as well as the gap is, over
+    the speed.
+growth
+    Largest norm of the flow's derivative from an instant of the run to its end (see `Run`).
+margin
+    Least distance of an extremum of Z2 from a wall, per growth: how near the count is to another.
+"""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from impact_damper.system.parameters import Damper, Oscillator, pack
+from references import extended
+
+ROOT = Path(__file__).resolve().parents[3]
+FILE = ROOT / "workflow" / "resources" / "references.json"
+
+
+def scenes():
+    """The scenes of the configuration that can be followed to their end, by name."""
+    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    for name, scene in config["scenes"].items():
+        if scene["motion"] == "chaotic":
+            continue
+        damper = None
+        if "mass_ratio" in scene:
+            damper = Damper(scene["mass_ratio"], scene["clearance"], scene["restitution"])
+        free = config["oscillators"][scene["oscillator"]]
+        oscillator = Oscillator(free["damping"], free["linear_frequency"])
+        p = pack(oscillator, damper, scene["frequency"])
+        yield name, p, np.array(scene["state"], float), scene["periods"]
+
+
+def reference(p, state, periods):
+    """What the file holds of one scene."""
+    period, start = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
+    times = start + period * np.arange(1, periods + 1)
+    run = extended.run(p, state, start, times)
+    other = extended.run(p, state, start, times, tolerance=1e-22, longest=0.02)
+    if run.begun != other.begun:
+        raise RuntimeError(f"contacts: {run.begun} and {other.begun}")
+    errors = {
+        name: np.nanmax(np.abs(getattr(run, name) - getattr(other, name)), initial=0)
+        for name in ("states", "extremes", "contacts")
+    }
+    return {
+        "parameters": p,
+        "start": start,
+        "end": times[-1],
+        "first": state,
+        "state": run.states[-1],
+        "amplitude": np.max(np.abs(run.extremes)),
+        "last_amplitude": np.max(np.abs(run.extremes[-1])),
+        "contacts": run.contacts,
+        "error": max(errors["states"], errors["extremes"]),
+        "contact_error": errors["contacts"],
+        "growth": run.growth,
+        "margin": run.margin,
+    }
+
+
+def _text(value):
+    """JSON of a number or of an array of numbers."""
+    if np.ndim(value):
+        return f"[{', '.join(_text(part) for part in value)}]"
+    if not np.isfinite(value):
+        return "null"
+    return np.format_float_scientific(np.longdouble(value), precision=20, trim="-")
+
+
+def as_text(references):
+    """The file's text: a line for each quantity, and for each contact."""
+    scenes = []
+    for name, quantities in references.items():
+        lines = [f"    {json.dumps(key)}: {_text(value)}" for key, value in quantities.items()]
+        lines = [line.replace("], [", "],\n      [") for line in lines]
+        scenes.append(f"  {json.dumps(name)}: {{\n" + ",\n".join(lines) + "\n  }")
+    return "{\n" + ",\n".join(scenes) + "\n}\n"
+
+
+if __name__ == "__main__":
+    found = {name: reference(*scene) for name, *scene in scenes()}
+    print(as_text(found), end="")

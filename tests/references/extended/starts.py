@@ -1,0 +1,107 @@
+"""Random starts and parameters on which the kernels are held to the 80-bit reference."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.system.parameters import Damper, Oscillator, pack
+from references import extended
+
+PERIODS = 3
+FAR = 1e3  # a clearance that is never used up
+
+# Ranges that a kind of start has instead of the usual ones; those with a factor above 3 between
+# their ends are drawn by the logarithm.
+USUAL = {
+    "damping": (0.02, 0.4),
+    "linear_frequency": (0.0, 0.0),
+    "mass_ratio": (0.05, 0.6),
+    "clearance": (0.3, 3.0),
+    "contact_stiffness": (300.0, 5000.0),
+    "restitution": (0.5, 0.98),
+    "frequency": (0.8, 3.0),
+}
+KINDS = {
+    "usual": {},
+    "soft walls": {"contact_stiffness": (1.0, 100.0)},
+    "stiff walls": {"contact_stiffness": (1e4, 1e6)},
+    "light mass": {"mass_ratio": (0.002, 0.05)},
+    "heavy mass": {"mass_ratio": (1.0, 10.0)},
+    "slow forcing": {"frequency": (0.3, 0.8)},
+    "fast forcing": {"frequency": (4.0, 40.0)},
+    "linear stiffness": {"linear_frequency": (0.3, 5.0)},
+    "dead contacts": {"restitution": (0.05, 0.4)},
+    "grazing": {},
+    "in contact": {"contact_stiffness": (10.0, 1e5)},
+    "on a wall": {"contact_stiffness": (10.0, 1e5)},
+}
+
+
+class Starts(NamedTuple):
+    """Packed parameters (m, 7), states (m, 4), start times (m,), and times (m, PERIODS)."""
+
+    parameters: np.ndarray
+    states: np.ndarray
+    starts: np.ndarray
+    times: np.ndarray
+
+
+def _draw(random, bounds):
+    low, high = bounds
+    if high > 3 * low > 0:
+        return math.exp(random.uniform(math.log(low), math.log(high)))
+    return random.uniform(low, high)
+
+
+def _parameters(random, ranges, elastic):
+    drawn = {name: _draw(random, bounds) for name, bounds in ranges.items()}
+    frequency = drawn.pop("frequency")
+    oscillator = Oscillator(drawn.pop("damping"), drawn.pop("linear_frequency"))
+    restitution = drawn.pop("restitution")
+    return pack(oscillator, Damper(**drawn, restitution=1.0 if elastic else restitution), frequency)
+
+
+def _graze(random, p, state, start, end):
+    """Shift Z2 until one of its extrema in free flight lies by 1e-13 to 1e-2 about a wall."""
+    unbounded = p.copy()
+    unbounded[3] = FAR
+    turnings = extended.run(unbounded, state, start, [end]).turnings[:-1]
+    depth = random.choice((-1, 1)) * 10 ** random.uniform(-13, -2)
+    for turning in random.permutation(turnings):
+        z = turning[1] * (turning[2] + FAR)
+        for wall in (-1, 1):
+            shifted = float(state[2] + wall * (p[3] + depth) - z)
+            if abs(shifted) < p[3]:
+                state[2] = shifted
+                return
+
+
+def draw(kind, count, seed):
+    """Starts of one kind, elastic and inelastic by turns.
+
+    Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), Z2 over the gap; the start time is
+    uniform over the forcing period. "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or
+    beyond a wall; "in contact": beyond a wall by what stops a speed of 0.01 to 30; "on a wall":
+    to the last bit, at rest relative to it or at a speed of 1e-8 to 4, outward or inward.
+    """
+    random = np.random.default_rng([seed, list(KINDS).index(kind)])
+    parameters, states = np.empty((count, 7)), np.empty((count, 4))
+    starts, times = np.empty(count), np.empty((count, PERIODS))
+    for i in range(count):
+        p = parameters[i] = _parameters(random, USUAL | KINDS[kind], elastic=i % 2 == 0)
+        period = 2 * math.pi / p[0]
+        starts[i] = random.uniform(0, period)
+        times[i] = starts[i] + period * np.arange(1, PERIODS + 1)
+        y = states[i] = random.uniform(-1, 1, 4) * (2, 3, p[3], 4)
+        wall = random.choice((-1, 1))
+        if kind == "grazing":
+            _graze(random, p, y, starts[i], times[i, -1])
+            states[i] = y
+        elif kind == "in contact":
+            speed = 10 ** random.uniform(-2, 1.5)
+            states[i, 2] = wall * (p[3] + speed / math.sqrt(p[4] * (1 + p[5])))
+        elif kind == "on a wall":
+            speed = random.choice((0.0, 1.0), p=(0.1, 0.9)) * 10 ** random.uniform(-8, 0.6)
+            states[i, 2:] = wall * p[3], random.choice((-1, 1)) * speed
+    return Starts(parameters, states, starts, times)

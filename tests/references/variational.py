@@ -1,0 +1,91 @@
+"""Monodromy matrices by heyoka's variational equations, with the jumps at events by the book.
+
+At an event a tangent d becomes d + (f_after - f_before) (n d)/(n f_before), where n is the normal
+of the wall and f the vector field on both sides (Leine and Nijmeijer, Dynamics and Bifurcations
+of Non-Smooth Mechanical Systems, 2004, section 7).
+"""
+
+import math
+
+import heyoka
+import numpy as np
+
+from references.taylor_events import BEYOND_ALL_MOTIONS
+
+COUNTS = {False: 4, True: 8}  # parameters that flight and contact depend on
+
+
+def _fields():
+    x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
+    frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot, side = (
+        heyoka.par[i] for i in range(8)
+    )
+    free = heyoka.cos(frequency * heyoka.time) - damping * v - stiffness * x - x * x * x
+    force = spring * (z - side * clearance) + dashpot * w
+    flight = [(x, v), (v, free), (z, w), (w, free)]
+    contact = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
+    return flight, contact, z, clearance, side
+
+
+def field(pars, state, t, touching):
+    """The vector field at a state, in flight or in contact."""
+    x, v, z, w = state
+    frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot, side = pars
+    free = math.cos(frequency * t) - damping * v - stiffness * x - x**3
+    force = touching * (spring * (z - side * clearance) + dashpot * w)
+    return np.array([v, free - force, w, free - force - inverse_mass * force])
+
+
+class Variational:
+    """Integrator of states and tangents through contacts."""
+
+    def __init__(self):
+        flight, contact, z, clearance, side = _fields()
+        rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
+        events = {
+            False: [
+                heyoka.t_event(z - clearance, direction=rising),
+                heyoka.t_event(z + clearance, direction=falling),
+            ],
+            True: [heyoka.t_event(side * z - clearance, direction=falling)],
+        }
+        self.integrators = {}
+        for touching, system in ((False, flight), (True, contact)):
+            self.integrators[touching] = heyoka.taylor_adaptive(
+                heyoka.var_ode_sys(system, heyoka.var_args.vars, order=1),
+                np.concatenate([np.zeros(4), np.eye(4).ravel()]),
+                pars=np.zeros(COUNTS[touching]),
+                t_events=events[touching],
+                compact_mode=True,
+            )
+
+    def monodromy(self, p, state, begin, length):
+        """State and derivative (4, 4) of the flow from `begin` in flight over a length."""
+        pars = np.array([*p[:3], min(p[3], BEYOND_ALL_MOTIONS), *p[4:], 0.0])
+        full = np.concatenate([state, np.eye(4).ravel()])
+        t, side, end = begin, 0, begin + length
+        while True:
+            motion = self.integrators[side != 0]
+            pars[7] = side
+            motion.pars[:] = pars[: len(motion.pars)]
+            motion.time = t
+            motion.state[:] = full
+            motion.reset_cooldowns()
+            outcome = motion.propagate_until(end)[0]
+            full, t = motion.state.copy(), motion.time
+            if outcome == heyoka.taylor_outcome.time_limit:
+                return full[:4], full[4:].reshape(4, 4)
+            before = pars.copy()
+            if side:
+                after_side, wall, beyond = 0, side, 0.0
+            else:
+                after_side = wall = 1 if int(outcome) == -1 else -1
+                beyond = math.inf
+            pars[7] = before[7] = wall
+            full[2] = wall * pars[3]
+            fields = [field(before, full[:4], t, touching) for touching in (False, True)]
+            old, new = fields if not side else fields[::-1]
+            tangents = full[4:].reshape(4, 4)
+            tangents += np.outer(new - old, tangents[2]) / old[2]
+            full[2] = wall * np.nextafter(pars[3], beyond)
+            side = after_side

@@ -1,0 +1,139 @@
+"""Rival methods show their order on smooth motion, and their linear stability limit in contact."""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.sampling import sample
+from helpers.scenes import DESIGN, INELASTIC, PAPER
+from numpy.testing import assert_allclose
+
+from impact_damper.motions import strobe_map
+from impact_damper.motions.sweep import CLEARANCE
+from impact_damper.rivals import fixed_step, merson, scipy_methods
+from impact_damper.system.parameters import Damper, Oscillator, pack
+
+ORDERS = {"heun": 2, "verlet": 2, "runge_kutta_4": 4, "merson": 4}
+START = np.array([0.7, -0.3, 0.5, 0.2])
+
+
+def fixed(method, p, y, steps, periods, t=0.0):
+    strobes, largest = np.empty((periods, 4)), np.empty(periods)
+    run = fixed_step.run_fixed(
+        fixed_step.METHODS.index(method), p, np.array(y, float), t, steps, strobes, largest
+    )
+    return strobes, largest, run
+
+
+@pytest.fixture(scope="module")
+def free():
+    """A free motion over two periods, and where it ends by the Taylor series."""
+    p = pack(PAPER, None, 2.0)
+    states, _ = sample(p, START, 0.0, [2 * 2 * math.pi / 2.0])
+    return p, states[-1]
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_order_of_fixed_steps(method, free):
+    p, end = free
+    errors = [
+        np.abs(fixed(method, p, START, steps, 2)[0][-1] - end).max() for steps in (200, 400, 800)
+    ]
+    assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), ORDERS[method], atol=0.15)
+
+
+@pytest.mark.parametrize("locate", [False, True])
+def test_merson_follows_its_tolerance(locate, free):
+    """Error of order h^4 with an estimate of order h^5: 4/5 of the digits of the tolerance."""
+    p, end = free
+    errors = []
+    for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
+        strobes, largest = np.empty((2, 4)), np.empty(2)
+        run, _ = merson.run_merson(p, START, 0.0, tolerance, locate, strobes, largest)
+        assert run == 2
+        errors.append(np.abs(strobes[-1] - end).max())
+    slope = np.polyfit([-6, -8, -10, -12], np.log10(errors), 1)[0]
+    assert 0.7 < slope < 1.1
+
+
+@pytest.mark.parametrize("method", scipy_methods.METHODS)
+def test_scipy_on_smooth_motion(method, free):
+    p, end = free
+    for locate in (False, True):
+        states = scipy_methods.run_scipy(method, p, START, 0.0, 1e-9, locate, 2)
+        assert_allclose(states[-1], end, atol=1e-5)
+
+
+@pytest.mark.parametrize("method", fixed_step.METHODS)
+def test_linear_stability_limit_of_the_contact(method):
+    """With almost no clearance the pair of masses is a linear oscillator of frequency omega_c.
+
+    The primary's own spring is cubic and does not count for small motions.
+    """
+    stiffness, mass_ratio = 1e6, 0.25
+    p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)
+    p[CLEARANCE] = 1e-12
+    contact = math.sqrt(stiffness * (1 + 1 / mass_ratio))
+    limit = fixed_step.STABILITY_LIMIT[method]
+
+    def growth(scaled):
+        """Largest growth per step, from the step's matrix; drift of both masses has 1."""
+        h = scaled / contact
+        number = fixed_step.METHODS.index(method)
+        drives = fixed_step.forcing(p, 0.0, h)
+
+        def after(y):
+            return np.array(fixed_step.one_step(number, p, drives, h, tuple(map(float, y))))
+
+        matrix = [after(1e-6 * unit) - after(-1e-6 * unit) for unit in np.eye(4)]
+        return np.abs(np.linalg.eigvals(np.array(matrix).T / 2e-6)).max()
+
+    for scaled in (0.5, 1.0):
+        expected = math.sqrt(1 + scaled**4 / 4) if method == "heun" else 1.0
+        assert_allclose(growth(scaled), expected, atol=1e-2)
+    if limit > 0:
+        assert growth(0.98 * limit) < 1.01
+        assert growth(1.02 * limit) > 1.02
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
+def test_located_contacts_agree_with_the_taylor_series(damper):
+    p = pack(PAPER, damper, 2.0)
+    y = np.array([0.1, 0.2, 0.0, -2.4 * damper.clearance / 2])
+    begin = strobe_map.strobe_time(p)
+    times = begin + math.pi * np.arange(1, 4)
+    expected, log = sample(p, y, begin, times)
+    assert len(log) >= 4
+    strobes, largest = np.empty((3, 4)), np.empty(3)
+    merson.run_merson(p, y, begin, 1e-12, True, strobes, largest)
+    assert_allclose(strobes, expected, atol=1e-8)
+    states = scipy_methods.run_scipy("DOP853", p, y, begin, 1e-12, True, 3)
+    assert_allclose(states, expected, atol=1e-8)
+
+
+def test_the_kink_takes_the_order_away():
+    """Through elastic contacts the fourth-order method is no better than of second order."""
+    p = pack(PAPER, DESIGN, 2.0)
+    y = np.array([0.1, 0.2, 0.0, -2.4])
+    begin = strobe_map.strobe_time(p)
+    expected, _ = sample(p, y, begin, [begin + math.pi])
+    steps = np.unique(np.geomspace(2000, 40000, 24).astype(int))
+    errors = [
+        np.abs(fixed("runge_kutta_4", p, y, int(n), 1, begin)[0][-1] - expected[-1]).max()
+        for n in steps
+    ]
+    slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert -2.7 < slope < -1.3
+
+
+def test_a_divergence_is_told():
+    p = pack(PAPER, DESIGN, 2.0)
+    strobes, largest, run = fixed("runge_kutta_4", p, [0.0, 0.0, 5.0, 0.0], 20, 3)
+    assert run < 3
+    assert np.isnan(strobes[run:]).all() and np.isnan(largest[run:]).all()
+
+
+def test_too_many_evaluations_are_a_failure():
+    p = pack(PAPER, DESIGN, 2.0)
+    states = scipy_methods.run_scipy("RK45", p, START, 0.0, 1e-9, True, 2, most_evaluations=20)
+    assert np.isnan(states).all()

@@ -1,0 +1,43 @@
+"""Periodic orbits with labels: what is stored of an orbit against the motion simulated from it."""
+
+import numpy as np
+import pytest
+
+from impact_damper.motions.simulate import simulate, steady_motion
+from impact_damper.stages.branches import periodic_orbit
+from impact_damper.system.parameters import Damper, Oscillator
+
+OSCILLATOR = Oscillator(damping=0.215)
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.75])
+def test_harmonics_and_restitution_of_an_orbit(restitution):
+    damper = Damper(mass_ratio=0.25, clearance=1.0, restitution=restitution)
+    frequency = 2.0
+    steady = steady_motion(OSCILLATOR, damper, frequency, (0.05, 0, 0.9, 0.5))
+    orbit = periodic_orbit(OSCILLATOR, damper, frequency, steady.state.values).isel(point=0)
+    assert float(orbit.orbit_contacts) == 2
+    motion = simulate(
+        OSCILLATOR,
+        damper,
+        frequency,
+        orbit.orbit_state.values,
+        periods=1,
+        samples=4096,
+        start=float(orbit.orbit_phase) / frequency,
+    ).isel(time=slice(None, -1))
+    turn = np.exp(-1j * frequency * motion.time)
+    first, second = (
+        complex(2 * (motion[name] * turn).mean())
+        for name in ("displacement", "relative_displacement")
+    )
+    # the record samples 64 times a period, and contacts are kinks: harmonics near the 64th alias
+    for phase, reference in (
+        ("orbit_phase_relative", second),
+        ("orbit_phase_loose", first - second),
+    ):
+        stored = float(orbit.orbit_amplitude) * np.exp(1j * float(orbit[phase]))
+        assert stored == pytest.approx(first * abs(reference) / reference, abs=2e-4)
+    ratio = np.abs(orbit.departure_velocity / orbit.approach_velocity)
+    assert float(orbit.orbit_restitution) == pytest.approx(float(ratio.min()))
+    assert float(orbit.orbit_restitution) == pytest.approx(restitution, rel=0.01)

@@ -1,0 +1,175 @@
+"""Contacts near grazing: what is known of them, what SciPy's own events find, and the count."""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.scenes import PAPER
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.stats import binom
+
+from impact_damper.data.shares import missed_share
+from impact_damper.figures.missed_contacts import draw_missed_contacts
+from impact_damper.rivals.passages import draw_passages, free_flight
+from impact_damper.rivals.scipy_methods import derivative, flight_steps
+from impact_damper.stages import missed_contacts as missed
+from impact_damper.system.parameters import pack
+from impact_damper.tables.integrators import grazing
+
+PERIOD = math.pi
+DEPTHS = np.geomspace(1e-12, 1e-1, 12)
+
+
+@pytest.fixture(scope="module")
+def passages():
+    p = pack(PAPER, None, 2.0)
+    return p, draw_passages(p, 40, 2.0, DEPTHS[-1], 7)[0]
+
+
+@pytest.fixture(scope="module")
+def counted():
+    return missed.missed_contacts(
+        PAPER,
+        2.0,
+        passages=150,
+        implicit_passages=2,
+        radius=2.0,
+        depths=DEPTHS,
+        tolerances=[1e-12, 1e-6, 1e-3],
+        steps=[32, 256, 2048],
+    )
+
+
+def test_the_largest_displacement_agrees_with_heyoka(passages):
+    heyoka = pytest.importorskip("heyoka")
+    p, drawn = passages
+    x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
+    free = heyoka.cos(2.0 * heyoka.time) - p[1] * v - p[2] * x - x * x * x
+    turning = []
+    event = heyoka.nt_event(w, lambda motion, t, _: turning.append(at(motion, t)))
+    motion = heyoka.taylor_adaptive(
+        [(x, v), (v, free), (z, w), (w, free)], np.zeros(4), nt_events=[event], tol=1e-18
+    )
+
+    def at(motion, t):
+        motion.update_d_output(t)
+        return abs(motion.d_output[2])
+
+    for passage in drawn:
+        turning.clear()
+        motion.time, motion.state[:] = 0.0, passage.state
+        motion.propagate_until(PERIOD)
+        assert_allclose(max(turning), passage.extremum, rtol=4e-15)
+
+
+def test_the_taylor_series_misses_none_and_invents_none(passages):
+    p, drawn = passages
+    depths = np.geomspace(1e-13, 1e-1, 13)
+    touching, spurious, _ = missed._taylor_counts(p, drawn, depths, 1e-14)
+    assert_allclose(touching, np.array([[len(drawn), 0, 0, 0]] * len(depths)))
+    assert not spurious.any()
+
+
+@pytest.mark.parametrize("method", ["RK45", "DOP853", "LSODA"])
+def test_scipy_events_find_what_the_ends_of_steps_show(method, passages):
+    """SciPy's own events, one for each depth, on the same flights."""
+    p, drawn = passages
+    free = free_flight(p)
+
+    def wall(level):
+        return lambda t, y, *_: abs(y[2]) - level
+
+    for passage in drawn[:10]:
+        levels = passage.extremum - DEPTHS
+        run = solve_ivp(
+            derivative,
+            (0, PERIOD),
+            passage.state,
+            method,
+            args=(free, 0),
+            events=[wall(level) for level in levels],
+            rtol=1e-8,
+            atol=1e-8,
+        )
+        states, _, _ = flight_steps(method, free, passage.state, 0.0, PERIOD, 1e-8)
+        seen = np.abs(states[:, 2]).max() > levels
+        assert_allclose([len(times) > 0 for times in run.t_events], seen)
+
+
+@pytest.mark.parametrize("method", ["RK45", "DOP853"])
+def test_scipy_misses_on_a_sine(method):
+    """sin t crosses 1 - 1e-3 twenty times in ten turns, and 1 - 1e-6 too."""
+    for depth, most in ((1e-3, 10), (1e-6, 2)):
+        run = solve_ivp(
+            lambda t, y: (y[1], -y[0]),
+            (0, 20 * math.pi),
+            (0.0, 1.0),
+            method,
+            events=lambda t, y, depth=depth: 1 - depth - y[0],
+            rtol=1e-6,
+            atol=1e-6,
+        )
+        assert len(run.t_events[0]) <= most
+
+
+def test_fixed_steps_pass_contacts_unseen_as_often_as_chance_has_it(counted):
+    """A step falls beyond the wall with probability (time beyond it)/h."""
+    counts = counted.passage_count.sel(integrator="runge_kutta_4", method_tolerance=1e-12)
+    count, expected = int(counted.passages[0]), counted.expected_unseen[0]
+    for depth in DEPTHS[DEPTHS > 1e-8]:
+        missing = count - int(counts.sel(contact_outcome="found", depth=depth))
+        share = float(expected.sel(depth=depth))
+        low, high = binom.interval(1 - 1e-4, count, share)
+        assert low <= missing <= high
+
+
+def test_every_passage_is_counted_once(counted):
+    total = counted.passage_count.sum("contact_outcome")
+    assert (total == counted.passages).all()
+    assert (counted.passage_count >= 0).all()
+    assert (counted.passage_count.sel(contact_outcome="failed") == 0).all()
+
+
+@pytest.mark.parametrize("method", ["merson", "RK45", "DOP853"])
+def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
+    """A rate that is nowhere finite."""
+    p, drawn = passages
+    p = free_flight(p)
+    p[2] = -np.inf
+    touching, spurious, error, steps = missed._rival_counts(method, p, drawn[:2], DEPTHS, 1e-8)
+    assert_allclose(touching, [[0, 0, 0, 2]] * len(DEPTHS))
+    assert not spurious.any() and np.isnan([error, steps]).all()
+
+
+def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
+    p, drawn = passages
+    monkeypatch.setattr(missed, "MOST_ENDS", 10)
+    assert missed._ends("merson", free_flight(p), drawn[0].state, PERIOD, 1e-8) is None
+
+
+def test_failed_runs_are_neither_found_nor_missed(counted):
+    """In table and figure alike: the share missed is that of the runs that came to their end."""
+    data = counted.copy(deep=True)
+    given = data.passage_count.sel(integrator="merson")
+    given[0] = 0
+    given.loc[{"contact_outcome": "failed"}][0] = data.passages.sel(integrator="merson")
+    assert missed_share(data).sel(integrator="merson")[0].isnull().all()
+    row = grazing({"missed_contacts": {"one": data}}).set_index("method").loc["merson"].iloc[0]
+    assert row["failed"] == row["contacts"] and np.isnan(row["half missed to depth"])
+    drawn = draw_missed_contacts(missed_contacts=[data])
+    assert any("failed" in text.get_text() for text in drawn.legends[0].get_texts())
+
+
+def test_wrong_arguments_are_told():
+    given = dict(
+        passages=2, implicit_passages=1, radius=2.0, depths=[0.1], tolerances=[1e-6], steps=[8]
+    )
+    for changes, words in (
+        ({"implicit_passages": 3}, "implicit_passages = 3"),
+        ({"steps": [8, 16]}, "as many as tolerances"),
+        ({"tolerances": [0.0]}, "tolerance = 0"),
+        ({"depths": [0.2, 0.1]}, "depths = .*: must be increasing"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            missed.missed_contacts(PAPER, 2.0, **(given | changes))

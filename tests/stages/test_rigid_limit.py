@@ -1,0 +1,128 @@
+"""The quiet motion between rigid walls, mended walls and compliant ones."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from helpers.scenes import DESIGN, INELASTIC, PAPER, scene_of
+from numpy.testing import assert_allclose
+
+from impact_damper.contact.rigid_orbits import mended_orbit, rigid_orbit
+from impact_damper.data.datasets import flag
+from impact_damper.figures.rigid_limit import draw_rigid_limit
+from impact_damper.orbits.grid_following import flood, march
+from impact_damper.stages.rigid_limit import compliant_orbit, rigid_limit
+from impact_damper.tables.contact import rigid_limit as table
+
+NEAR = 0.2
+
+
+@pytest.mark.parametrize(
+    ("damper", "name"),
+    [(DESIGN, "design"), (INELASTIC, "inelastic"), (replace(INELASTIC, restitution=0.7), None)],
+)
+def test_orders(damper, name):
+    """States of the orbits differ by r1^(-1/2); with walls mended, by 1/r1."""
+    guess = scene_of(name or "inelastic").state
+    errors = []
+    for stiffness in (1e5, 1e6):
+        each = replace(damper, contact_stiffness=stiffness)
+        soft, status = compliant_orbit(PAPER, each, 2.0, guess, NEAR)
+        assert status == 0
+        plain, _ = rigid_orbit(PAPER, each, 2.0, guess, NEAR)
+        mended, _ = mended_orbit(PAPER, each, 2.0, plain, NEAR)
+        errors.append([np.max(np.abs(each.state - soft.state)) for each in (plain, mended)])
+    orders = np.log10(np.divide(*errors))
+    assert_allclose(orders, [0.5, 1.0], atol=0.02)
+
+
+def test_an_orbit_repeats_and_is_symmetric():
+    orbit, _ = rigid_orbit(PAPER, INELASTIC, 2.0, scene_of("inelastic").state, NEAR)
+    again, _ = rigid_orbit(PAPER, INELASTIC, 2.0, orbit.state + 1e-3, NEAR)
+    assert_allclose(again.state, orbit.state, atol=1e-10)
+    mirrored, _ = rigid_orbit(PAPER, INELASTIC, 2.0, -orbit.state, NEAR)
+    # the mirror image half a period on is the same motion, at the strobe another state
+    assert mirrored is None
+
+
+def grid(lost):
+    """Flood of five times five points from a corner, without the points that are lost."""
+
+    def solve(point, _):
+        return (None, 1) if lost(*point) else (SimpleNamespace(state=point), 0)
+
+    axes = np.arange(5.0), np.arange(5.0)
+    first = SimpleNamespace(state=np.zeros(2))
+    return solve, first, *flood(solve, axes, (0, 0), first, 9)
+
+
+def test_a_flood_goes_round_a_slit():
+    solve, first, found, status = grid(lambda x, y: abs(x - 2) < 0.2 and y < 3)
+    assert [tuple(cell) for cell in np.argwhere(status)] == [(2, 0), (2, 1), (2, 2)]
+    assert len(found) == 22
+    assert march(solve, np.zeros(2), np.array([2.0, 0.0]), first) == (None, 1)
+    assert_allclose(march(solve, np.zeros(2), np.array([1.0, 4.0]), first)[0].state, [1, 4])
+
+
+def test_a_flood_stops_at_a_wall():
+    _, _, found, status = grid(lambda x, y: x > 1.5)
+    assert len(found) == 10
+    assert_allclose(status[2], 1)
+    assert_allclose(status[3:], 9)
+
+
+@pytest.fixture(scope="module")
+def limit():
+    return rigid_limit(
+        PAPER, INELASTIC, 2.0, [1.0, 1.95, 2.0], [500, 2000, 1e4, 1e5, 1e6], starts=6
+    )
+
+
+def test_dataset(limit):
+    assert (limit.compliant_status.sel(frequency=2.0) == 0).all()
+    own = limit.sel(frequency=2.0, stiffness=2000)
+    assert float(own.rigid_error) == pytest.approx(float(limit.own_error), abs=1e-9)
+    assert float(own.compliant_displacement) == pytest.approx(0.1262368, abs=1e-6)
+    assert float(limit.rigid_order.sel(frequency=2.0)) == pytest.approx(0.5, abs=0.01)
+    assert float(limit.mended_order.sel(frequency=2.0)) == pytest.approx(1.0, abs=0.01)
+    neither = flag("rigid_verdict", "neither")
+    lost = (limit.compliant_status != 0) & (limit.rigid_status != 0)
+    assert ((limit.rigid_verdict == neither) == lost).all()
+    assert np.isnan(limit.rigid_error.values[lost.values]).all()
+
+
+def test_stiffness_needed(limit):
+    """The error is that threshold there, by a solution of its own."""
+    row = limit.sel(frequency=1.95)
+    for level, r1, status in zip(
+        limit.threshold.values, row.needed_stiffness.values, row.needed_status.values, strict=True
+    ):
+        if status != flag("needed_status", "found"):
+            assert (np.abs(row.rigid_error) < level).all()
+            continue
+        each = replace(INELASTIC, contact_stiffness=float(r1))
+        guess = scene_of("inelastic").state
+        soft, _ = compliant_orbit(PAPER, each, 1.95, guess, NEAR)
+        assert float(row.rigid_displacement) / soft.displacement - 1 == pytest.approx(level, 0.05)
+
+
+def test_table_and_figure(limit):
+    made = table({"rigid_limit": {"one": limit}})
+    row = made.iloc[0]
+    verdicts = ["both stable", "both unstable", "stability differs", "rigid only"]
+    assert row[[*verdicts, "compliant only", "neither"]].sum() == row["cells"] == 15
+    assert row["rigid error"] == pytest.approx(float(limit.own_error))
+    assert len(draw_rigid_limit(rigid_limit=[limit]).axes) == 5
+
+
+def test_no_quiet_motion_is_told():
+    with pytest.raises(ArithmeticError, match="frequency = 0.3: no quiet motion"):
+        rigid_limit(PAPER, DESIGN, 0.3, [0.3, 0.4], [1e3, 1e4], starts=2)
+
+
+def test_bad_arguments_are_named():
+    with pytest.raises(ValueError, match="stiffnesses = .*: must be increasing"):
+        rigid_limit(PAPER, DESIGN, 2.0, [1.9, 2.0], [1e4, 1e3])
+    with pytest.raises(TypeError, match="must be a Damper"):
+        rigid_limit(PAPER, None, 2.0, [1.9, 2.0], [1e3, 1e4])

@@ -1,0 +1,113 @@
+"""Tables: a row for each thing that was computed, and files that are whole and always the same."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from helpers.made_up import world
+
+from impact_damper.data.table_files import save
+from impact_damper.tables import paper
+
+
+@pytest.fixture(scope="module")
+def data():
+    return world()
+
+
+def test_design(data):
+    table = paper.design(data).set_index("curve")
+    assert len(table) == len(data["design"])
+    assert table.loc["figure_05a", "rm Wp^2 d0"] == pytest.approx(1)
+    assert table.loc["figure_03b", "d0 of (19)"] == pytest.approx(1 / (0.12 * 2.1**2))
+
+
+def test_bands(data):
+    table = paper.bands(data).set_index("curve")
+    assert set(table.index) == set(data["design"]) | set(data["response"])
+    row = table.loc["figure_05b"]
+    assert row["width, balance"] == pytest.approx(row["width, motions"])
+    assert row["ended by"] == "other motion appears"
+    assert row["widest range of it"] == pytest.approx(3 * 0.01)
+    assert row["share of it with a single motion"] == 1
+    assert np.isnan(table.loc["figure_03a", "width, motions"])
+    assert np.isnan(table.loc["figure_10", "width, balance"])
+
+
+def test_no_band_is_read_off_without_the_resonance_branch(data):
+    table = paper.bands(data | {"free_branches": {}}).set_index("curve")
+    assert table.loc["figure_05b", "width, balance"] > 0
+    assert "width, motions" not in table
+
+
+def test_optima(data):
+    table = paper.optima(data).set_index("sweep")
+    assert len(table) == len(data["optimum"])
+    assert table.loc["0.107_0.12_1.0", "excess over (18)"] == pytest.approx(0.05)
+    assert (table.kind == "kink").all()
+
+
+def test_subharmonics(data):
+    table = paper.subharmonics(data)
+    free = table[table.damper == "off"].set_index("data")
+    assert free.loc["h215", "from W"] == pytest.approx(0.8 * 2)
+    assert free.loc["h215", "to W"] == pytest.approx(1.1 * 2)
+    damped = table[table.data == "figure_05c"]
+    assert list(damped.branch) == ["all", "4"]
+    assert list(damped["largest max |Z1|"]) == pytest.approx([0.1, 0.1])
+    assert damped["over that without damper"].iloc[0] == pytest.approx(0.1 / 0.8)
+    assert list(table[table.data == "figure_05a"].branch) == ["all"]
+
+
+def test_free_oscillator_without_subharmonic(data):
+    free = data["free_branches"]["h215"]
+    changed = data | {"free_branches": {"none": free.assign(branch_period=0 * free.branch_period)}}
+    assert paper.subharmonics(changed).branch.iloc[0] == "none"
+
+
+def test_migration(data):
+    table = paper.migration(data)
+    assert len(table) == 2 * len(data["migration"])
+    row = table[(table.case == "figure_15") & (table["released from"] == "quiet")].iloc[0]
+    assert row["to subharmonic"] == 0.5
+    assert row["runs that arrive"] == 1
+    assert row["median cycles, all runs"] == pytest.approx(150)
+
+
+def test_releases(data):
+    table = paper.releases(data).set_index(["scan", "released from", "leads to"])
+    both = table.loc["wide", "quiet", "non-resonance, subharmonic"]
+    assert both["at W"] == "1.5, 1.7 to 1.8"
+    assert both["frequencies"] == 3
+    assert both["to subharmonic"] == 0.5
+    assert table.loc["wide", "quiet", "non-resonance"]["at W"] == "1.6"
+    assert table.loc["wide", "unsettled", "subharmonic"]["at W"] == "1.9"
+    assert set(table.index.get_level_values("released from")) == {"unsettled", "quiet"}
+    shares = table[[name for name in table if name.startswith("to ")]]
+    assert shares.sum(axis=1).to_list() == pytest.approx([1] * len(table))
+
+
+def test_files(tmp_path):
+    table = pd.DataFrame({"name": ["a|b", "c"], "number": [1 / 3, np.nan], "count": [10, 2000000]})
+    csv, markdown = tmp_path / "new" / "table.csv", tmp_path / "new" / "table.md"
+    save(table, csv, markdown)
+    assert csv.read_bytes() == b"name,number,count\na|b,0.333333,10\nc,,2000000\n"
+    assert markdown.read_text().splitlines()[2].split() == [
+        "|",
+        r"a\|b",
+        "|",
+        "0.333333",
+        "|",
+        "10",
+        "|",
+    ]
+    before = csv.read_bytes(), markdown.read_bytes()
+    save(table, csv, markdown)
+    assert (csv.read_bytes(), markdown.read_bytes()) == before
+    assert sorted(path.name for path in csv.parent.iterdir()) == ["table.csv", "table.md"]
+
+
+def test_failed_table_leaves_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr("os.replace", lambda *paths: (_ for _ in ()).throw(OSError("full")))
+    with pytest.raises(OSError, match="full"):
+        save(pd.DataFrame({"a": [1]}), tmp_path / "a.csv", tmp_path / "a.md")
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,133 @@
+"""No broken configuration starts a job: a line tells key, value and what is allowed.
+
+What is broken is known from how it was made (`broken`), not from the schema.
+"""
+
+import re
+import reprlib
+
+import pytest
+import yaml
+from helpers.broken import GONE, MAPPINGS, ROOT, SMALL, at, broken, changed, junk, places
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from impact_damper.system import parameters
+from impact_damper.theory.single_harmonic import peak_frequency
+from impact_damper.workflow import workloads
+from impact_damper.workflow.configuration import (
+    ConfigurationError,
+    check_configuration,
+    check_file,
+    read_schemas,
+)
+from impact_damper.workflow.contradictions import dotted
+
+SCHEMAS = read_schemas(ROOT / "workflow/schemas")
+ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
+fuzz = settings(
+    derandomize=True,
+    deadline=None,
+    database=None,
+    suppress_health_check=list(HealthCheck),
+)
+
+
+def problems(config):
+    with pytest.raises(ConfigurationError) as caught:
+        check_configuration(config, SCHEMAS)
+    return str(caught.value).split("\n")
+
+
+def test_the_small_configuration_is_accepted():
+    check_configuration(SMALL, SCHEMAS)
+
+
+@settings(fuzz, max_examples=800)
+@given(broken)
+def test_what_is_broken_is_told(made):
+    lines = problems(made.config())
+    assert all(line.isprintable() and ALLOWED.search(line) for line in lines), lines
+    key = dotted(made.told)
+    if made.shown is GONE:
+        assert any(line.startswith((f"{key}: ", f"{key}.")) for line in lines), lines
+    else:
+        told = f"{key} = {reprlib.repr(made.shown)}: "
+        assert any(line.startswith(told) for line in lines), (told, lines)
+
+
+@settings(fuzz, max_examples=300)
+@given(st.sampled_from([path for path, _ in places(SMALL) if path]), junk)
+def test_nothing_at_any_place_is_worse_than_rejected(path, value):
+    """What is accepted by chance is of the kind of what stands there."""
+    try:
+        check_configuration(changed(path, value).config(), SCHEMAS)
+    except ConfigurationError as error:
+        assert all(ALLOWED.search(line) for line in str(error).split("\n"))
+    else:
+        assert type(value) is type(at(path)) or {type(value), type(at(path))} == {int, float}
+
+
+@settings(fuzz, max_examples=100)
+@given(junk)
+def test_no_junk_is_a_configuration(value):
+    assert all(ALLOWED.search(line) for line in problems(value))
+
+
+@settings(fuzz, max_examples=60)
+@given(data=st.data())
+def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
+    """Twice in any mapping of the file, with the same value or another."""
+    path = data.draw(st.sampled_from([path for path in MAPPINGS if at(path)]))
+    root = node = yaml.compose(yaml.safe_dump(SMALL), Loader=yaml.SafeLoader)
+    for key in path:
+        node = next(value for name, value in node.value if name.value == key)
+    key, value = data.draw(st.sampled_from(node.value))
+    node.value.append((key, data.draw(st.sampled_from([value, root.value[0][0]]))))
+    file = tmp_path_factory.mktemp("twice") / "mine.yaml"
+    file.write_text(yaml.serialize(root))
+    with pytest.raises(
+        ConfigurationError, match=rf"^mine.yaml, line \d+: {key.value} stands twice"
+    ):
+        check_file(file)
+
+
+@settings(fuzz, max_examples=200)
+@given(st.binary(max_size=200) | st.text(max_size=200).map(str.encode))
+def test_no_file_is_worse_than_rejected(tmp_path_factory, content):
+    file = tmp_path_factory.mktemp("file") / "mine.yaml"
+    file.write_bytes(content)
+    try:
+        check_file(file)
+    except ConfigurationError as error:
+        assert all(line.startswith("mine.yaml") for line in str(error).split("\n"))
+
+
+@pytest.mark.parametrize(
+    ("name", "library"),
+    [
+        ("frequency", parameters.FREQUENCY_RANGE),
+        ("damping", parameters.DAMPING_RANGE),
+        ("mass_ratio", parameters.MASS_RATIO_RANGE),
+        ("clearance", parameters.CLEARANCE_RANGE),
+        ("clearance_or_rule", parameters.CLEARANCE_RANGE),
+        ("stiffness", parameters.STIFFNESS_RANGE),
+    ],
+)
+def test_the_configuration_allows_what_the_library_allows(name, library):
+    schema = SCHEMAS["values.schema.yaml"]["$defs"][name]
+    assert (schema["minimum"], schema["maximum"]) == (library["least"], library["most"])
+
+
+def test_both_know_the_same_bounds_of_work():
+    assert workloads.MOST_STIFF == parameters.MOST_STIFF
+    assert workloads.LARGEST_CLEARANCE == parameters.CLEARANCE_RANGE["most"]
+    assert workloads.MOST_RESULTS == parameters.MOST_RUNS
+
+
+@settings(fuzz, max_examples=50)
+@given(st.floats(1e-9, 10), st.floats(0, 100))
+def test_both_know_the_same_peak(damping, linear_frequency):
+    oscillator = parameters.Oscillator(damping, linear_frequency)
+    peak = workloads.peak_frequency(damping, linear_frequency)
+    assert peak == pytest.approx(peak_frequency(oscillator), rel=1e-14)

@@ -1,0 +1,85 @@
+"""What is quick of the trials of faults; `make faults` tries them all."""
+
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+from faults.project import DELETE, Project
+
+FILE = "results/design/figure_05a.nc"
+YEAR = 365 * 86400
+
+# A job: it begins, and then does what is put here.
+JOB = (
+    "import sys, time; from types import SimpleNamespace; from impact_damper.workflow.job "
+    "import begin; "
+    "begin(SimpleNamespace(log=[{!r}], input={{}})); print('begun'); {}"
+)
+LONG = "time.sleep(60); sys.__stdout__.write('lived on')"
+# What starts a job, and waits.
+RUN = "import subprocess, sys; subprocess.Popen([sys.executable, '-c', {!r}]); sys.stdin.read()"
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A project that has run, without a job that takes kernels."""
+    project = Project(tmp_path_factory.mktemp("faults") / "a project")
+    code, told = project.run(targets=[FILE])
+    assert code == 0, told
+    return project
+
+
+def test_a_file_that_is_cut_off_is_told_and_made_again(finished):
+    path = finished.folder / FILE
+    whole, stat = path.read_bytes(), path.stat()
+    path.write_bytes(whole[:-1])
+    os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+    code, told = finished.run(targets=[FILE])
+    assert code == 1 and "Traceback" not in told
+    assert f"{FILE} has {len(whole) - 1} bytes in place of {len(whole)}: {DELETE}." in told
+    path.unlink()
+    code, told = finished.run(targets=[FILE])
+    assert code == 0, told
+    assert path.read_bytes() == whole
+
+
+def test_an_edit_after_the_clock_was_set_back_is_seen(finished):
+    path, script = finished.folder / FILE, finished.folder / "workflow/scripts/harmonic_balance.py"
+    text = script.read_text()
+    for edited in ("", "# A word.\n"):
+        os.utime(path, (time.time() + YEAR,) * 2)
+        script.write_text(text + edited)
+        code, told = finished.run("-n", targets=[FILE])
+        script.write_text(text)
+        assert code == 0, told
+        assert "dates in the future" in told
+        assert ("Harmonic balance and suppression band" in told) == bool(edited)
+
+
+def test_a_job_ends_with_its_run(tmp_path):
+    log = tmp_path / "job.log"
+    command = [sys.executable, "-c", RUN.format(JOB.format(str(log), LONG))]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen(command, text=True, **pipes) as run:
+        while not (log.exists() and log.read_text()):
+            time.sleep(0.05)
+        run.kill()
+        # The job holds the other end of this pipe: it is read until the job has ended.
+        assert run.stdout.read() == ""
+
+
+@pytest.mark.parametrize("kind, lines", [("OSError", 1), ("ValueError", None)])
+def test_what_stops_a_job_is_told(kind, lines, tmp_path):
+    """A file that stops it in one line, to terminal and log; else a traceback in the log."""
+    log = tmp_path / "job.log"
+    command = JOB.format(str(log), f"raise {kind}('a.nc is broken')")
+    job = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)
+    assert job.returncode == 1
+    if lines:
+        assert job.stderr == "Error: a.nc is broken\n"
+        assert log.read_text() == "begun\nError: a.nc is broken\n"
+    else:
+        assert job.stderr == ""
+        assert "Traceback" in log.read_text() and "a.nc is broken" in log.read_text()

@@ -1,0 +1,116 @@
+"""Checkouts share what they compute, as long as all that it depends on is the same.
+
+Scripts are replaced by one that writes down in which checkout it ran.
+"""
+
+import json
+import re
+
+import pytest
+import yaml
+from helpers.running import ROOT, copy_of_project, snakemake
+from netCDF4 import Dataset
+
+STUB = """
+from pathlib import Path
+from netCDF4 import Dataset
+for path in snakemake.output:
+    with Dataset(path, "w") as file:
+        file.checkout = str(Path.cwd())
+raise SystemExit
+"""
+DESIGN = "results/free_design/h215.nc"
+BRANCHES = "results/free_branches/h215.nc"
+
+
+def checkout(folder):
+    folder.mkdir()
+    for script in (copy_of_project(folder) / "workflow/scripts").glob("*.py"):
+        script.write_text(STUB + script.read_text())
+    return folder
+
+
+def run(project, cache, *targets):
+    """Files made or taken from the cache, in a run that has nothing of its own."""
+    for target in targets:
+        (project / target).unlink(missing_ok=True)
+    result = snakemake(project, *targets, "--cache", env={"SNAKEMAKE_OUTPUT_CACHE": str(cache)})
+    assert result.returncode == 0, result.stdout + result.stderr
+    return [computed_in(project / target) for target in targets]
+
+
+def computed_in(path):
+    with Dataset(path) as file:
+        return file.checkout
+
+
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory):
+    """Two checkouts, a cache, and what the first one put there."""
+    folder = tmp_path_factory.mktemp("sharing")
+    cache = folder / "cache"
+    cache.mkdir()
+    first, second = checkout(folder / "first"), checkout(folder / "the second")
+    assert run(first, cache, DESIGN, BRANCHES) == [str(first)] * 2
+    return first, second, cache
+
+
+def test_a_checkout_takes_what_another_computed(shared):
+    first, second, cache = shared
+    assert run(second, cache, DESIGN, BRANCHES) == [str(first)] * 2
+    told = snakemake(second, DESIGN, BRANCHES, "-n")
+    assert "Nothing to be done" in told.stdout + told.stderr
+
+
+@pytest.mark.parametrize(
+    "name, old, new",
+    [
+        ("config/config.yaml", "damping: 0.215", "damping: 0.216"),
+        ("src/impact_damper/harmonic_balance.py", '"""', '"""A word. '),
+        ("requirements.lock", "numpy==", "# A word.\nnumpy=="),
+    ],
+)
+def test_what_differs_is_not_shared(name, old, new, shared):
+    _, second, cache = shared
+    path = second / name
+    text = path.read_text()
+    path.write_text(text.replace(old, new, 1))
+    try:
+        assert run(second, cache, DESIGN) == [str(second)]
+    finally:
+        path.write_text(text)
+
+
+def test_an_entry_of_another_name_is_not_shared(shared):
+    """Its file says whose data it holds, and is told to be another's where it is not."""
+    _, second, cache = shared
+    path = second / "config/config.yaml"
+    text = path.read_text()
+    config = yaml.safe_load(text)
+    config["oscillators"]["again"] = config["oscillators"]["h215"]
+    path.write_text(yaml.safe_dump(config))
+    try:
+        assert run(second, cache, "results/free_design/again.nc") == [str(second)]
+    finally:
+        path.write_text(text)
+
+
+def test_without_the_option_nothing_is_shared(shared):
+    _, second, _ = shared
+    (second / DESIGN).unlink(missing_ok=True)
+    result = snakemake(second, DESIGN)
+    assert result.returncode == 0
+    assert computed_in(second / DESIGN) == str(second)
+    assert (second / "results/timings/free_design/h215.tsv").exists()
+    assert json.loads((second / "results/provenance.json").read_text())["versions"]["numpy"]
+
+
+def test_scripts_of_shared_data_know_no_names_but_those_in_their_parameters():
+    """The cache does not look at wildcards: what they decide would be taken for another entry."""
+    rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
+    found = re.findall(r"cache: SHARED\n.*?scripts/(\w+\.py)", rules, re.DOTALL)
+    assert len(found) >= 24
+    for script in found:
+        lines = (ROOT / "workflow/scripts" / script).read_text().splitlines()
+        used = [line for line in lines if "snakemake.wildcards" in line]
+        assert all("progress=snakemake.wildcards" in line for line in used), script

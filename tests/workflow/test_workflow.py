@@ -1,0 +1,92 @@
+"""The workflow as it is asked for, and what it says to a broken configuration."""
+
+import re
+
+import pytest
+from helpers.running import ROOT, snakemake
+
+from impact_damper.workflow.contradictions import SECTIONS
+
+
+def jobs(result):
+    """Number of jobs by rule, from the table that Snakemake prints first."""
+    assert result.returncode == 0, result.stdout + result.stderr
+    table = re.search(
+        r"^job +count\n[- ]+\n(.*?)^total", result.stderr + result.stdout, re.M | re.S
+    )
+    return (
+        {line.split()[0]: int(line.split()[1]) for line in table[1].splitlines()} if table else {}
+    )
+
+
+@pytest.mark.parametrize("arguments", [(), ("--configfile", "config/smoke.yaml")])
+def test_every_script_serves_the_paper_and_the_smoke_run(arguments, tmp_path):
+    scripts = {path.stem for path in (ROOT / "workflow/scripts").glob("*.py")}
+    command = [*arguments, "-n", "--directory", tmp_path / "elsewhere"]
+    drawn = {f"draw_{kind}" for kind in SECTIONS}
+    rules = set(jobs(snakemake(ROOT, *command))) - {"all"}
+    assert rules - drawn | {"draw"} == scripts
+    assert drawn <= rules
+
+
+def test_each_stage_is_a_target():
+    stages = "design free response branches optimum subharmonic migration release_scan".split()
+    stages += "design_rules harmonics balance_map contact_model rigid_limit".split()
+    stages += "missed_contacts stable_steps verdicts accuracy studies".split()
+    found = jobs(snakemake(ROOT, *stages, "figures", "tables", "-n", "--forceall"))
+    assert {*stages, "figures", "tables"} < found.keys()
+
+
+def test_a_broken_configuration_is_told_in_one_line_each(tmp_path):
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("curves: {figure_05a: {mass_ratio: -1}}\nsed: 3\n")
+    result = snakemake(ROOT, "-n", "--configfile", mine)
+    told = result.stderr + result.stdout
+    assert result.returncode == 1
+    assert "Traceback" not in told
+    assert re.search(
+        r"^ *curves\.figure_05a\.mass_ratio = -1: must be .*at least 1e-06", told, re.M
+    )
+    assert re.search(r"^ *sed = 3: unknown key; known: ", told, re.M)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "line"),
+    [
+        ("mine.yaml", "seed: .nan", r"seed = nan: must be a whole number"),
+        ("mine.yaml", "contact_stiffness: 1e3", r"contact_stiffness = '1e3': must be a finite num"),
+        (
+            "mine.yaml",
+            "points: {free: 1000000000}",
+            r"points\.free = 1000000000: must be .*at most",
+        ),
+        ("mine.yaml", "points: {free: 100000}", r"points\.free = 100000: with search\.starts"),
+        ("mine.yaml", "curves: 5", r"curves = 5: must be keys with values"),
+        ("mine.yaml", "search: {starts: []}", r"search\.starts = \[\]: must be a whole number"),
+        ("mine.yaml", '"se\\ned": 3', r"'se\\ned' = 3: unknown key; known: balance_map"),
+        ("mine.json", '{"seed": Infinity}', r"seed = inf: must be a whole number"),
+    ],
+)
+def test_a_broken_configuration_starts_no_job(name, text, line, tmp_path):
+    mine = tmp_path / name
+    mine.write_text(text)
+    result = snakemake(ROOT, "--configfile", mine, "--directory", tmp_path / "elsewhere")
+    told = result.stderr + result.stdout
+    assert result.returncode == 1 and "Traceback" not in told
+    assert re.search(rf"^ *{line}", told, re.M), told
+    assert not (tmp_path / "elsewhere/results").exists()
+
+
+def test_a_key_that_stands_twice_is_told(tmp_path):
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("seed: 1\nseed: 2\n")
+    result = snakemake(ROOT, "-n", "--configfile", mine)
+    assert result.returncode == 1
+    assert "mine.yaml, line 2: seed stands twice" in result.stderr + result.stdout
+
+
+def test_each_hook_stands_once():
+    """Of two Snakemake would forget the first."""
+    files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
+    hooks = re.findall("^(on[a-z]+):", "".join(path.read_text() for path in files), re.MULTILINE)
+    assert sorted(hooks) == ["onstart", "onsuccess"]
