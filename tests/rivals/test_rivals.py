@@ -9,8 +9,8 @@ from helpers.scenes import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.motions import strobe_map
-from impact_damper.motions.sweep import CLEARANCE
 from impact_damper.rivals import fixed_step, merson, scipy_methods
+from impact_damper.system.packed import CLEARANCE
 from impact_damper.system.parameters import Damper, Oscillator, pack
 
 ORDERS = {"heun": 2, "verlet": 2, "runge_kutta_4": 4, "merson": 4}

@@ -12,11 +12,11 @@ from impact_damper.contact.contact_law import contact, natural_frequency
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.simulate import random_states
+from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, STIFFNESS
 from impact_damper.system.parameters import pack
 
 CLOSE, FAIR = 0.01, 0.05
 SIZES = ("smallest", "largest")
-DASHPOT = 6
 RESOLUTION = 1e-6
 LARGEST_LOG = 10**5
 # Share of the contacts that an error stated for a motion covers.
@@ -47,7 +47,7 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     """
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)
-    times = np.array([begin + periods * 2 * np.pi / p[0]])
+    times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])
     log, states = np.empty((LARGEST_LOG, 5)), np.empty((1, 4))
     tolerance = strobe_map.POLISH_TOLERANCE
     count = records.trace(p, np.array(state), begin, times, tolerance, states, log)
@@ -59,7 +59,7 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     records.trace(p, np.array(state), begin, times, tolerance, states, log)
     side, start, end, approach, departure = log[:count].T
     x, v = states[:-1, 0], states[:-1, 1]
-    load = side * (np.cos(p[0] * start) - p[1] * v - p[2] * x - x**3)
+    load = side * (np.cos(p[FREQUENCY] * start) - p[DAMPING] * v - p[STIFFNESS] * x - x**3)
     natural = natural_frequency(damper)
     whole = np.isfinite(end) & (start > begin)
     return {

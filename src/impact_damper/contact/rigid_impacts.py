@@ -14,6 +14,7 @@ from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, step, workspace
 from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.system.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO, STIFFNESS
 
 # With e < 1 impacts may follow each other without end, closer and closer.
 MOST_IMPACTS = 200
@@ -22,7 +23,7 @@ MOST_IMPACTS = 200
 @kernel
 def acceleration(p, y, t):
     """Acceleration of Z1, and of Z2, in flight: equation (3) without contact."""
-    return math.cos(p[0] * t) - p[1] * y[1] - p[2] * y[0] - y[0] ** 3
+    return math.cos(p[FREQUENCY] * t) - p[DAMPING] * y[1] - p[STIFFNESS] * y[0] - y[0] ** 3
 
 
 @kernel
@@ -37,16 +38,16 @@ def rebound(p, restitution, y, tangents, t):
 
     The determinant of S is e^2: volume of state space shrinks by e^2 in each impact.
     """
-    share = (1.0 + restitution) / (1.0 + p[5])
+    share = (1.0 + restitution) / (1.0 + p[INVERSE_MASS_RATIO])
     speed = y[3]
     pull = acceleration(p, y, t) / speed
     for i in range(tangents.shape[0]):
         d = tangents[i]
         shift, relative = d[2], d[3]
         d[0] -= share * shift
-        d[1] += share * ((pull + p[1]) * shift - relative)
+        d[1] += share * ((pull + p[DAMPING]) * shift - relative)
         d[2] = -restitution * shift
-        d[3] = ((1.0 + restitution) * pull + p[1] * share) * shift - restitution * relative
+        d[3] = ((1.0 + restitution) * pull + p[DAMPING] * share) * shift - restitution * relative
     y[1] -= share * speed
     y[3] = -restitution * speed
 
@@ -57,7 +58,7 @@ def rigid_map(p, restitution, y, tolerance):
 
     Parameters
     ----------
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters (`parameters.pack`) with dashpot 0; the stiffness does not count.
     restitution : float
         e.
@@ -86,7 +87,7 @@ def rigid_map(p, restitution, y, tolerance):
     work = workspace()
     flight = np.int64(0)  # a literal would have the step compiled for it alone
     t = strobe_time(p)
-    end = t + 2.0 * math.pi / p[0]
+    end = t + 2.0 * math.pi / p[FREQUENCY]
     impacts, speed, first, largest = 0, math.inf, (math.nan, math.nan), abs(y[0])
     while t < end and impacts < MOST_IMPACTS:
         length, side = step(p, state, tangents, flight, t, end - t, tolerance, work)

@@ -15,6 +15,7 @@ from impact_damper.contact.contact_law import damping_ratio, natural_frequency
 from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rigid_map
 from impact_damper.data.datasets import flag
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE
+from impact_damper.system.packed import CLEARANCE, DASHPOT
 from impact_damper.system.parameters import pack
 
 IMPACTS = 2
@@ -74,7 +75,7 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 
 def _solve(p, restitution, guess, reach):
     p = p.copy()
-    p[6] = 0.0
+    p[DASHPOT] = 0.0
     restitution = float(restitution)  # a whole number would have the map compiled again
     y = np.array(guess, float)
     for k in range(ITERATIONS):
@@ -137,5 +138,5 @@ def mended_orbit(oscillator, damper, frequency, orbit, reach):
     """`rigid_orbit` between the walls of `mended`, from the orbit of the plain rigid model."""
     clearance, restitution = mended(oscillator, damper, orbit)
     p = pack(oscillator, damper, frequency)
-    p[3] = clearance
+    p[CLEARANCE] = clearance
     return _solve(p, restitution, orbit.state, reach)

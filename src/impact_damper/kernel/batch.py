@@ -11,6 +11,7 @@ import numpy as np
 
 from impact_damper.kernel import instances
 from impact_damper.kernel.compiling import aligned, kernel, pointer, within
+from impact_damper.system import packed
 
 LANES = 16
 # Trajectories in a pool: enough for a full step to be found nearly always.
@@ -77,7 +78,7 @@ def make_pool(size):
 def enter(pool, m, p, y, side, tolerance):
     """Put a trajectory into a place of the pool; `send` lets it go."""
     numbers = pool.numbers[m]
-    for i in range(7):
+    for i in range(packed.COUNT):
         numbers[i] = p[i]
     for i in range(4):
         numbers[STATE + i] = y[i]
@@ -197,7 +198,7 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts):
 
     Parameters
     ----------
-    parameters : array, shape (m, 7)
+    parameters : array, shape (m, packed.COUNT)
         Packed parameters (`parameters.pack`).
     states : array, shape (m, 4)
         Z1, Z1', Z2, Z2'; replaced.

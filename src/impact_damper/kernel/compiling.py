@@ -29,7 +29,7 @@ def source_digest() -> str:
     root = Path(__file__).parents[1]
     for path in sorted(root.rglob("*.py")):
         source = path.read_bytes()
-        if any(mark in source for mark in MARKS) or path.name == "recurrence.py":
+        if any(mark in source for mark in MARKS) or path.name in ("recurrence.py", "packed.py"):
             digest.update(path.relative_to(root).as_posix().encode() + b"\0" + source)
     return digest.hexdigest()[:16]
 

@@ -8,6 +8,8 @@ import numpy as np
 
 from impact_damper.kernel import instances
 from impact_damper.kernel.compiling import LINE, aligned, kernel, pointer, within
+from impact_damper.system import packed
+from impact_damper.system.packed import CLEARANCE
 
 _ONE = instances.instance(1)
 kept_series = _ONE.kept_series
@@ -53,7 +55,7 @@ def polynomial(c, order, t):
 @within
 def place(p, y, side, tolerance, a):
     """Put a trajectory into a workspace, whose first rows are the same for series of any orders."""
-    for i in range(7):
+    for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
         a[STATE + i] = y[i]
@@ -105,7 +107,7 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
 
     Parameters
     ----------
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters (`parameters.pack`).
     y : array, shape (4,)
         Z1, Z1', Z2, Z2'; replaced.
@@ -136,9 +138,9 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
 @kernel
 def side_of(p, y):
     """Wall in contact in a state: beyond it, or on it and moving outward."""
-    if y[2] > p[3] or (y[2] == p[3] and y[3] > 0.0):
+    if y[2] > p[CLEARANCE] or (y[2] == p[CLEARANCE] and y[3] > 0.0):
         return 1
-    if y[2] < -p[3] or (y[2] == -p[3] and y[3] < 0.0):
+    if y[2] < -p[CLEARANCE] or (y[2] == -p[CLEARANCE] and y[3] < 0.0):
         return -1
     return 0
 

@@ -14,6 +14,7 @@ from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
 from impact_damper.migration import legs
 from impact_damper.migration.damper_release import destination, kinds
 from impact_damper.motions.records import MOTION, trace
+from impact_damper.system.packed import FREQUENCY
 
 MARGIN = 10
 SAMPLES = 40
@@ -89,7 +90,7 @@ def course(here, path, log, tolerance):
     Each stretch between two rows of the path is integrated by itself, so that a chaotic motion
     is the very one that was controlled.
     """
-    period = 2 * np.pi / here.on[0]
+    period = 2 * np.pi / here.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, here.state), path])
     ends = np.append(path[1:, 0], path[-1, 0] + MARGIN)
     times = np.arange(-MARGIN * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
@@ -113,7 +114,7 @@ def course(here, path, log, tolerance):
 
 def switching_data(logs, here):
     """Registered variables of each switching, over (..., switching)."""
-    period = 2 * np.pi / here.on[0]
+    period = 2 * np.pi / here.on[FREQUENCY]
     kind = kinds(logs["released_period"], logs["released_displacement"], here.known)
     absent = logs["destination"] == FREE_MOTION["none"]
     data = {name: (logs[name] + 0.25) * period for name in ("on_time", "off_time", "end_time")}

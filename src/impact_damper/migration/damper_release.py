@@ -18,7 +18,8 @@ from impact_damper.migration import legs
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import random_states
-from impact_damper.motions.sweep import FREQUENCY, Catalogue, record_at
+from impact_damper.motions.sweep import Catalogue, record_at
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import FREQUENCY_RANGE, pack
 from impact_damper.theory.single_harmonic import free_solutions, impacting_solutions
 
@@ -35,7 +36,7 @@ class Scene(NamedTuple):
 
     Attributes
     ----------
-    on, off : array, shape (7,)
+    on, off : array, shape (packed.COUNT,)
     state : array, shape (4,)
         Free resonance motion at a strobe.
     known : array, shape (2,)

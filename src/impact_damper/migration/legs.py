@@ -15,6 +15,7 @@ from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.motions.records import UNRESOLVED, measure, trace
 from impact_damper.motions.settling import NEAR, NEAREST, RING, land, nearby_period
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # A run counts as captured by an orbit after the last strobe at which (Z1, Z1') is farther from
 # it than this.
@@ -38,7 +39,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
     path[0, 0] = strobe - ahead
     assign(path[0, 1:], y)
     side, _, _ = advance(
-        p, y, none, side_of(p, y), t - ahead * 2.0 * math.pi / p[0], t, tolerance, work
+        p, y, none, side_of(p, y), t - ahead * 2.0 * math.pi / p[FREQUENCY], t, tolerance, work
     )
     for k in range(limit + 1):
         path[k + 1, 0] = strobe + k
@@ -61,7 +62,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
 
     Parameters
     ----------
-    before, after : array, shape (7,)
+    before, after : array, shape (packed.COUNT,)
         Packed parameters before and after the switching, one of them without the damper.
     y : array, shape (4,)
         State at the strobe; replaced by that at the last one.
@@ -84,12 +85,12 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
     """
     none = np.empty((0, 4))
     t = strobe_time(before)
-    end = t + wait * 2.0 * math.pi / before[0]
+    end = t + wait * 2.0 * math.pi / before[FREQUENCY]
     advance(before, y, none, side_of(before, y), t, end, tolerance, workspace())
-    if after[3] == math.inf:
+    if after[CLEARANCE] == math.inf:
         y[2], y[3] = y[0], y[1]
     else:
-        y[2], y[3] = place * after[3], 0.0
+        y[2], y[3] = place * after[CLEARANCE], 0.0
     strobe += math.floor(wait) + 1.0
     record = out[0]
     run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, record)
@@ -102,7 +103,7 @@ def life(p, path, record, tolerance):
     """Forcing periods until a run came within CAPTURE of the orbit it settled on, for good."""
     orbit = np.empty((record["period"], 4))
     begin = strobe_time(p)
-    strobes = begin + np.arange(len(orbit)) * 2.0 * math.pi / p[0]
+    strobes = begin + np.arange(len(orbit)) * 2.0 * math.pi / p[FREQUENCY]
     trace(p, record["state"].copy(), begin, strobes, tolerance, orbit, np.empty((0, 5)))
     last = record["periods_run"]
     there = orbit[np.arange(-last, 1) % len(orbit), :2]

@@ -12,6 +12,8 @@ from tqdm import tqdm
 
 from impact_damper.motions.records import MOTION, measure
 from impact_damper.motions.settling import settle_many
+from impact_damper.system import packed
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import check_count, check_number
 
 CHUNK = 128
@@ -69,7 +71,7 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
 
     Parameters
     ----------
-    parameters : array, shape (m, 7)
+    parameters : array, shape (m, packed.COUNT)
         Packed parameters of each motion.
     states : array, shape (m, 4)
         First states Z1, Z1', Z2, Z2', at T = 0 or, with `from_strobe`, at W T = pi/2.
@@ -93,15 +95,18 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
     states = np.ascontiguousarray(states, float)
-    if states.shape[1:] != (4,) or parameters.shape != (len(states), 7):
+    if states.shape[1:] != (4,) or parameters.shape != (len(states), packed.COUNT):
         raise ValueError(
-            f"parameters and states: must be of shapes (m, 7) and (m, 4), "
+            f"parameters and states: must be of shapes (m, {packed.COUNT}) and (m, 4), "
             f"{parameters.shape} and {states.shape} given"
         )
     found = np.zeros(len(states), MOTION)
 
     def work(part):
-        start = 0.5 * np.pi / parameters[part, 0] if from_strobe else np.zeros(len(found[part]))
+        if from_strobe:
+            start = 0.5 * np.pi / parameters[part, FREQUENCY]
+        else:
+            start = np.zeros(len(found[part]))
         settle_many(
             parameters[part],
             states[part],

@@ -7,7 +7,9 @@ import numpy as np
 from impact_damper.data.datasets import flag
 from impact_damper.motions import records, strobe_map
 from impact_damper.motions.simulate import check_settling, random_states
-from impact_damper.motions.sweep import FREQUENCY, SAME, record_at, sweep
+from impact_damper.motions.sweep import SAME, record_at, sweep
+from impact_damper.system import packed
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import pack
 
 SEARCHED = 81
@@ -18,7 +20,7 @@ class FreeSubharmonic(NamedTuple):
 
     Attributes
     ----------
-    parameters, states : numpy.ndarray, shapes (n, 7) and (n, 4)
+    parameters, states : numpy.ndarray, shapes (n, packed.COUNT) and (n, 4)
         It at the frequencies where it was found, at W T = pi/2; empty if it was not.
     ends : numpy.ndarray, shape (2,)
         Frequencies between which it exists, NaN if it was not found.
@@ -60,7 +62,8 @@ def free_subharmonic(
     branches, counts = np.unique(data["branch"][1][chosen], return_counts=True)
     if len(branches) == 0:
         events = np.full(2, flag("free_subharmonic_event", "not_found"))
-        return FreeSubharmonic(np.empty((0, 7)), np.empty((0, 4)), np.full(2, np.nan), events)
+        none = np.empty((0, packed.COUNT)), np.empty((0, 4))
+        return FreeSubharmonic(*none, np.full(2, np.nan), events)
     branch = branches[np.argmax(counts)]
     row, column = np.nonzero(chosen & (data["branch"][1] == branch))
     ends, events = branch_ends(data, branch, frequencies, row)
@@ -73,7 +76,7 @@ def switched_on(oscillator, p, state, loose, generator):
     Parameters
     ----------
     oscillator : Oscillator
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters with the damper.
     state : array, shape (4,)
         The free subharmonic at W T = pi/2.

@@ -8,6 +8,7 @@ from impact_damper.kernel.compiling import inlined, kernel, within
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 SAMPLES = 64
 
@@ -68,7 +69,7 @@ def measure_one(p, y, periods, tolerance, out):
     """`measure` of one motion over so many forcing periods."""
     work = workspace()
     none = np.empty((0, 4))
-    period = 2.0 * math.pi / p[0]
+    period = 2.0 * math.pi / p[FREQUENCY]
     begin = strobe_time(p)
     end = begin + periods * period
     spacing = period / SAMPLES
@@ -89,8 +90,8 @@ def measure_one(p, y, periods, tolerance, out):
         contacts += before == 0 and side != 0
         while begin + sample * spacing < t + length and sample < periods * SAMPLES:
             x, _, z, _ = series_of_step(work, before, start, begin + sample * spacing - t)
-            z += before * p[3] if before != 0 else 0.0
-            angle = p[0] * (begin + sample * spacing)
+            z += before * p[CLEARANCE] if before != 0 else 0.0
+            angle = p[FREQUENCY] * (begin + sample * spacing)
             turn = complex(math.cos(angle), -math.sin(angle))
             first += x * turn
             second += z * turn
@@ -155,7 +156,8 @@ def trace(p, y, t, times, tolerance, states, log):
         while sample < len(times) and (times[sample] - t < length or length >= left):
             x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
             states[sample, 0], states[sample, 1] = x, v
-            states[sample, 2], states[sample, 3] = z + (before * p[3] if before != 0 else 0.0), w
+            states[sample, 2] = z + (before * p[CLEARANCE] if before != 0 else 0.0)
+            states[sample, 3] = w
             sample += 1
         t += length
         if before == 0 and side != 0:
@@ -184,8 +186,8 @@ def first_collisions(parameters, states, limit, tolerance, periods):
         y = states[i].copy()
         t = 0.0
         side = side_of(p, y)
-        end = limit * 2.0 * math.pi / p[0]
+        end = limit * 2.0 * math.pi / p[FREQUENCY]
         while side == 0 and t < end:
             length, side = step(p, y, none, side, t, end - t, tolerance, work)
             t += length
-        periods[i] = t * p[0] / (2.0 * math.pi) if side != 0 else np.inf
+        periods[i] = t * p[FREQUENCY] / (2.0 * math.pi) if side != 0 else np.inf

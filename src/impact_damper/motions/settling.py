@@ -32,6 +32,7 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
     strobe_time,
 )
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
@@ -165,7 +166,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     k = seen.strobes
     if k == limit:
         return True
-    period = 2.0 * math.pi / p[0]
+    period = 2.0 * math.pi / p[FREQUENCY]
     for i in range(4):
         ring[k % RING, i] = y[i]
     out.periods_run = k
@@ -177,12 +178,12 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
     if n > 0:
         if land(p, y, n, seen.near, out):
-            if seen.quiet >= out.period and p[3] < math.inf:
+            if seen.quiet >= out.period and p[CLEARANCE] < math.inf:
                 out.outcome = NON_COLLIDING
             return True
         seen.near = max(0.1 * seen.near, NEAREST)
     drift = abs(y[3] - y[1]) * limit * period
-    if seen.quiet >= patience and drift < 0.01 * p[3] < math.inf:
+    if seen.quiet >= patience and drift < 0.01 * p[CLEARANCE] < math.inf:
         out.outcome = NON_COLLIDING
         return True
     half = patience // 2
@@ -210,7 +211,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out):
 
     Parameters
     ----------
-    parameters : array, shape (m, 7)
+    parameters : array, shape (m, packed.COUNT)
         Packed parameters.
     states : array, shape (m, 4)
     start : array, shape (m,)
@@ -247,7 +248,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out):
                 following += 1
             else:
                 with_tangent = seen[m].strobes > patience // 2
-                send(pool, m, strobe, strobe + 2.0 * math.pi / p[0], with_tangent)
+                send(pool, m, strobe, strobe + 2.0 * math.pi / p[FREQUENCY], with_tangent)
 
 
 @kernel

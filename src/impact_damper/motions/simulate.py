@@ -4,6 +4,7 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, is_settled
 from impact_damper.motions import ensemble, records
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import (
     check_count,
     check_number,
@@ -150,9 +151,9 @@ def simulate(
     most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
     check_count("samples", samples, least=2, most=most, why=f"{MOST_SAMPLES} in all")
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)
-    farthest = 1e6 * 2 * np.pi / p[0]
+    farthest = 1e6 * 2 * np.pi / p[FREQUENCY]
     start = check_number("start", start, least=-farthest, most=farthest)
-    length = periods * 2 * np.pi / p[0]
+    length = periods * 2 * np.pi / p[FREQUENCY]
     times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
     states = np.empty((len(times), 4))
     log = np.empty((1024, 5))

@@ -10,6 +10,7 @@ import numpy as np
 
 from impact_damper.kernel.compiling import inlined, kernel, within
 from impact_damper.kernel.single import advance, assign, side_of, workspace
+from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
 CONVERGED = 1e-9
 POLISH_TOLERANCE = 1e-12
@@ -21,20 +22,22 @@ SAME_STATE = 1e-4
 @kernel
 def strobe_time(p):
     """The time within a forcing period at which motions are looked at."""
-    return 0.5 * math.pi / p[0]
+    return 0.5 * math.pi / p[FREQUENCY]
 
 
 @inlined
 def one_period(p, y, tangents, side, tolerance, work):
     """Integrate from strobe to strobe; returns what `advance` returns."""
     t = strobe_time(p)
-    return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[0], tolerance, work)
+    return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[FREQUENCY], tolerance, work)
 
 
 @within
 def speed_weight(p, side):
     """Weight of Z2' in `distance`: 1 in flight; in contact it moves faster than Z2 by 1/weight."""
-    return 1.0 / math.sqrt(1.0 + p[4] * (1.0 + p[5])) if side != 0 else 1.0
+    if side == 0:
+        return 1.0
+    return 1.0 / math.sqrt(1.0 + p[CONTACT_STIFFNESS] * (1.0 + p[INVERSE_MASS_RATIO]))
 
 
 @kernel
@@ -50,7 +53,7 @@ def flow_map(p, y, begin, periods, half, tolerance):
 
     Returns the state, its derivative (4, 4), the contacts begun and the time in contact.
     """
-    period = 2.0 * math.pi / p[0]
+    period = 2.0 * math.pi / p[FREQUENCY]
     state = y.copy()
     tangents = np.eye(4)
     work = workspace()

@@ -19,7 +19,6 @@ from impact_damper.motions.simulate import tabulate
 SAME = 1e-6
 CHAOTIC_GAP = 1.5
 RESOLUTION = 1e-8
-FREQUENCY, CLEARANCE = 0, 3
 
 
 class Catalogue:
@@ -192,7 +191,7 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
 
     Parameters
     ----------
-    parameters : array, shape (n, 7)
+    parameters : array, shape (n, packed.COUNT)
         Packed parameters in the order of the sweep, alike but for one.
     index : int
         Which parameter varies: FREQUENCY or CLEARANCE.

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from impact_damper.orbits.continuation import Point
+from impact_damper.system.packed import FREQUENCY
 
 PLACE = 1e-12
 COMPLEX = 1e-6
@@ -138,7 +139,7 @@ def _contact_event(orbit):
     """Whether the weakest contact has just parted from another or was born in flight."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
-    period = 2 * np.pi / orbit.p[0]
+    period = 2 * np.pi / orbit.p[FREQUENCY]
     flight = (contacts[k, 1] - contacts[k - 1, 2]) % (orbit.periods * period)
     merging = contacts[k, 0] == contacts[k - 1, 0] and flight < MERGED * period
     return "merging" if merging else "grazing"

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.orbits.shooting import TURN, Orbit, shoot
+from impact_damper.system.packed import CLEARANCE
 
 NUDGE = 1e-5
 NEWTON = 16
@@ -77,7 +78,7 @@ class Problem:
             orbit.periods,
             orbit.phase,
             orbit.state[2:] - orbit.state[:2],
-            bool(np.isfinite(orbit.p[3])),
+            bool(np.isfinite(orbit.p[CLEARANCE])),
             bool(orbit.record["asymmetry"] < SYMMETRIC),
         )
 

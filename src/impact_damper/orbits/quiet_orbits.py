@@ -13,6 +13,7 @@ import numpy as np
 
 from impact_damper.data.datasets import flag
 from impact_damper.orbits.shooting import STROBE, Orbit, shoot
+from impact_damper.system import packed
 
 CONTACTS = 2
 SYMMETRIC = 1e-6
@@ -83,7 +84,7 @@ def quiet_orbits(parameters, states) -> QuietOrbits:
 
     Parameters
     ----------
-    parameters : array, shape (rows, columns, 7)
+    parameters : array, shape (rows, columns, packed.COUNT)
         Packed parameters of the cells; along a row the frequency changes alone.
     states : array, shape (rows, columns, 4)
         States of known orbits at W T = pi/2, NaN where none is known.
@@ -97,9 +98,9 @@ def quiet_orbits(parameters, states) -> QuietOrbits:
     ValueError
         If the arrays are not of these shapes.
     """
-    if parameters.shape[2:] != (7,) or states.shape != (*parameters.shape[:2], 4):
+    if parameters.shape[2:] != (packed.COUNT,) or states.shape != (*parameters.shape[:2], 4):
         raise ValueError(
-            f"parameters and states: must be of shapes (n, m, 7) and (n, m, 4), "
+            f"parameters and states: must be of shapes (n, m, {packed.COUNT}) and (n, m, 4), "
             f"{parameters.shape} and {states.shape} given"
         )
     rows, columns = states.shape[:2]

@@ -14,6 +14,7 @@ import numpy as np
 from impact_damper.kernel.single import advance, side_of, workspace
 from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, flow_map
+from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
 
 TURN = 2 * math.pi
 STROBE = math.pi / 2
@@ -31,7 +32,7 @@ class Orbit:
 
     Attributes
     ----------
-    p : numpy.ndarray, shape (7,)
+    p : numpy.ndarray, shape (packed.COUNT,)
         Packed parameters.
     periods : int
         Its period n in forcing periods.
@@ -95,7 +96,8 @@ class Orbit:
         It must be exp(-h n 2 pi/W - 2 zeta_c sqrt(r1 rm) (1 + 1/rm) t_c), t_c the time in contact.
         """
         p = self.p
-        rate = p[1] * self.periods * TURN / p[0] + p[6] * (1 + p[5]) * self.touching
+        contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
+        rate = p[DAMPING] * self.periods * TURN / p[FREQUENCY] + contact_damping * self.touching
         return abs(np.linalg.det(self.monodromy) * math.exp(rate) - 1)
 
     @cached_property
@@ -107,8 +109,8 @@ class Orbit:
         ArithmeticError
             If there are more than 64 a forcing period.
         """
-        begin = self.phase / self.p[0]
-        end = begin + self.periods * TURN / self.p[0]
+        begin = self.phase / self.p[FREQUENCY]
+        end = begin + self.periods * TURN / self.p[FREQUENCY]
         # A contact under way at the phase is whole where it comes again.
         touching = side_of(self.p, self.state) != 0
         last = end + touching * (end - begin)
@@ -147,8 +149,8 @@ class Orbit:
     def at(self, phase):
         """The state at a phase not before the orbit's own."""
         y = self.state.copy()
-        begin = self.phase / self.p[0]
-        end = begin + (phase - self.phase) / self.p[0]
+        begin = self.phase / self.p[FREQUENCY]
+        end = begin + (phase - self.phase) / self.p[FREQUENCY]
         side = side_of(self.p, y)
         advance(self.p, y, np.empty((0, 4)), side, begin, end, POLISH_TOLERANCE, workspace())
         return y
@@ -180,7 +182,7 @@ class Orbit:
 
     def margin(self, phase):
         """Distance of a phase from the nearest contact, radian; negative inside one."""
-        begins, ends = self.p[0] * self.contacts[:, 1], self.p[0] * self.contacts[:, 2]
+        begins, ends = (self.p[FREQUENCY] * self.contacts[:, k] for k in (1, 2))
         cycle = self.periods * TURN
         ahead, behind = (begins - phase) % cycle, (phase - ends) % cycle
         inside = (phase - begins) % cycle < (ends - begins)
@@ -193,8 +195,8 @@ class Orbit:
         """
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
-        ends = self.p[0] * self.contacts[:, 2]
-        begins = self.p[0] * np.append(self.contacts[1:, 1], self.contacts[0, 1])
+        ends = self.p[FREQUENCY] * self.contacts[:, 2]
+        begins = self.p[FREQUENCY] * np.append(self.contacts[1:, 1], self.contacts[0, 1])
         flights = (begins - ends) % (self.periods * TURN)
         k = np.argmax(flights)
         return self.phase + (ends[k] + flights[k] / 2 - self.phase) % (self.periods * TURN)
@@ -205,7 +207,7 @@ def shoot(p, state, periods, phase, *, symmetric=False):
 
     Parameters
     ----------
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters.
     state : array, shape (4,)
     periods : int
@@ -223,7 +225,8 @@ def shoot(p, state, periods, phase, *, symmetric=False):
         The state after the periods, or the mirrored one after half of them.
     """
     whole, sign = (periods // 2, -1) if symmetric else (periods, 1)
-    end, matrix, _, touching = flow_map(p, state, phase / p[0], whole, symmetric, POLISH_TOLERANCE)
+    begin = phase / p[FREQUENCY]
+    end, matrix, _, touching = flow_map(p, state, begin, whole, symmetric, POLISH_TOLERANCE)
     end, matrix = sign * end, sign * matrix
     residual = float(np.max(np.abs(end - state)))
     converged = residual <= RESIDUAL * max(1.0, np.max(np.abs(state)))

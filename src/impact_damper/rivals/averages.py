@@ -7,6 +7,7 @@ import numpy as np
 from impact_damper.contact.rigid_impacts import rigid_map
 from impact_damper.kernel.single import advance, side_of, workspace
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.system.packed import DASHPOT, FREQUENCY
 
 STATISTICS = ("contact_rate", "displacement", "exponent")
 EXPONENT_TOLERANCE = 1e-9
@@ -21,7 +22,7 @@ def of_run(p, run, begin, periods, batch):
         Of arrays (periods // batch,), by statistic.
     """
     count = periods // batch
-    edges = begin + 2 * math.pi / p[0] * np.arange(count * batch + 1)
+    edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]
     largest = np.zeros(count * batch)
     within = np.searchsorted(edges, run.peak_times, side="right") - 1
@@ -36,7 +37,7 @@ def of_run(p, run, begin, periods, batch):
 def exponents(p, start, tolerance, periods, batch):
     """Largest Lyapunov exponent of the Taylor series, a unit of time, by batch."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
-    side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[0]
+    side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
     for k in range(periods):
         side, _, _ = advance(p, y, tangent, side, begin, begin + period, tolerance, work)
@@ -48,8 +49,8 @@ def exponents(p, start, tolerance, periods, batch):
 def rigid_exponents(restitution, p, start, tolerance, periods, batch):
     """That of the rigid model."""
     p = p.copy()
-    p[6] = 0.0
-    y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[0]
+    p[DASHPOT] = 0.0
+    y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
     for k in range(periods):
         y, matrix, _, _, _, _ = rigid_map(p, restitution, y, tolerance)

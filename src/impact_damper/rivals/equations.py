@@ -7,14 +7,23 @@ at zero penetration, and the dashpot's force jumps at both ends.
 import math
 
 from impact_damper.kernel.compiling import kernel, within
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    DAMPING,
+    DASHPOT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+)
 
 
 @kernel
 def wall_at(p, z):
     """Wall that acts at a position Z2: -1, 0 within the clearance, or 1."""
-    if z > p[3]:
+    if z > p[CLEARANCE]:
         return 1
-    if z < -p[3]:
+    if z < -p[CLEARANCE]:
         return -1
     return 0
 
@@ -22,16 +31,16 @@ def wall_at(p, z):
 @kernel
 def rate(p, side, t, y):
     """Rate of the state (Z1, Z1', Z2, Z2') while a wall acts (`side`: -1, 0 for none, 1)."""
-    return rate_under(p, side, math.cos(p[0] * t), y)
+    return rate_under(p, side, math.cos(p[FREQUENCY] * t), y)
 
 
 @within
 def rate_under(p, side, drive, y):
     """`rate` under a known forcing."""
     x, v, z, w = y
-    force = p[4] * (z - side * p[3]) + p[6] * w if side != 0 else 0.0
-    a = drive - p[1] * v - (p[2] + x * x) * x - force
-    return v, a, w, a - p[5] * force
+    force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
+    a = drive - p[DAMPING] * v - (p[STIFFNESS] + x * x) * x - force
+    return v, a, w, a - p[INVERSE_MASS_RATIO] * force
 
 
 @within

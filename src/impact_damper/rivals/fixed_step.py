@@ -9,6 +9,7 @@ import numpy as np
 
 from impact_damper.kernel.compiling import kernel, within
 from impact_damper.rivals.equations import largest_within, moved, rate_by_position
+from impact_damper.system.packed import FREQUENCY
 
 METHODS = ("heun", "verlet", "runge_kutta_4", "merson")
 HEUN, VERLET, RUNGE_KUTTA_4, MERSON = range(4)
@@ -30,10 +31,10 @@ BEYOND = 1e3
 def forcing(p, t, h):
     """The forcing at the beginning of a step, after a third and a half of it, and at its end."""
     return (
-        math.cos(p[0] * t),
-        math.cos(p[0] * (t + h / 3.0)),
-        math.cos(p[0] * (t + 0.5 * h)),
-        math.cos(p[0] * (t + h)),
+        math.cos(p[FREQUENCY] * t),
+        math.cos(p[FREQUENCY] * (t + h / 3.0)),
+        math.cos(p[FREQUENCY] * (t + 0.5 * h)),
+        math.cos(p[FREQUENCY] * (t + h)),
     )
 
 
@@ -98,7 +99,7 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     ----------
     method : int
         Number in `METHODS`.
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters (`parameters.pack`).
     start : array, shape (4,)
     t : float
@@ -114,7 +115,7 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     int
         Periods run.
     """
-    h = 2.0 * math.pi / p[0] / steps
+    h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     strobes[:] = np.nan
     largest[:] = np.nan

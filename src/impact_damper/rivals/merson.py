@@ -12,6 +12,7 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel
 from impact_damper.rivals.equations import largest_within, moved, rate, wall_at
 from impact_damper.rivals.fixed_step import BEYOND
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # A step shorter than this means that the tolerance cannot be met.
 SHORTEST = 1e-12
@@ -45,8 +46,8 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 def ahead(p, side, y):
     """How far the state is from its next event: the gap in flight, the penetration in contact."""
     if side == 0:
-        return p[3] - abs(y[2])
-    return side * y[2] - p[3]
+        return p[CLEARANCE] - abs(y[2])
+    return side * y[2] - p[CLEARANCE]
 
 
 @kernel
@@ -76,7 +77,7 @@ def located(p, side, t, h, y, tolerance):
         state, _ = estimated_step(p, side, False, t, length, y, tolerance)
         tries += 1
         now = ahead(p, side, state)
-        if abs(now) <= 1e-15 * p[3]:
+        if abs(now) <= 1e-15 * p[CLEARANCE]:
             break
         if now > 0.0:
             low, before = length, now
@@ -128,7 +129,7 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
         if locate and ahead(p, side, after) < 0.0:
             length, after, repeated = located(p, side, t, length, state, tolerance)
             tries += repeated
-            on_wall = p[3] if after[2] > 0.0 else -p[3]
+            on_wall = p[CLEARANCE] if after[2] > 0.0 else -p[CLEARANCE]
             after = (after[0], after[1], on_wall, after[3])
             if side == 0:
                 side = 1 if after[2] > 0.0 else -1
@@ -158,7 +159,7 @@ def run_merson(p, start, t, tolerance, locate, strobes, largest):
     """
     y = start.copy()
     none = np.empty((0, 5))
-    period = 2.0 * math.pi / p[0]
+    period = 2.0 * math.pi / p[FREQUENCY]
     side, h, total = wall_at(p, y[2]), 1e-3 * period, 0
     strobes[:] = np.nan
     largest[:] = np.nan

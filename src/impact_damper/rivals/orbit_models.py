@@ -27,6 +27,7 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.rivals.runs import rigid
 from impact_damper.rivals.taylor_runs import FLIGHT, all_steps, counted, step_work, steps_work
 from impact_damper.stages import harmonic_convergence
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 from impact_damper.system.parameters import pack
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.many_harmonics import Balance, Solution, solve
@@ -190,7 +191,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
     better, _ = mended_orbit(oscillator, damper, frequency, orbit, REACH)
     if better is None:
         return models | {"rigid_mended": without("failed", work)}
-    p[3], restitution = mended(oscillator, damper, orbit)
+    p[CLEARANCE], restitution = mended(oscillator, damper, orbit)
     run = rigid(p, restitution, better.state, strobe_time(p), 1, POLISH_TOLERANCE)
     phases = _phases(p, run)
     work += better.maps * each
@@ -199,7 +200,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
 
 
 def _phases(p, run):
-    return p[0] * run.contact_times % (2 * math.pi)
+    return p[FREQUENCY] * run.contact_times % (2 * math.pi)
 
 
 def shooting(oscillator, damper, frequency, start):
@@ -212,6 +213,6 @@ def shooting(oscillator, damper, frequency, start):
     work = start.operations + orbit.maps * each
     if not orbit.converged:
         return without("failed", work)
-    phases = p[0] * orbit.contacts[:, 1] % (2 * math.pi) if orbit.touching else np.empty(0)
+    phases = p[FREQUENCY] * orbit.contacts[:, 1] % (2 * math.pi) if orbit.touching else np.empty(0)
     largest = float(orbit.record["maximum_displacement"])
     return Model("ended", work, orbit.strobe_states[0], phases, largest)

@@ -13,6 +13,7 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, polynomial, step, workspace
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 PIECES = 16
 TOLERANCE = 1e-15
@@ -81,7 +82,7 @@ def largest_of_flight(p, y, t, end):
 def free_flight(p):
     """The packed parameters without walls."""
     free = p.copy()
-    free[3] = math.inf
+    free[CLEARANCE] = math.inf
     return free
 
 
@@ -93,7 +94,7 @@ def draw_passages(p, count, radius, deepest, seed):
 
     Parameters
     ----------
-    p : numpy.ndarray, shape (7,)
+    p : numpy.ndarray, shape (packed.COUNT,)
         Packed parameters; only those of the oscillator count.
     count : int
     radius, deepest : float
@@ -112,7 +113,7 @@ def draw_passages(p, count, radius, deepest, seed):
         size = radius * random.random() ** 0.25
         state = size * direction / np.linalg.norm(direction)
         y = state.copy()
-        found = largest_of_flight(free, y, 0.0, 2 * math.pi / p[0])
+        found = largest_of_flight(free, y, 0.0, 2 * math.pi / p[FREQUENCY])
         if found[1] - max(abs(state[2]), abs(y[2])) > deepest and found[1] > 2 * deepest:
             passages.append(Passage(state, *found))
     return passages, drawn

@@ -22,6 +22,7 @@ from impact_damper.rivals.equations import rate, wall_at
 from impact_damper.rivals.merson import advance_merson, estimated_step
 from impact_damper.rivals.operations import operations
 from impact_damper.rivals.taylor_runs import FLIGHT, MEETING, Run, root, steps_work, stopped
+from impact_damper.system.packed import CLEARANCE, DASHPOT, FREQUENCY
 
 MOST_ENDS = 400_000
 SIZE = 4
@@ -44,9 +45,9 @@ def rigid(p, restitution, start, t, periods, tolerance):
     A peak is the largest |Z1| of a period, its time the middle of it.
     """
     p = p.copy()
-    p[6] = 0.0
+    p[DASHPOT] = 0.0
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
-    period, counts = 2 * math.pi / p[0], [0, 0, 0]
+    period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
     began, peaks = [], []
     for k in range(periods):
         _, _, impacts, _, _, largest = rigid_map(p, restitution, y, tolerance)
@@ -69,7 +70,7 @@ def rigid(p, restitution, start, t, periods, tolerance):
 
 def runge_kutta_merson(p, start, t, periods, tolerance, locate):
     """By the paper's method, through the kink or with contacts located."""
-    y, period = start.copy(), 2 * math.pi / p[0]
+    y, period = start.copy(), 2 * math.pi / p[FREQUENCY]
     side, h, tries = side_of(p, y), 1e-3 * period, 0
     times, ends = [np.array([t])], [start[None]]
     rows = np.empty((MOST_ENDS, 5))
@@ -90,13 +91,13 @@ def scipy_run(method, p, start, t, periods, tolerance, locate, most_evaluations)
     """By one of SciPy's methods, through the kink or with contacts as events."""
     counted = scipy_methods.Counted(most_evaluations)
     times, ends, status = [np.array([t])], [start[None]], "failed"
-    end = t + periods * 2 * math.pi / p[0]
+    end = t + periods * 2 * math.pi / p[FREQUENCY]
     try:
         for run in scipy_methods.pieces(method, p, start, t, end, tolerance, locate, counted):
             status = "failed" if run.status < 0 else "ended"
             later, states = run.t[1:].copy(), run.y.T[1:].copy()
             if run.status == 1:
-                states[-1, 2] = math.copysign(p[3], states[-1, 2])
+                states[-1, 2] = math.copysign(p[CLEARANCE], states[-1, 2])
             times.append(later)
             ends.append(states)
     except scipy_methods.TooManyEvaluations:
@@ -122,11 +123,11 @@ def read_off(p, work, times, ends):
 
 def beginnings(p, times, ends):
     """When contacts begin: between a state within the walls and one at or beyond a wall."""
-    place, gap = ends[:, 2], p[3] - np.abs(ends[:, 2])
+    place, gap = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (gap > 0) | ((gap == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
     penetration = quintics(p, times, ends, 2, steps) * np.sign(place[steps + 1])
-    penetration[0] -= p[3]
+    penetration[0] -= p[CLEARANCE]
     began = times[steps] + np.diff(times)[steps] * root(penetration, 0.0, 1.0)
     return np.where(gap[steps + 1] == 0, times[steps + 1], began)
 

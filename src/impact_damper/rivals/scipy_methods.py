@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
 from impact_damper.rivals.equations import rate, wall_at
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 METHODS = ("RK45", "DOP853", "LSODA", "Radau")
 BY_POSITION = 2
@@ -88,7 +89,7 @@ def pieces(method, p, start, t, end, tolerance, locate, counted, times=None):
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
 
     def gap(_, y, p, side):
-        return p[3] - abs(y[2]) if side == 0 else side * y[2] - p[3]
+        return p[CLEARANCE] - abs(y[2]) if side == 0 else side * y[2] - p[CLEARANCE]
 
     gap.terminal, gap.direction = True, -1
     status = 1
@@ -112,7 +113,7 @@ def pieces(method, p, start, t, end, tolerance, locate, counted, times=None):
         if status == 1:
             t, y = run.t_events[0][0], run.y_events[0][0].copy()
             contact = 1 if y[2] > 0 else -1
-            y[2] = contact * p[3]
+            y[2] = contact * p[CLEARANCE]
             side = contact if side == 0 else 0
 
 
@@ -127,7 +128,7 @@ def run_scipy(method, p, start, t, tolerance, locate, periods, most_evaluations=
     most_evaluations : int
         Of the rate, in all; a run that needs more is given up as a failure.
     """
-    times = t + 2 * math.pi / p[0] * np.arange(1, periods + 1)
+    times = t + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
     strobes = np.full((periods, 4), np.nan)
     done = 0
     counted = Counted(most_evaluations)

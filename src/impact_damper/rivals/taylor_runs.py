@@ -29,6 +29,7 @@ from impact_damper.kernel.single import (
     side_of,
 )
 from impact_damper.rivals.operations import operations
+from impact_damper.system.packed import FREQUENCY
 
 # Kinds of steps: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
@@ -122,7 +123,7 @@ def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
     The state is NaN where steps become too short to get on.
     """
     y, side = start.copy(), side_of(p, start)
-    end, parts = t + periods * 2 * math.pi / p[0], []
+    end, parts = t + periods * 2 * math.pi / p[FREQUENCY], []
     while t < end:
         rows, before = np.empty((ROWS, SERIES + max(orders) + 1)), t
         count, t, side = take_steps(steps_of(orders), p, y, side, t, end, tolerance, *orders, rows)

@@ -17,6 +17,7 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals import averages, orbit_models, runs
 from impact_damper.rivals.cheapest import SCIPY
 from impact_damper.rivals.taylor_runs import name_of, taylor
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import check_count, describe, pack
 
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
@@ -90,7 +91,7 @@ def reference_of(scene, stored):
         If that belongs to another scene.
     """
     p, begin = scene.p, strobe_time(scene.p)
-    end = begin + scene.periods * 2 * np.pi / p[0]
+    end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
     given = [value if value is not None else np.inf for value in stored["parameters"]]
     same = np.array_equal(given, p) and stored["first"] == list(scene.state)
     if not same or abs(stored["end"] - end) > 1e-9:
@@ -263,7 +264,7 @@ def _times(scene, model, reference):
         return np.empty(len(model.contact_phases) * scene.periods)
     # each contact is set beside the nearest one of the reference's last period
     last = reference.contact_times[-count:]
-    found = model.contact_phases / p[0]
+    found = model.contact_phases / p[FREQUENCY]
     turns = np.round((last[:, None] - found) / period)
     away = np.abs(last[:, None] - found - turns * period)
     nearest = np.argmin(away, axis=1)

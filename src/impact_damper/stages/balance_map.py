@@ -17,6 +17,8 @@ from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import check_settling
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair, quiet_orbits, straight_flight_end
 from impact_damper.stages.harmonic_balance import optimum_clearance
+from impact_damper.system import packed
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import Damper, Oscillator, check_increasing, check_number, pack
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.map_cells import HIGH, balance_cells
@@ -86,14 +88,14 @@ def balance_map(
     landed = quiet_kind == flag("quiet_run_motion", "quiet")
     orbits = quiet_orbits(parameters, np.where(landed[..., None], quiet_runs["state"], np.nan))
     data = {
-        "map_frequency": parameters[..., 0],
+        "map_frequency": parameters[..., FREQUENCY],
         "map_clearance": [row.damper.clearance for row in rows],
         "resonance_amplitude": said.resonance,
         "straight_flight_end": [_rigid_end(row) for row in rows],
         "high_long_outcome": _long(parameters, said.high_start, high_kind, settling, workers),
     }
     data |= _quiet_data(said, quiet_kind, quiet_runs)
-    data |= _orbit_data(said, orbits, parameters[..., 0], frequency_ratios)
+    data |= _orbit_data(said, orbits, parameters[..., FREQUENCY], frequency_ratios)
     data |= _high_data(said, high_kind, high_runs)
     coordinates = {
         "map_value": np.asarray(values, float),
@@ -183,7 +185,7 @@ def _long(parameters, starts, kinds, settling, workers):
         chosen = np.unique(cells[np.linspace(0, len(cells) - 1, CHECKED).astype(int)])
         patience = LONG * settling.patience
         longer = replace(settling, patience=patience, limit=max(settling.limit, patience + 100))
-        given = parameters.reshape(-1, 7)[chosen], starts.reshape(-1, 4)[chosen]
+        given = parameters.reshape(-1, packed.COUNT)[chosen], starts.reshape(-1, 4)[chosen]
         outcome[chosen] = ensemble.settle(*given, longer, workers=workers)["outcome"]
     return outcome.reshape(kinds.shape)
 

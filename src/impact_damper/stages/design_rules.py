@@ -13,6 +13,7 @@ from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions import records, strobe_map
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 from impact_damper.system.parameters import (
     Damper,
     check_frequencies,
@@ -32,7 +33,6 @@ from impact_damper.theory.straight_flight import (
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
-CLEARANCE = 3
 SAMPLES = 1024
 SAME = 1e-4
 STEP = 0.02
@@ -191,7 +191,7 @@ class QuietMotion:
         if record["contacts"] != 2 or not record["asymmetry"] < SAME * p[CLEARANCE]:
             return absent
         size = record["maximum_displacement"], abs(first_harmonic(p, y))
-        return *(p[0] ** 2 * each for each in size), abs(multiplier)
+        return *(p[FREQUENCY] ** 2 * each for each in size), abs(multiplier)
 
     def least(self, criterion, guess):
         """The ratio where a size is least, and the kind of minimum; downhill from a guess.
@@ -233,7 +233,7 @@ def first_harmonic(p, y) -> complex:
     order: below 1e-5 of what an impact adds.
     """
     start = strobe_map.strobe_time(p)
-    times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[0] * SAMPLES)
+    times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
     states, log = np.empty((SAMPLES + 1, 4)), np.empty((0, 5))
     records.trace(p, y.copy(), start, times, strobe_map.POLISH_TOLERANCE, states, log)
-    return 2 * np.mean(states[:-1, 0] * np.exp(-1j * p[0] * times[:-1]))
+    return 2 * np.mean(states[:-1, 0] * np.exp(-1j * p[FREQUENCY] * times[:-1]))

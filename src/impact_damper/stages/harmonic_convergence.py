@@ -8,6 +8,7 @@ from scipy.optimize import linear_sum_assignment
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import (
     check_count,
     check_counts,
@@ -253,7 +254,7 @@ def _farthest(values, references):
 def decay_table(harmonics, data, damper, p, exact):
     """Rates at which the errors fall from `harmonics_theory.asymptotic_harmonic` on."""
     measures = len(convergence.MEASURES)
-    lowest = convergence.asymptotic_harmonic(damper, p[0])
+    lowest = convergence.asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = convergence.decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics
     observed, fitted = np.full(measures, np.nan), np.zeros(measures, int)

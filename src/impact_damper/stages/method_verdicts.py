@@ -12,6 +12,7 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions import records, strobe_map
 from impact_damper.rivals import fixed_step, merson, scipy_methods
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import (
     check_count,
     check_frequency,
@@ -39,7 +40,7 @@ class Scene(NamedTuple):
 
     Attributes
     ----------
-    parameters : numpy.ndarray, shape (7,)
+    parameters : numpy.ndarray, shape (packed.COUNT,)
     orbit, start : numpy.ndarray, shape (4,)
         States at W T = pi/2; the orbit at the frequency where it was found, if it has ended.
     period, periods : int
@@ -138,7 +139,7 @@ def make_scene(
 def _taylor(p, start, periods, tolerance):
     """Strobed states by the event-driven Taylor series."""
     begin = strobe_map.strobe_time(p)
-    times = begin + 2 * np.pi / p[0] * np.arange(1, periods + 1)
+    times = begin + 2 * np.pi / p[FREQUENCY] * np.arange(1, periods + 1)
     states = np.empty((periods, 4))
     records.trace(p, start.copy(), begin, times, tolerance, states, np.empty((0, 5)))
     return states
@@ -251,7 +252,7 @@ def verdicts(scenes, tolerances, steps):
         "scene_multiplier": np.array([scene.multiplier for scene in scenes.values()]),
         "scene_period": np.array([scene.period for scene in scenes.values()]),
         "scene_periods": np.array([scene.periods for scene in scenes.values()]),
-        "scene_frequency": np.array([scene.parameters[0] for scene in scenes.values()]),
+        "scene_frequency": np.array([scene.parameters[FREQUENCY] for scene in scenes.values()]),
         "landing_period": np.array([len(scene.landing) for scene in scenes.values()]),
         "scene_truth": np.array(
             [flag("scene_truth", "stays" if each.stays else "leaves") for each in scenes.values()]

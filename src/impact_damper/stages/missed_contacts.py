@@ -15,6 +15,7 @@ from impact_damper.data.datasets import dataset
 from impact_damper.motions.records import first_collisions, trace
 from impact_damper.rivals import fixed_step, merson, scipy_methods
 from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 from impact_damper.system.parameters import (
     check_count,
     check_increasing,
@@ -69,7 +70,7 @@ def _own_largest(method, p, passage, end, resolution):
 
 def _rival_counts(method, p, passages, depths, resolution):
     """Counts (depth, outcome) of the wall touched, (depth,) of it not, error and mean steps."""
-    end = 2 * math.pi / p[0]
+    end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
     steps, errors = 0, []
@@ -112,7 +113,7 @@ def _taylor_counts(p, passages, depths, tolerance):
 def _taylor_seen(p, states, clearances, tolerance):
     """Whether each motion comes to a contact within a forcing period."""
     parameters = np.repeat(p[None], len(states), axis=0)
-    parameters[:, 3] = clearances
+    parameters[:, CLEARANCE] = clearances
     periods = np.empty(len(states))
     first_collisions(parameters, states, 1, tolerance, periods)
     return np.isfinite(periods)
@@ -120,7 +121,7 @@ def _taylor_seen(p, states, clearances, tolerance):
 
 def _taylor_largest(p, passage, tolerance):
     """|Z2| of the Taylor series, in the steps of free flight, at the time of the true extremum."""
-    times = np.array([passage.time, 2 * math.pi / p[0]])
+    times = np.array([passage.time, 2 * math.pi / p[FREQUENCY]])
     states = np.empty((2, 4))
     trace(free_flight(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
     return abs(states[0, 2])
@@ -209,7 +210,7 @@ def missed_contacts(
                 counts[m, i], spurious[m, i], error[m, i], mean_steps[m, i] = found
     curvatures = np.array([passage.curvature for passage in drawn_passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
-    period = 2 * math.pi / p[0]
+    period = 2 * math.pi / p[FREQUENCY]
     expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in reversed(steps)]
     data = {
         "passage_count": counts,

@@ -13,8 +13,9 @@ from scipy.optimize import brentq, minimize_scalar
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions import records, strobe_map
 from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
-from impact_damper.motions.sweep import CLEARANCE, RESOLUTION, SAME, sweep
+from impact_damper.motions.sweep import RESOLUTION, SAME, sweep
 from impact_damper.stages.harmonic_balance import optimum_clearance
+from impact_damper.system.packed import CLEARANCE
 from impact_damper.system.parameters import (
     CLEARANCE_RANGE,
     Damper,
@@ -129,7 +130,7 @@ class _Branch(NamedTuple):
 
     Attributes
     ----------
-    parameters : numpy.ndarray, shape (n, 7)
+    parameters : numpy.ndarray, shape (n, packed.COUNT)
     states : numpy.ndarray, shape (n, 4)
         State of the motion, NaN where it is absent.
     displacements : numpy.ndarray, shape (n,)

@@ -5,7 +5,8 @@ import numpy as np
 from impact_damper.data.datasets import dataset
 from impact_damper.motions import records
 from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
-from impact_damper.motions.sweep import FREQUENCY, sweep
+from impact_damper.motions.sweep import sweep
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import (
     check_count,
     check_frequencies,

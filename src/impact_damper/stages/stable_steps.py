@@ -15,6 +15,7 @@ from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.ensemble import Settling
 from impact_damper.rivals.fixed_step import METHODS, STABILITY_LIMIT, run_fixed
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 from impact_damper.system.parameters import (
     check_count,
     check_damper,
@@ -40,7 +41,7 @@ class Orbit(NamedTuple):
 
     Attributes
     ----------
-    parameters : numpy.ndarray, shape (7,)
+    parameters : numpy.ndarray, shape (packed.COUNT,)
     state : numpy.ndarray, shape (4,)
     displacement : float
         max |Z1|.
@@ -59,7 +60,7 @@ def quiet_state(p):
 
     It is settled from rest with the loose mass in straight flight from wall to wall.
     """
-    start = np.array([[0.0, 0.0, 0.0, -2 * p[3] * p[0] / math.pi]])
+    start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
     record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]
     if is_settled(record) and record["period"] == 1 and record["contacts"] == 2:
         return record["state"].copy()

@@ -15,7 +15,8 @@ from impact_damper.motions.free_subharmonic import (
     switched_on,
 )
 from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
-from impact_damper.motions.sweep import FREQUENCY, SAME, sweep
+from impact_damper.motions.sweep import SAME, sweep
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import (
     check_count,
     check_damper,

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from impact_damper.system.packed import DASHPOT
 from impact_damper.system.parameters import Damper, Oscillator, check_span, pack, shown
 
 # Owner of each parameter that a branch can be followed in; all but the frequency and the
@@ -61,7 +62,7 @@ def _pack_by(oscillator, damper, frequency, parameter):
         if parameter == "restitution":
             # Its derivative at 1 is taken from both sides.
             p = pack(oscillator, replace(damper, restitution=min(value, 2 - value)), frequency)
-            p[6] *= np.sign(1 - value)
+            p[DASHPOT] *= np.sign(1 - value)
             return p
         return pack(oscillator, replace(damper, **{parameter: value}), frequency)
 

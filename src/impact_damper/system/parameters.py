@@ -218,8 +218,8 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
     Returns
     -------
-    numpy.ndarray, shape (7,)
-        W, h, omega_l^2, d0, r1, 1/rm, dashpot. Without a damper d0 is infinite.
+    numpy.ndarray, shape (packed.COUNT,)
+        In the places that `packed` names. Without a damper the clearance is infinite.
 
     Raises
     ------

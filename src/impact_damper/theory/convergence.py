@@ -24,6 +24,8 @@ multipliers, where two tails meet, err by exp(-2 s W N).
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from impact_damper.system.packed import DAMPING, FREQUENCY, STIFFNESS
+
 # Of max |Z1|; root mean square of Z1 in the harmonics up to N, and beyond; of a multiplier.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
@@ -57,13 +59,13 @@ def decay(damper, p, state) -> tuple:
     Parameters
     ----------
     damper : Damper or None
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters.
     state : array, shape (4,)
         A state of the exact orbit at W T = pi/2.
     """
     if damper is None:
-        return "exponential", np.array(ANALYTIC) * p[0] * singularity_distance(p, state)
+        return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
 
 
@@ -81,7 +83,9 @@ def singularity_distance(p, state) -> float:
     """
 
     def rates(time, y):
-        return np.array([y[1], np.cos(p[0] * time) - p[1] * y[1] - p[2] * y[0] - y[0] ** 3])
+        x, v = y
+        drive = np.cos(p[FREQUENCY] * time)
+        return np.array([v, drive - p[DAMPING] * v - p[STIFFNESS] * x - x**3])
 
     def carry(y, begin, end):
         """State at a complex time on the straight line from another, or where Z1 grows large."""
@@ -101,14 +105,14 @@ def singularity_distance(p, state) -> float:
         )
         return begin + run.t[-1] * (end - begin), run.y[:, -1]
 
-    begin = 0.5 * np.pi / p[0]
+    begin = 0.5 * np.pi / p[FREQUENCY]
     heights = []
-    for lag in np.pi / p[0] * np.arange(STARTS) / STARTS:
+    for lag in np.pi / p[FREQUENCY] * np.arange(STARTS) / STARTS:
         _, real = carry(state[:2], begin, begin + lag)
-        time, y = carry(real, begin + lag, begin + lag + 1j * np.pi / p[0])
+        time, y = carry(real, begin + lag, begin + lag + 1j * np.pi / p[FREQUENCY])
         for _ in range(8):
             before, place = time, time + y[0] / y[1]
-            if not 0 < place.imag < 2 * np.pi / p[0]:
+            if not 0 < place.imag < 2 * np.pi / p[FREQUENCY]:
                 break
             _, real = carry(state[:2], begin, place.real)
             time, y = carry(real, complex(place.real), place.real + 1j * CLOSE * place.imag)

@@ -9,11 +9,11 @@ from impact_damper.motions.ensemble import Settling
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import simulate
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.motions.sweep import CLEARANCE
 from impact_damper.rivals import fixed_step, merson, runs
 from impact_damper.rivals.passages import draw_passages
 from impact_damper.rivals.taylor_runs import ORDERS, taylor
 from impact_damper.stages.response import collisions, frequency_response
+from impact_damper.system.packed import CLEARANCE
 from impact_damper.system.parameters import Damper, Oscillator, pack
 
 OSCILLATOR = Oscillator(damping=0.215)
