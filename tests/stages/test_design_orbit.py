@@ -8,7 +8,7 @@ from impact_damper.data.datasets import flag
 from impact_damper.motions import ensemble
 from impact_damper.stages.design_orbit import design_orbit
 from impact_damper.system.parameters import Damper, Oscillator, pack
-from impact_damper.theory.single_harmonic import peak_frequency
+from impact_damper.theory.design_rule import peak_frequency
 
 LINEAR = Oscillator(0.215, 1.5)
 RULE = Damper(0.12, 1 / (0.12 * peak_frequency(LINEAR) ** 2))

@@ -6,13 +6,13 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.single_harmonic import (
     contact_amplitude,
     free_folds,
     free_solutions,
     impacting_solutions,
     maximum_response,
-    peak_frequency,
     resting_solutions,
     rigid_solutions,
 )

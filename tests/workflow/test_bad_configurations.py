@@ -13,8 +13,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from impact_damper.system import parameters
-from impact_damper.theory.single_harmonic import peak_frequency
-from impact_damper.workflow import workloads
 from impact_damper.workflow.configuration import (
     ConfigurationError,
     check_configuration,
@@ -117,17 +115,3 @@ def test_no_file_is_worse_than_rejected(tmp_path_factory, content):
 def test_the_configuration_allows_what_the_library_allows(name, library):
     schema = SCHEMAS["values.schema.yaml"]["$defs"][name]
     assert (schema["minimum"], schema["maximum"]) == (library["least"], library["most"])
-
-
-def test_both_know_the_same_bounds_of_work():
-    assert workloads.MOST_STIFF == parameters.MOST_STIFF
-    assert workloads.LARGEST_CLEARANCE == parameters.CLEARANCE_RANGE["most"]
-    assert workloads.MOST_RESULTS == parameters.MOST_RUNS
-
-
-@settings(fuzz, max_examples=50)
-@given(st.floats(1e-9, 10), st.floats(0, 100))
-def test_both_know_the_same_peak(damping, linear_frequency):
-    oscillator = parameters.Oscillator(damping, linear_frequency)
-    peak = workloads.peak_frequency(damping, linear_frequency)
-    assert peak == pytest.approx(peak_frequency(oscillator), rel=1e-14)

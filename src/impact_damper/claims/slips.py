@@ -8,7 +8,7 @@ from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
 from impact_damper.data.datasets import flag
 from impact_damper.system.parameters import Oscillator
-from impact_damper.theory.single_harmonic import peak_frequency
+from impact_damper.theory.design_rule import peak_frequency
 
 STATE = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}

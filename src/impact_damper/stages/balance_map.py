@@ -20,7 +20,7 @@ from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import Damper, Oscillator, check_increasing, check_number, pack
-from impact_damper.theory import single_harmonic as balance
+from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, balance_cells
 
 PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
@@ -160,7 +160,7 @@ def _rows(parameter, values, ratios, fixed):
         oscillator = Oscillator(given.pop("damping"), linear)
         if "clearance" not in given:
             given["clearance"] = optimum_clearance(oscillator, given["mass_ratio"])
-        rows.append(_Row(oscillator, Damper(**given), ratios * balance.peak_frequency(oscillator)))
+        rows.append(_Row(oscillator, Damper(**given), ratios * peak_frequency(oscillator)))
     return rows
 
 
@@ -273,5 +273,5 @@ def _high_verdict(said, kinds, displacement):
 
 
 def _rigid_end(row):
-    peak = balance.peak_frequency(row.oscillator)
+    peak = peak_frequency(row.oscillator)
     return straight_flight_end(row.damper.clearance, row.damper.restitution) / peak

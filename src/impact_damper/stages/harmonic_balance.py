@@ -13,6 +13,7 @@ from impact_damper.system.parameters import (
     describe,
 )
 from impact_damper.theory import single_harmonic as balance
+from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6  # six impacting ones seen at most
@@ -37,7 +38,7 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     """
     check_oscillator(oscillator)
     mass_ratio = check_number("mass_ratio", mass_ratio, **MASS_RATIO_RANGE)
-    return float(1 / (mass_ratio * balance.peak_frequency(oscillator) ** 2))
+    return rule_clearance(oscillator, mass_ratio)
 
 
 def harmonic_balance_response(oscillator, damper, frequencies):
@@ -192,7 +193,7 @@ def suppression_band(oscillator, damper):
     """
     check_oscillator(oscillator)
     balance.check_elastic(damper)
-    peak = balance.peak_frequency(oscillator)
+    peak = peak_frequency(oscillator)
     resonance = 1 / (oscillator.damping * peak)
     folds = balance.free_folds(oscillator)
     last = folds[-1].frequency if folds else np.inf

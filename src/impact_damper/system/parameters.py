@@ -5,75 +5,26 @@ Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)).
 """
 
 import math
-import numbers
-import reprlib
 from dataclasses import dataclass, fields
 
 import numpy as np
 
-# Bounds within which the kernels come to an end; what a configuration may hold agrees with them.
-FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "work goes by forcing periods"}
-DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
-MASS_RATIO_RANGE = {"least": 1e-6, "most": 10.0}
-CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
-STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
-# Natural frequency of the contact over that of the forcing: about as many steps a forcing period
-# does a contact take that is held shut.
-MOST_STIFF = 1e6
-# Runs whose records are kept in memory together.
-MOST_RUNS = 10**6
-
-
-def shown(value) -> str:
-    """A value in one short line."""
-    return " ".join(reprlib.repr(value).split())
-
-
-def plain(value) -> str:
-    """A number with six digits, or with all of them if it has more."""
-    short = f"{value:g}"
-    return short if float(short) == value else repr(float(value))
-
-
-def check_number(name, value, *, above=None, least=None, most=None, why=""):
-    """Return `value` as a float, or raise an error that names what is allowed.
-
-    Raises
-    ------
-    TypeError
-        If the value is not a real number.
-    ValueError
-        If it is not finite or outside the bounds.
-    """
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} = {shown(value)}: must be a number")
-    try:
-        value = float(value)
-    except OverflowError:
-        value = math.inf if value > 0 else -math.inf
-    if (
-        math.isfinite(value)
-        and (above is None or value > above)
-        and (least is None or value >= least)
-        and (most is None or value <= most)
-    ):
-        return value
-    bounds = {"greater than": above, "at least": least, "at most": most}
-    allowed = [f"{word} {bound:g}" for word, bound in bounds.items() if bound is not None]
-    reason = f" ({why})" if why else ""
-    raise ValueError(
-        f"{name} = {plain(value)}: must be {' and '.join(['finite', *allowed])}{reason}"
-    )
-
-
-def check_count(name, value, *, least=1, most=10**9, why=""):
-    """Return `value` as an int, or raise TypeError or ValueError naming what is allowed."""
-    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise TypeError(f"{name} = {shown(value)}: must be a whole number")
-    if not least <= value <= most:
-        reason = f" ({why})" if why else ""
-        raise ValueError(f"{name} = {shown(int(value))}: must be from {least} to {most}{reason}")
-    return int(value)
+from impact_damper.system.bounds import (
+    CLEARANCE_RANGE,
+    DAMPING_RANGE,
+    FREQUENCY_RANGE,
+    LINEAR_FREQUENCY_RANGE,
+    MASS_RATIO_RANGE,
+    MOST_RUNS,
+    MOST_STIFF,
+    RESTITUTION_RANGE,
+    STIFFNESS_RANGE,
+    check_count,
+    check_number,
+    check_parameters,
+    parameter,
+    shown,
+)
 
 
 def check_numbers(name, values, **bounds):
@@ -160,12 +111,13 @@ class Oscillator:
         If a value is not a number or out of range; so does `Damper`.
     """
 
-    damping: float
-    linear_frequency: float = 0.0
+    damping: float = parameter(DAMPING_RANGE, "h, damping")
+    linear_frequency: float = parameter(
+        LINEAR_FREQUENCY_RANGE, "omega_l, 0 for a purely cubic spring", default=0.0
+    )
 
     def __post_init__(self):
-        check_number("damping", self.damping, **DAMPING_RANGE)
-        check_number("linear_frequency", self.linear_frequency, least=0.0, most=100.0)
+        check_parameters(self)
 
 
 @dataclass(frozen=True)
@@ -184,22 +136,15 @@ class Damper:
         r1 = k2/(m1 w0^2), dimensionless; 2000 throughout the paper.
     """
 
-    mass_ratio: float
-    clearance: float
-    restitution: float = 1.0
-    contact_stiffness: float = 2000.0
+    mass_ratio: float = parameter(MASS_RATIO_RANGE, "rm, loose mass over primary mass")
+    clearance: float = parameter(CLEARANCE_RANGE, "d0, half the free space")
+    restitution: float = parameter(RESTITUTION_RANGE, "e, 1 for elastic contact", default=1.0)
+    contact_stiffness: float = parameter(
+        STIFFNESS_RANGE, "r1, stiffness of the contact springs", default=2000.0
+    )
 
     def __post_init__(self):
-        check_number("mass_ratio", self.mass_ratio, **MASS_RATIO_RANGE)
-        check_number("clearance", self.clearance, **CLEARANCE_RANGE)
-        check_number(
-            "restitution",
-            self.restitution,
-            least=0.05,
-            most=1.0,
-            why="below, the dashpot nears critical damping",
-        )
-        check_number("contact_stiffness", self.contact_stiffness, **STIFFNESS_RANGE)
+        check_parameters(self)
 
     @property
     def contact_damping(self) -> float:

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from impact_damper.system.parameters import check_damper, check_frequency, plain
+from impact_damper.system.bounds import plain
+from impact_damper.system.parameters import check_damper, check_frequency
 from impact_damper.theory.roots import polynomial_roots, smooth_roots
 
 
@@ -160,16 +161,6 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
     amplitude = np.sqrt(squares)
     inline = amplitude * (detuning + 0.75 * squares)
     return FreeSolutions(amplitude, np.arctan2(-drag * amplitude, inline))
-
-
-def peak_frequency(oscillator) -> float:
-    """Peak frequency Wp of rule (19): there the free motion lags by a quarter of a period.
-
-    With a = 1/(h W) and W^2 = wl^2 + (3/4) a^2 it solves W^4 - wl^2 W^2 - 3/(4 h^2) = 0,
-    by definition. The curve's exact maximum, a little below, is `maximum_response`.
-    """
-    stiffness = oscillator.linear_frequency**2
-    return float(np.sqrt((stiffness + np.hypot(stiffness, np.sqrt(3) / oscillator.damping)) / 2))
 
 
 class Point(NamedTuple):

@@ -5,10 +5,11 @@ Values that are each allowed can be too much together.
 
 import math
 
+from impact_damper.system.bounds import CLEARANCE_RANGE, MOST_RUNS, MOST_STIFF
+from impact_damper.system.parameters import Oscillator
+from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.workflow.contradictions import WITH_OSCILLATOR, cells_of, dotted, problem
 
-# Results that a job keeps in memory at once.
-MOST_RESULTS = 10**6
 # Cells that a study may have.
 MOST_CELLS = 10**8
 # What they are counted by, in the whole configuration and in the entries of a section.
@@ -27,11 +28,9 @@ ENTRY_COUNTS = {
     "missed_contacts": ("passages", "depths.points", "tolerances.points"),
     "stable_steps": ("stiffnesses.points", "scaled_steps.points"),
 }
-# Bounds that `parameters` and `motions.random_states` know as well. A contact held shut takes so
-# many steps a forcing period; in a smaller share of the ball hardly a draw is within the gap.
-MOST_STIFF = 1e6
+# Largest radius of the ball of random starts over the clearance, as `motions.random_states` has it:
+# in a smaller share of the ball hardly a draw is within the gap.
 MOST_RADIUS = 1e3
-LARGEST_CLEARANCE = 1e3
 # Radius of the ball from which migration draws.
 MIGRATION_RADIUS = 2
 
@@ -47,20 +46,15 @@ def workloads(config):
         yield from _too_many_cells(["studies", name], cells_of(study), config["chunks"])
     for path, entry, slowest in _dampers(config):
         yield from _too_stiff(path, entry, slowest, config["contact_stiffness"])
+    most = CLEARANCE_RANGE["most"]
     radius = max(config["search"]["radius"], MIGRATION_RADIUS)
     for path, key, clearance in _clearances(config):
         if clearance * MOST_RADIUS < radius:
             reason = f"must be at least search.radius/{MOST_RADIUS:g} = {radius / MOST_RADIUS:g} "
             yield problem([*path, key], clearance, f"{reason}(hardly a start is within the gap)")
-        if clearance > LARGEST_CLEARANCE:
-            reason = f"must be at most {LARGEST_CLEARANCE:g} (the clearance of the rule here)"
+        if clearance > most:
+            reason = f"must be at most {most:g} (the clearance of the rule here)"
             yield problem([*path, key], clearance, reason)
-
-
-def peak_frequency(damping, linear_frequency):
-    """Peak frequency of rule (19), as `harmonic_balance.peak_frequency`."""
-    stiffness = linear_frequency**2
-    return math.sqrt((stiffness + math.hypot(stiffness, math.sqrt(3) / damping)) / 2)
 
 
 def _at(place, key):
@@ -72,12 +66,12 @@ def _at(place, key):
 
 def _too_many(path, place, keys):
     counts = [_at(place, key) for key in keys]
-    if math.prod(counts) > MOST_RESULTS:
+    if math.prod(counts) > MOST_RUNS:
         largest = counts.index(max(counts))
         others = [f"{k} ({n})" for k, n in zip(keys, counts, strict=True) if k != keys[largest]]
         reason = (
             f"with {' and '.join(others)} makes {math.prod(counts)}: "
-            f"must be at most {MOST_RESULTS} in all (a job keeps them in memory)"
+            f"must be at most {MOST_RUNS} in all (a job keeps them in memory)"
         )
         yield problem([*path, *keys[largest].split(".")], counts[largest], reason)
 
@@ -86,9 +80,9 @@ def _too_many_cells(path, cells, chunks):
     if cells > MOST_CELLS:
         reason = f"must be at most {MOST_CELLS} (combinations of the points of its four axes)"
         yield f"{dotted(path)}: cells = {cells}: {reason}"
-    elif cells > chunks * MOST_RESULTS:
-        reason = f"must be at least {math.ceil(cells / MOST_RESULTS)} with the {cells} cells of "
-        reason += f"{dotted(path)} (a job keeps its results in memory, {MOST_RESULTS} at most)"
+    elif cells > chunks * MOST_RUNS:
+        reason = f"must be at least {math.ceil(cells / MOST_RUNS)} with the {cells} cells of "
+        reason += f"{dotted(path)} (a job keeps its results in memory, {MOST_RUNS} at most)"
         yield problem(["chunks"], chunks, reason)
 
 
@@ -106,7 +100,7 @@ def _dampers(config):
     for name, entry in config["balance_map"].items():
         entry = entry | {entry["parameter"]: entry["values"]["first"]}
         damping = max(entry["damping"], entry["values"]["last"] * (entry["parameter"] == "damping"))
-        peak = peak_frequency(damping, entry["linear_frequency"])
+        peak = peak_frequency(Oscillator(damping, entry["linear_frequency"]))
         yield ["balance_map", name], entry, entry["frequency_ratios"]["first"] * peak
 
 
@@ -156,5 +150,5 @@ def _by_rule(entry, config):
         ends = [entry | {entry["parameter"]: value} for value in entry["values"].values()]
     for end in ends:
         known = config["oscillators"].get(entry.get("oscillator"), {}) | end
-        peak = peak_frequency(known["damping"], known["linear_frequency"])
-        yield 1 / (known["mass_ratio"] * peak**2)
+        oscillator = Oscillator(known["damping"], known["linear_frequency"])
+        yield rule_clearance(oscillator, known["mass_ratio"])

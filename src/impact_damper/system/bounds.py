@@ -1,0 +1,95 @@
+"""Bounds of the model's parameters, and checks of single numbers.
+
+Within these bounds the kernels come to an end. `Oscillator` and `Damper`, the functions that take
+a frequency, and the models of the configuration all take them from here. This module imports no
+NumPy, since Snakemake reads it at every dry run.
+"""
+
+import math
+import numbers
+import reprlib
+from dataclasses import field, fields
+
+FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "work goes by forcing periods"}
+DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
+LINEAR_FREQUENCY_RANGE = {"least": 0.0, "most": 100.0}
+MASS_RATIO_RANGE = {"least": 1e-6, "most": 10.0}
+CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
+RESTITUTION_RANGE = {
+    "least": 0.05,
+    "most": 1.0,
+    "why": "below, the dashpot nears critical damping",
+}
+STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
+# Largest natural frequency of the contact over that of the forcing. A contact that is held shut
+# takes about this number of steps in a forcing period.
+MOST_STIFF = 1e6
+# Runs whose records are kept in memory together.
+MOST_RUNS = 10**6
+
+
+def parameter(bounds, meaning, **default):
+    """Return a dataclass field for a number within `bounds`.
+
+    `check_parameters` reads the bounds; the configuration reads them and `meaning`, the symbol and
+    what it stands for, so that a parameter is described in its dataclass alone.
+    """
+    return field(metadata={"bounds": bounds, "meaning": meaning}, **default)
+
+
+def check_parameters(part):
+    """Raise as `check_number` does if a field made by `parameter` is out of range."""
+    for each in fields(part):
+        check_number(each.name, getattr(part, each.name), **each.metadata["bounds"])
+
+
+def shown(value) -> str:
+    """A value in one short line."""
+    return " ".join(reprlib.repr(value).split())
+
+
+def plain(value) -> str:
+    """A number with six digits, or with all of them if it has more."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(float(value))
+
+
+def check_number(name, value, *, above=None, least=None, most=None, why=""):
+    """Return `value` as a float, or raise an error that names what is allowed.
+
+    Raises
+    ------
+    TypeError
+        If the value is not a real number.
+    ValueError
+        If it is not finite or outside the bounds.
+    """
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} = {shown(value)}: must be a number")
+    try:
+        value = float(value)
+    except OverflowError:
+        value = math.inf if value > 0 else -math.inf
+    if (
+        math.isfinite(value)
+        and (above is None or value > above)
+        and (least is None or value >= least)
+        and (most is None or value <= most)
+    ):
+        return value
+    bounds = {"greater than": above, "at least": least, "at most": most}
+    allowed = [f"{word} {bound:g}" for word, bound in bounds.items() if bound is not None]
+    reason = f" ({why})" if why else ""
+    raise ValueError(
+        f"{name} = {plain(value)}: must be {' and '.join(['finite', *allowed])}{reason}"
+    )
+
+
+def check_count(name, value, *, least=1, most=10**9, why=""):
+    """Return `value` as an int, or raise TypeError or ValueError naming what is allowed."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name} = {shown(value)}: must be a whole number")
+    if not least <= value <= most:
+        reason = f" ({why})" if why else ""
+        raise ValueError(f"{name} = {shown(int(value))}: must be from {least} to {most}{reason}")
+    return int(value)
