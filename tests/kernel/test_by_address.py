@@ -35,7 +35,7 @@ import threading
 import numba
 import numpy as np
 from impact_damper.kernel.compiling import kernel, pointer
-from impact_damper.addresses import by_address
+from impact_damper.kernel.by_address import by_address
 
 @kernel
 def add(a):
@@ -66,7 +66,7 @@ FAILING = """
 import numba
 import numpy as np
 from impact_damper.kernel.compiling import kernel, pointer
-from impact_damper.addresses import by_address
+from impact_damper.kernel.by_address import by_address
 
 @kernel
 def wrong(a):
@@ -109,7 +109,7 @@ def test_an_interruption_skips_no_call(compiled, tmp_path):
 
 
 def test_a_name_has_one_address():
-    with pytest.raises(ValueError, match="test_addresses.add: has an address"):
+    with pytest.raises(ValueError, match="test_by_address.add: has an address"):
         by_address(add)
 
 

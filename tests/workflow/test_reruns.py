@@ -210,7 +210,7 @@ def test_snakemake_reruns_what_depends_on_a_value(path, project, edit, flow, con
 
 FILES = [
     "requirements.lock",
-    "src/impact_damper/kernel.py",
+    "src/impact_damper/kernel/single.py",
     "src/impact_damper/figures/style.py",
     "workflow/report/response.rst",
 ]

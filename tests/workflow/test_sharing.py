@@ -66,7 +66,7 @@ def test_a_checkout_takes_what_another_computed(shared):
     "name, old, new",
     [
         ("config/config.yaml", "damping: 0.215", "damping: 0.216"),
-        ("src/impact_damper/harmonic_balance.py", '"""', '"""A word. '),
+        ("src/impact_damper/theory/single_harmonic.py", '"""', '"""A word. '),
         ("requirements.lock", "numpy==", "# A word.\nnumpy=="),
     ],
 )

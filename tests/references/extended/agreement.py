@@ -1,6 +1,6 @@
 """How far the kernels' last states and contact counts are from the 80-bit reference.
 
-    PYTHONPATH=src:tests python -m extended.agreement
+    PYTHONPATH=src:tests python -m references.extended.agreement
 
 prints a table: starts, those counted apart, those among them whose count differs, and of the
 others median, 99 % and largest error, divided by growth and tolerance.

@@ -1,6 +1,6 @@
 """Reference motions of the scenes on which methods are compared, in 80-bit arithmetic.
 
-    PYTHONPATH=src:tests python -m extended.scenes > workflow/resources/references.json
+    PYTHONPATH=src:tests python -m references.extended.scenes > workflow/resources/references.json
 
 makes the file anew from the section `scenes` of `config/config.yaml`. It is JSON with 21
 significant digits, more than a double holds: `json.loads(text, parse_float=numpy.longdouble)`

@@ -1,0 +1,151 @@
+"""Imports in the package run one way: from a room to itself or to a room below.
+
+A room is a subpackage of `impact_damper`. Every import in its files is read with `ast`, those
+inside functions too, so that a late import cannot hide an upward edge or a circle.
+"""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[1] / "src" / "impact_damper"
+
+# From the bottom. A room imports itself and rooms to its left.
+FLOORS = (
+    "system",
+    "data",
+    "kernel",
+    "theory",
+    "motions",
+    "contact",
+    "orbits",
+    "migration",
+    "rivals",
+    "stages",
+    "claims",
+    "tables",
+    "figures",
+    "workflow",
+)
+
+MOST_FILES = 12
+# Folders that hold more files (`__init__.py` not counted), and why a further level would not help.
+LARGE = {
+    "claims": "one file for each group of the paper's claims; none imports another",
+    "data/variables": "one file for each subject of the datasets; none imports another",
+    "figures": "one file for each kind of figure; they share only drawing and style",
+    "stages": "one file for each stage of the workflow",
+}
+
+FILES = {
+    ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__"): path
+    for path in sorted(PACKAGE.rglob("*.py"))
+}
+
+
+def imports_of(text, modules):
+    """Set of those `modules` that a source text imports from.
+
+    A name imported from a package is a module if there is one of that name, else it stands in the
+    package's own `__init__.py`.
+    """
+    found = set()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"line {node.lineno}: relative import"
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                found.add(inner if inner in modules else node.module)
+    return found & modules
+
+
+IMPORTS = {name: imports_of(path.read_text(), set(FILES)) for name, path in FILES.items()}
+
+
+def room_of(module):
+    """Room of a module: the part of its name after the package's, or "" for the package itself."""
+    return module.partition(".")[2].partition(".")[0]
+
+
+def upward_edges(imports, floors):
+    """Imports (importer, imported) of a room above, or of the package's public names."""
+    height = {room: floor for floor, room in enumerate(floors)} | {"": len(floors)}
+    return sorted(
+        (importer, imported)
+        for importer, found in imports.items()
+        for imported in found
+        if height[room_of(imported)] > height[room_of(importer)]
+    )
+
+
+def circle(imports):
+    """Modules of which each imports the next and the last imports the first, or an empty list."""
+    done = set()
+
+    def search(module, path):
+        if module in path:
+            return path[path.index(module) :]
+        if module in done:
+            return []
+        done.add(module)
+        for imported in sorted(imports[module] - {module}):
+            if found := search(imported, [*path, module]):
+                return found
+        return []
+
+    return next(filter(None, (search(module, []) for module in imports)), [])
+
+
+def test_every_room_has_a_floor():
+    rooms = {path.name for path in PACKAGE.iterdir() if (path / "__init__.py").exists()}
+    assert rooms == set(FLOORS)
+
+
+def test_no_import_runs_upward():
+    assert upward_edges(IMPORTS, FLOORS) == []
+
+
+def test_imports_form_no_circle():
+    assert circle(IMPORTS) == []
+
+
+def test_large_rooms_have_a_reason():
+    folders = {path.parent for path in FILES.values()} - {PACKAGE}
+    counts = {
+        folder.relative_to(PACKAGE).as_posix(): len(list(folder.glob("[!_]*.py")))
+        for folder in folders
+    }
+    assert {room for room, count in counts.items() if count > MOST_FILES} == set(LARGE)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("import a.low", {"a.low"}),
+        ("from a import low", {"a.low"}),
+        ("from a.low import name", {"a.low"}),
+        ("from a import name", {"a"}),
+        ("def late():\n    from a.low import name", {"a.low"}),
+        ("import numpy", set()),
+    ],
+)
+def test_every_way_to_import_is_read(text, expected):
+    assert imports_of(text, {"a", "a.low"}) == expected
+
+
+def test_an_upward_import_is_found():
+    imports = {
+        "a": {"a.high.x"},
+        "a.low.x": {"a.high.x"},
+        "a.high.x": {"a.low.y"},
+        "a.low.y": {"a"},
+    }
+    assert upward_edges(imports, ("low", "high")) == [("a.low.x", "a.high.x"), ("a.low.y", "a")]
+
+
+def test_a_circle_is_found():
+    assert circle({"a": {"b"}, "b": {"c"}, "c": {"b", "d"}, "d": set()}) == ["b", "c"]
+    assert circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []
