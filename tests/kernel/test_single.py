@@ -113,7 +113,11 @@ def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
         return {"Q": q.coef, "G": g.coef}
 
     c = [*c, *[0.0] * (3 - len(c))]
-    numbers = {"CONTACT": stiffness, "DASHPOT": dashpot, "INVERSE_MASS": inverse_mass}
+    numbers = {
+        "CONTACT_STIFFNESS": stiffness,
+        "DASHPOT": dashpot,
+        "INVERSE_MASS_RATIO": inverse_mass,
+    }
     numbers["NATURAL"] = math.sqrt(stiffness * (1 + inverse_mass))
     searched = ["contact_bound", "find_release"]
     t, met, _ = found(lanes, searched, series_given, length, SIDE=side, **numbers)

@@ -10,9 +10,10 @@ import numpy as np
 
 from impact_damper.contact.contact_law import contact, natural_frequency
 from impact_damper.data.datasets import flag, is_settled
+from impact_damper.kernel.equation import acceleration
 from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.simulate import random_states
-from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, STIFFNESS
+from impact_damper.system.packed import DASHPOT, FREQUENCY
 from impact_damper.system.parameters import pack
 
 CLOSE, FAIR = 0.01, 0.05
@@ -58,8 +59,7 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     states = np.empty((len(times), 4))
     records.trace(p, np.array(state), begin, times, tolerance, states, log)
     side, start, end, approach, departure = log[:count].T
-    x, v = states[:-1, 0], states[:-1, 1]
-    load = side * (np.cos(p[FREQUENCY] * start) - p[DAMPING] * v - p[STIFFNESS] * x - x**3)
+    load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]
     natural = natural_frequency(damper)
     whole = np.isfinite(end) & (start > begin)
     return {

@@ -10,20 +10,15 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.equation import acceleration
 from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, step, workspace
 from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.system.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO, STIFFNESS
+from impact_damper.system.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO
 
 # With e < 1 impacts may follow each other without end, closer and closer.
 MOST_IMPACTS = 200
-
-
-@kernel
-def acceleration(p, y, t):
-    """Acceleration of Z1, and of Z2, in flight: equation (3) without contact."""
-    return math.cos(p[FREQUENCY] * t) - p[DAMPING] * y[1] - p[STIFFNESS] * y[0] - y[0] ** 3
 
 
 @kernel

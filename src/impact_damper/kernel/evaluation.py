@@ -100,12 +100,12 @@ class Source(Writer):
 
     def _wall(self):
         """What the wall adds: to G and its slope, for those of Z1 and of the penetration."""
-        mobility = f"(1.0 + {self.at('INVERSE_MASS')})"
+        mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, place, rate, given in (
             ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),
             ("rise", "DEPTH_SLOPE", "DEPTH_CURVE", "JERK"),
         ):
-            stiff, lossy = self.at("CONTACT"), self.at("DASHPOT")
+            stiff, lossy = self.at("CONTACT_STIFFNESS"), self.at("DASHPOT")
             z1, depth = self.at(f"Z1_{given}"), self.at(f"DEPTH_{given}")
             yield f"{force} = {stiff} * {self.at(place)} + {lossy} * {self.at(rate)}"
             yield f"{depth} = {z1} - {mobility} * {force}"

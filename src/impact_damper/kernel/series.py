@@ -9,12 +9,13 @@ again. All numbers of a step stand in one flat array, `lanes` to a row; `rows` s
 from itertools import chain
 
 from impact_damper.kernel import recurrence
+from impact_damper.system import packed
 
-# What a step is given, what it finds, and what it needs on its way. Then the series: of Z1, of the
-# penetration, of g and, for tangents, of 3 Z1^2; and what stays the same while a trajectory does,
-# the series of cos W t, whose terms still lack the cosine or sine of the phase, and h and D over
-# the orders. Those of a tangent, in an array of their own, are of the first two.
-PARAMETERS = "FREQUENCY DAMPING STIFFNESS CLEARANCE CONTACT INVERSE_MASS DASHPOT".split()
+# Rows of a step: the packed parameters, what else the step is given, what it finds, and what it
+# needs on its way. Then the series: of Z1, of the penetration, of g and, for tangents, of 3 Z1^2;
+# and what stays the same while a trajectory does, the series of cos W t, whose terms still lack the
+# cosine or sine of the phase, and h and D over the orders. Those of a tangent, in an array of their
+# own, are of the first two.
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
@@ -22,7 +23,7 @@ SCRATCH = (
     "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
     "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE"
 ).split()
-SINGLE = PARAMETERS + STATE + STEP + SCRATCH
+SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH
 SERIES = "X Q G U E H D".split()
 TANGENT_SERIES = "DX DQ".split()
 # Most sums that are made at once.
@@ -160,8 +161,8 @@ class Writer:
     def _factors(self, phase):
         """Factors of the recurrence in contact."""
         if phase == "contact":
-            yield f"r1 = {self.at('CONTACT')}"
-            yield f"mobility = 1.0 + {self.at('INVERSE_MASS')}"
+            yield f"r1 = {self.at('CONTACT_STIFFNESS')}"
+            yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
         """Lines, those for coefficients followed by their store, so that no number waits for it."""

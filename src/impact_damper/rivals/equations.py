@@ -4,17 +4,14 @@ Equations (3), (4) and (20) to (24). A contact acts while |Z2| exceeds the clear
 at zero penetration, and the dashpot's force jumps at both ends.
 """
 
-import math
-
 from impact_damper.kernel.compiling import kernel, within
+from impact_damper.kernel.equation import external_force, spring
 from impact_damper.system.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     DAMPING,
     DASHPOT,
-    FREQUENCY,
     INVERSE_MASS_RATIO,
-    STIFFNESS,
 )
 
 
@@ -31,7 +28,7 @@ def wall_at(p, z):
 @kernel
 def rate(p, side, t, y):
     """Rate of the state (Z1, Z1', Z2, Z2') while a wall acts (`side`: -1, 0 for none, 1)."""
-    return rate_under(p, side, math.cos(p[FREQUENCY] * t), y)
+    return rate_under(p, side, external_force(p, t), y)
 
 
 @within
@@ -39,7 +36,7 @@ def rate_under(p, side, drive, y):
     """`rate` under a known forcing."""
     x, v, z, w = y
     force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
-    a = drive - p[DAMPING] * v - (p[STIFFNESS] + x * x) * x - force
+    a = drive - p[DAMPING] * v - spring(p, x) - force
     return v, a, w, a - p[INVERSE_MASS_RATIO] * force
 
 

@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel, within
+from impact_damper.kernel.equation import external_force
 from impact_damper.rivals.equations import largest_within, moved, rate_by_position
 from impact_damper.system.packed import FREQUENCY
 
@@ -31,10 +32,10 @@ BEYOND = 1e3
 def forcing(p, t, h):
     """The forcing at the beginning of a step, after a third and a half of it, and at its end."""
     return (
-        math.cos(p[FREQUENCY] * t),
-        math.cos(p[FREQUENCY] * (t + h / 3.0)),
-        math.cos(p[FREQUENCY] * (t + 0.5 * h)),
-        math.cos(p[FREQUENCY] * (t + h)),
+        external_force(p, t),
+        external_force(p, t + h / 3.0),
+        external_force(p, t + 0.5 * h),
+        external_force(p, t + h),
     )
 
 

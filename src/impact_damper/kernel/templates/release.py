@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import within
+from impact_damper.kernel.equation import spring, spring_slope
 
 LANES: int
 
@@ -50,15 +51,16 @@ def foresee_release(a):
         x = a[Y0 + i]
         v = a[Y1 + i]
         h = a[DAMPING + i]
-        mobility = 1.0 + a[INVERSE_MASS + i]
-        natural = math.sqrt(a[CONTACT + i] * mobility)
+        mobility = 1.0 + a[INVERSE_MASS_RATIO + i]
+        natural = math.sqrt(a[CONTACT_STIFFNESS + i] * mobility)
         loss = a[DASHPOT + i] * mobility
         longest = (DEEPER if w >= 0.0 else BACK) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
         # From the wall half a period of the contact, and what the mean of g adds to it, with Z1'
         # as the contact changes it; back to the wall, as without g.
-        g = a[COSINE + i] - (a[STIFFNESS + i] + x * x) * x - h * v
-        drift = -a[FREQUENCY + i] * a[SINE + i] - (a[STIFFNESS + i] + 3.0 * x * x) * v - h * g
+        g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
+        slope = spring_slope(a, x, i, LANES)
+        drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
         half = math.pi / math.sqrt(max(natural * natural - 0.25 * loss * loss, TINY))
         mean = wall * (g + 0.5 * half * drift) + h * w / mobility
         left = fast_exp2(-0.5 * loss * half / math.log(2.0))
@@ -90,7 +92,7 @@ def find_release(a):
         w = a[SIDE + i] * a[Q + LANES + i]
         length = a[LENGTH + i]
         natural = a[NATURAL + i]
-        loss = a[DASHPOT + i] * (1.0 + a[INVERSE_MASS + i])
+        loss = a[DASHPOT + i] * (1.0 + a[INVERSE_MASS_RATIO + i])
         rest = a[BOUND + i]
         speed = math.sqrt(w * w + natural * natural * q * q)
         least = 0.99 * fast_exp2(-loss * length / math.log(2.0)) * speed - rest * length

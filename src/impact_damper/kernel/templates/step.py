@@ -179,7 +179,7 @@ def dashpot_jump(a, d, direction):
         crossed = begun if direction < 0.0 else not begun
         jump = direction * a[DASHPOT + j] * d[2 * TANGENTS + i] if crossed else 0.0
         d[TANGENTS + i] += jump
-        d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS + j])
+        d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS_RATIO + j])
 
 
 @within
