@@ -13,8 +13,8 @@ from impact_damper.stages.harmonic_balance import harmonic_balance_response, opt
 from impact_damper.system.parameters import Damper
 from impact_damper.tables.balance_map import balance_map as table_of
 from impact_damper.theory.design_rule import peak_frequency
+from impact_damper.theory.free_oscillator import free_folds
 from impact_damper.theory.map_cells import HIGH
-from impact_damper.theory.single_harmonic import free_folds
 
 FIXED = {"damping": 0.215, "mass_ratio": 0.12, "clearance": 2.0}
 RATIOS = np.linspace(0.4, 1.2, 9)

@@ -11,7 +11,8 @@ from impact_damper.stages.harmonic_balance import (
     suppression_band,
 )
 from impact_damper.system.parameters import Damper, Oscillator
-from impact_damper.theory.single_harmonic import free_folds, impacting_solutions, rigid_solutions
+from impact_damper.theory.free_oscillator import free_folds
+from impact_damper.theory.single_harmonic import impacting_solutions, rigid_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate
 
 CUBIC = Oscillator(0.215)

@@ -13,7 +13,7 @@ from impact_damper.motions.ensemble import Settling
 from impact_damper.stages.migration import migrate, trials
 from impact_damper.stages.release_scan import release_scan
 from impact_damper.system.parameters import Damper, Oscillator
-from impact_damper.theory.single_harmonic import free_solutions
+from impact_damper.theory.free_oscillator import free_solutions
 
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)

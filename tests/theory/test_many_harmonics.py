@@ -10,6 +10,7 @@ from impact_damper.motions import strobe_map
 from impact_damper.stages.harmonic_convergence import refine, single_term, state_of
 from impact_damper.system.parameters import Oscillator, pack
 from impact_damper.theory import fourier, single_harmonic
+from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, solve
 
 BALANCES = {
@@ -95,7 +96,7 @@ def test_one_term_is_equations_7():
 
 
 def test_one_term_without_damper_is_the_cubic():
-    first = single_harmonic.free_solutions(PAPER, 1.9)
+    first = free_solutions(PAPER, 1.9)
     balance = Balance(PAPER, None, 1.9, 1)
     for amplitude, phase in zip(*first, strict=True):
         series = np.array([[amplitude * np.exp(1j * phase) / 2]])

@@ -6,11 +6,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from impact_damper.system.parameters import Damper, Oscillator
-from impact_damper.theory.single_harmonic import (
-    contact_amplitude,
-    free_solutions,
-    impacting_solutions,
-)
+from impact_damper.theory.free_oscillator import free_solutions
+from impact_damper.theory.single_harmonic import contact_amplitude, impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, jacobian, slow_flow, stability
 
 SCENE = Oscillator(0.215, 0.7), Damper(0.12, 1.5), 1.6

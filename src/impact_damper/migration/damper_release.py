@@ -21,7 +21,8 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.motions.sweep import Catalogue, record_at
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import FREQUENCY_RANGE, pack
-from impact_damper.theory.single_harmonic import free_solutions, impacting_solutions
+from impact_damper.theory.free_oscillator import free_solutions
+from impact_damper.theory.single_harmonic import impacting_solutions
 
 ALIKE = 1e-6
 RELEASE = np.dtype(

@@ -30,6 +30,7 @@ from impact_damper.stages import harmonic_convergence
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 from impact_damper.system.parameters import pack
 from impact_damper.theory import fourier, single_harmonic
+from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, Solution, solve
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
@@ -99,7 +100,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 def single_terms(oscillator, damper, frequency):
     """Coefficients (1 or 2, 1) of every solution of (7), elastic, or of the free oscillator."""
     if damper is None:
-        found = single_harmonic.free_solutions(oscillator, frequency)
+        found = free_solutions(oscillator, frequency)
         sizes = found.amplitude[:, None]
     else:
         elastic = replace(damper, restitution=1.0)

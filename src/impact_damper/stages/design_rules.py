@@ -157,7 +157,7 @@ class QuietMotion:
         self._parameters = pack(oscillator, damper, frequency)
         self._unit = 1 / (damper.mass_ratio * frequency**2)
         self._known = {}
-        impulse = np.linspace(0, flight.most, IMPULSES + 2)[1:-1]
+        impulse = np.linspace(0, flight.largest_impulse, IMPULSES + 2)[1:-1]
         strobe = np.pi / 2 + flight.forced_lag
         x, speed, _ = flight.motion(strobe, impulse)
         loose = -impulse / damper.mass_ratio * (1 - 2 / np.pi * (strobe - flight.lag(impulse)))

@@ -14,6 +14,7 @@ from impact_damper.system.parameters import (
 )
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
+from impact_damper.theory.free_oscillator import free_folds, free_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6  # six impacting ones seen at most
@@ -92,7 +93,7 @@ def _padded(rows, size, fill=np.nan):
 
 
 def _free_table(oscillator, frequencies):
-    free = [balance.free_solutions(oscillator, frequency) for frequency in frequencies]
+    free = [free_solutions(oscillator, frequency) for frequency in frequencies]
     signs = [
         stability(growth_rate(fixed_points(each), oscillator, None, frequency))
         for each, frequency in zip(free, frequencies, strict=True)
@@ -195,7 +196,7 @@ def suppression_band(oscillator, damper):
     balance.check_elastic(damper)
     peak = peak_frequency(oscillator)
     resonance = 1 / (oscillator.damping * peak)
-    folds = balance.free_folds(oscillator)
+    folds = free_folds(oscillator)
     last = folds[-1].frequency if folds else np.inf
 
     def look(frequency):
@@ -253,7 +254,7 @@ class _Look(NamedTuple):
 def _look(oscillator, damper, frequency, last):
     solutions = balance.impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
-    free = balance.free_solutions(oscillator, frequency).amplitude
+    free = free_solutions(oscillator, frequency).amplitude
     stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
     return _Look(len(growth), stable, free[-1] if frequency <= last else np.nan, free[0])
 

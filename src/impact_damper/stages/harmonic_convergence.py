@@ -18,6 +18,7 @@ from impact_damper.system.parameters import (
     shown,
 )
 from impact_damper.theory import convergence, fourier, hill, single_harmonic
+from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, solve
 
 SAMPLES = 2**14
@@ -120,7 +121,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
         If there is none with contacts.
     """
     if damper is None:
-        found = single_harmonic.free_solutions(oscillator, frequency)
+        found = free_solutions(oscillator, frequency)
         sizes = found.amplitude[-1:]
         phase = found.phase[-1]
     else:

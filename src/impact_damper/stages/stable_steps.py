@@ -24,7 +24,7 @@ from impact_damper.system.parameters import (
     describe,
     pack,
 )
-from impact_damper.theory.single_harmonic import free_solutions
+from impact_damper.theory.free_oscillator import free_solutions
 
 ACCURACIES = (0.01, 0.1)
 # Following in r1: steps by this factor, and how far an orbit may move in one.

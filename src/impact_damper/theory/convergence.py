@@ -1,24 +1,29 @@
-"""How fast harmonic balance must converge, from the smoothness of the motion.
+"""Predicted rates at which the errors of harmonic balance decrease with the number of harmonics N.
 
-With contacts the force is continuous with kinks (elastic), or jumps at entry and exit (the
-dashpot's), so that the coefficient k of Z1 and of Z2 falls as k^-4 or as k^-3. From that:
+With elastic contacts the force is continuous with kinks, and the Fourier coefficients k of Z1 and
+Z2 decrease as k^-4. With a dashpot the force jumps at entry and exit, and they decrease as k^-3.
+The following errors result (first power elastic, second power with dashpot):
 
-- the omitted harmonics, k > N, have a root mean square of N^-3.5 or N^-2.5;
-- the retained ones err by what the omitted tail adds to the force over a contact, the sum over
-  |k| > N of the tail's coefficients times those of M, which fall as 1/k: N^-4 or N^-3. For
-  elastic contact the terms of k and -k cancel at this order, and N^-5 is left;
-- max |Z1|, taken away from the ends of contacts, errs by that and by the omitted harmonics at one
-  place, N^-4 or N^-3. For elastic contact N^-5 may outweigh N^-4 at first;
-- a disturbance has coefficients k^-3 or k^-2. For elastic contact its tail adds N^-3 to the force
-  at each end of a contact, which the error of the end's own place undoes: both are r1 (1 + 1/rm)/pi
-  times the sum of k^-4 beyond N, with opposite signs. With the dashpot the terms of k and -k
-  cancel. The Floquet multipliers err by N^-4 or N^-3.
+- Root mean square of the omitted harmonics k > N: N^-3.5 or N^-2.5.
+- Retained harmonics: their error is the effect of the omitted harmonics on the contact force, the
+  sum over |k| > N of the omitted coefficients times those of M, which decrease as 1/k. M is 1 in
+  contact and 0 elsewhere. The sum is of order N^-4 or N^-3. For elastic contact the terms of k
+  and -k cancel at this order, and N^-5 remains.
+- max |Z1|, reached away from the ends of the contacts: the error of the retained harmonics plus
+  the value of the omitted series at one instant, N^-4 or N^-3. For elastic contact the N^-5 term
+  may be larger than the N^-4 term at small N.
+- Floquet multipliers: N^-4 or N^-3. The coefficients of a disturbance decrease as k^-3 or k^-2. For
+  elastic contact its omitted harmonics add N^-3 to the force at each end of a contact, but the
+  error in the position of that end cancels this term: both are r1 (1 + 1/rm)/pi times the sum of
+  k^-4 beyond N, with opposite signs. With a dashpot the terms of k and -k cancel.
 
-These hold from `asymptotic_harmonic` on, and errors oscillate about them: entry and exit of a
-contact add with a phase between them that turns with N. Without contacts the motion is analytic
-in a strip around the real time axis, up to its nearest singularity at a distance s. The omitted
-harmonics fall as exp(-s W N), and the last retained ones err by as much times N^-2; the
-multipliers, where two tails meet, err by exp(-2 s W N).
+These powers hold from `asymptotic_harmonic` on. The errors oscillate about them, since entry and
+exit of a contact contribute with a relative phase that changes with N.
+
+Without contacts the motion is analytic in a strip around the real time axis, up to its nearest
+singularity at a distance s. The omitted harmonics decrease as exp(-s W N), the error of the last
+retained ones as N^-2 exp(-s W N), and the error of the multipliers, which is quadratic in the
+omitted harmonics, as exp(-2 s W N).
 """
 
 import numpy as np
@@ -26,22 +31,32 @@ from scipy.integrate import solve_ivp
 
 from impact_damper.system.packed import DAMPING, FREQUENCY, STIFFNESS
 
-# Of max |Z1|; root mean square of Z1 in the harmonics up to N, and beyond; of a multiplier.
+# Errors of max |Z1|, of the retained harmonics of Z1, of the omitted ones (both root mean square),
+# and of a Floquet multiplier; below their powers of 1/N, or multiples of s W without contacts.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
+# Search for a singularity: start times in half a forcing period, |Z1| at which an approach stops,
+# and share of the estimated distance at which the next approach begins.
 STARTS = 12
 LARGE = 30.0
 CLOSE = 0.95
 
 
 def asymptotic_harmonic(damper, frequency) -> float:
-    """Harmonic from which on the powers can hold; 1 without a damper.
+    """Lowest harmonic number N from which on the predicted powers can hold; 1 without a damper.
 
-    Its wavelength is one contact, which without other forces lasts pi/(w sqrt(1 - z^2)) with
-    w^2 = r1 (1 + 1/rm) and z = zc sqrt(1 + rm) (appendix B). With a dashpot it is at least
-    r1/(c W), c = 2 zc sqrt(r1 rm): the jump c Z2' of the force outweighs the kink r1 Z2' beyond.
+    Harmonic N must resolve a contact: its period is the duration of a contact without other
+    forces, pi/(w sqrt(1 - z^2)) with w^2 = r1 (1 + 1/rm) and z = zc sqrt(1 + rm) (appendix B).
+    With a dashpot N is also at least r1/(c W), c = 2 zc sqrt(r1 rm). Above this harmonic the
+    jump c Z2' of the force has a larger coefficient than the kink r1 Z2'.
+
+    Parameters
+    ----------
+    damper : Damper or None
+    frequency : float
+        W, dimensionless.
     """
     if damper is None:
         return 1.0
@@ -54,7 +69,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """How errors fall, "algebraic" or "exponential", and the powers or rates of `MEASURES`.
+    """Predicted decrease of each error in `MEASURES`.
 
     Parameters
     ----------
@@ -62,7 +77,13 @@ def decay(damper, p, state) -> tuple:
     p : array, shape (packed.COUNT,)
         Packed parameters.
     state : array, shape (4,)
-        A state of the exact orbit at W T = pi/2.
+        State of the exact orbit at W T = pi/2: Z1, Z1', Z2, Z2'.
+
+    Returns
+    -------
+    kind : str
+        "algebraic": the error decreases as N^-rate. "exponential": as exp(-rate N).
+    rates : numpy.ndarray, shape (4,)
     """
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
@@ -70,16 +91,22 @@ def decay(damper, p, state) -> tuple:
 
 
 def singularity_distance(p, state) -> float:
-    """Distance of the nearest singularity of a free motion, in complex time, from the real axis.
+    """Distance from the real time axis to the nearest singularity of a free motion.
 
-    The motion is integrated up from points of the real axis over half a forcing period. Near a
-    singularity Z1 is sqrt(-2)/(T - T*), so Z1/Z1' tells how far away it is; then it is approached
-    from straight below. NaN if none is found.
+    From STARTS points of the real axis, over half a forcing period, the motion is integrated in
+    the direction of imaginary time. Near a singularity T* the motion is
+    Z1 = sqrt(-2)/(T - T*), so T* is estimated as T + Z1/Z1'. The next integration starts on the
+    real axis below the estimate.
 
     Parameters
     ----------
     p, state
         As in `decay`.
+
+    Returns
+    -------
+    float
+        In units of T; NaN if no singularity is found.
     """
 
     def rates(time, y):
@@ -87,8 +114,8 @@ def singularity_distance(p, state) -> float:
         drive = np.cos(p[FREQUENCY] * time)
         return np.array([v, drive - p[DAMPING] * v - p[STIFFNESS] * x - x**3])
 
-    def carry(y, begin, end):
-        """State at a complex time on the straight line from another, or where Z1 grows large."""
+    def integrate(y, begin, end):
+        """Time and state at the end of a straight line in complex time, or where |Z1| is LARGE."""
 
         def large(share, y):
             return LARGE - abs(y[0])
@@ -108,15 +135,16 @@ def singularity_distance(p, state) -> float:
     begin = 0.5 * np.pi / p[FREQUENCY]
     heights = []
     for lag in np.pi / p[FREQUENCY] * np.arange(STARTS) / STARTS:
-        _, real = carry(state[:2], begin, begin + lag)
-        time, y = carry(real, begin + lag, begin + lag + 1j * np.pi / p[FREQUENCY])
+        _, real = integrate(state[:2], begin, begin + lag)
+        time, y = integrate(real, begin + lag, begin + lag + 1j * np.pi / p[FREQUENCY])
         for _ in range(8):
-            before, place = time, time + y[0] / y[1]
-            if not 0 < place.imag < 2 * np.pi / p[FREQUENCY]:
+            before, singularity = time, time + y[0] / y[1]
+            if not 0 < singularity.imag < 2 * np.pi / p[FREQUENCY]:
                 break
-            _, real = carry(state[:2], begin, place.real)
-            time, y = carry(real, complex(place.real), place.real + 1j * CLOSE * place.imag)
+            _, real = integrate(state[:2], begin, singularity.real)
+            close = complex(singularity.real, CLOSE * singularity.imag)
+            time, y = integrate(real, complex(singularity.real), close)
             if abs(time - before) < 1e-6:
-                heights.append(place.imag)
+                heights.append(singularity.imag)
                 break
     return float(min(heights, default=np.nan))

@@ -1,37 +1,41 @@
-"""Real Fourier series by their coefficients, and where such a series lies beyond a wall.
+"""Values and extrema of real Fourier series, and the intervals in which one exceeds a level.
 
-A series is z(s) = sum over k in K and -K of c_k exp(i k s), with c_-k the conjugate of c_k
-and K the given non-negative harmonics; c_0 is real and counts once.
+A series z(s) is the sum of c_k exp(i k s) over the harmonics k in K and -K. K is an ascending
+array of non-negative integers, c_-k the conjugate of c_k, and c_0 is real. `coefficients` are the
+c_k for k in K, and `harmonics` is K. Angles s are in radian.
 """
 
 import numpy as np
 from scipy.fft import next_fast_len
 from scipy.optimize import brentq
 
-# Cells of the search for crossings that are shorter, in radians, are not split any more.
+# Cells narrower than this, in radian, are not halved further in the search for crossings.
 SHORTEST = 1e-9
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
-    """Values of a series at 2 pi j/count, j = 0 ... count - 1; count > 2 max(harmonics)."""
+    """Values of a series at the angles 2 pi j/count, j = 0 ... count - 1.
+
+    Exact if count > 2 max(harmonics).
+    """
     spectrum = np.zeros(count // 2 + 1, complex)
     spectrum[harmonics] = coefficients
     return np.fft.irfft(spectrum, count) * count
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Value, or derivative of some order, of a series at angles of any shape."""
+    """Derivative of a series of an order (0: the value itself), with the shape of `angle`."""
     weights = np.where(harmonics == 0, 1, 2) * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
 def product_samples(harmonics, degree) -> int:
-    """Samples that give the retained coefficients of a product of `degree` series exactly."""
+    """Number of samples that gives a product of `degree` series without aliasing in K."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
 def largest(coefficients, harmonics) -> float:
-    """Largest modulus of a series: samples first, then Newton's method on the slope."""
+    """Maximum of |z(s)|: the largest samples, refined by Newton's method on the slope."""
     count = next_fast_len(16 * int(harmonics[-1]) + 64)
     size = np.abs(samples(coefficients, harmonics, count))
     top = np.flatnonzero((size >= np.roll(size, 1)) & (size >= np.roll(size, -1)))
@@ -43,22 +47,22 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Where a series lies beyond the walls at +level and -level.
+    """Intervals of s in which z(s) > level (wall 1) or z(s) < -level (wall -1).
 
-    No interval is missed: a bound on the second derivative shows that a cell between two
-    samples holds no crossing, or one only; other cells are halved until they are SHORTEST.
+    No interval is missed. A bound on the second derivative of z shows which cells between two
+    samples contain no crossing of the level, and which exactly one; the other cells are halved
+    down to the width SHORTEST.
 
     Returns
     -------
     numpy.ndarray, shape (count, 3)
-        Wall (1 or -1), beginning in [0, 2 pi), and end, which may lie beyond 2 pi.
+        Wall, beginning in [0, 2 pi), and end, which may lie beyond 2 pi.
     """
-    found = [_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)]
-    return np.concatenate(found)
+    return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 
 
 def _beyond(coefficients, harmonics, level, wall):
-    """Rows of `intervals` of one wall."""
+    """Rows of `intervals` for one wall."""
 
     def penetration(angle):
         return wall * value(coefficients, harmonics, angle) - level
@@ -78,7 +82,7 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Cells, ascending, each of which holds one crossing; shape (count, 2)."""
+    """Ascending cells, shape (count, 2), each with exactly one sign change of `function`."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []
@@ -99,14 +103,18 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Fourier coefficients, of the given orders, of the function that is 1 in intervals.
+    """Fourier coefficients of the function that is 1 in all `intervals` and 0 elsewhere.
 
     Parameters
     ----------
     rows : array, shape (count, 3)
-        Of `intervals`.
-    orders : array of int
-        Of any sign.
+        Returned by `intervals`.
+    orders : array of int, shape (m,)
+        Indices k of the coefficients, of either sign.
+
+    Returns
+    -------
+    numpy.ndarray of complex, shape (m,)
     """
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2

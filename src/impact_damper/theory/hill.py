@@ -1,15 +1,17 @@
 """Hill's method: Floquet exponents of a motion from the Fourier series of its linearisation.
 
-A disturbance exp(lambda T) p(T) with p periodic turns the linearised equations into the quadratic
-eigenproblem (Q0 + lambda Q1 + lambda^2 Q2) p = 0 of `multiharmonic.Balance.operator`, truncated at
-the same harmonics. In contact the force on it is r1 M p + c (d/dT + lambda)(M p): the rate of
-M p holds the impulses by which a displaced entry or exit counts where the dashpot's force
-jumps, so there is nothing else to add (the same as the saltation of `kernel.dashpot_jump`).
+A disturbance exp(lambda T) p(T) with periodic p turns the linearised equations into the quadratic
+eigenvalue problem (Q0 + lambda Q1 + lambda^2 Q2) p = 0, where `many_harmonics.Balance.operator`
+gives the matrices, truncated at the harmonics of the balance. In contact the force on the
+disturbance is r1 M p + c (d/dT + lambda)(M p), with M = 1 in contact and 0 elsewhere. The time
+derivative of M contains Dirac impulses at entry and exit. They account for the displaced entry and
+exit, at which the dashpot force jumps, so that no saltation matrix is needed.
 
-The infinite problem has each exponent again and again, spaced by i times the rate s at which p
-may be shifted: 2 nu for odd harmonics (those of a symmetric motion map odd p to odd p), nu for
-all. The truncated problem has good copies near the middle and bad ones at its ends. Kept are those
-with -s/2 < Im lambda <= s/2; their number must be that of the states, or the status says so.
+The infinite problem has copies of each exponent, spaced by i s. The spacing s is 2 nu for a
+symmetric motion, for which only odd harmonics of p are used, and nu otherwise (nu is the base
+frequency of the motion). In the truncated problem the copies near the middle of the spectrum are
+accurate and those near its ends are not. We keep those with -s/2 < Im lambda <= s/2. If their
+number is not the dimension of the state, the status is "not_separated".
 
 Compare Lazarus and Thomas, C. R. Mecanique 338, 510 (2010), on choosing among the copies.
 """
@@ -20,58 +22,69 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# Eigenvalues are computed near zero only, COPIES of each exponent, beyond DENSE unknowns.
+# Up to DENSE unknowns all eigenvalues are computed, beyond only those nearest zero: enough for
+# COPIES copies of each exponent.
 DENSE = 100
 COPIES = 3
-# An imaginary part so close to s/2, as a share of it, is taken as s/2: a real negative
-# multiplier over the shift, whose two copies at the edges of the strip are one exponent.
+# An imaginary part closer to s/2 than this share of s/2 is set to s/2. Such an exponent belongs to
+# a negative real multiplier, and its two copies at both edges of the strip count once.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """Floquet exponents of a solution of harmonic balance.
+    """Floquet exponents of a harmonic-balance solution.
 
     Attributes
     ----------
-    values : numpy.ndarray, shape (2 or 4,)
-        Per unit time, complex; NaN unless the status is "found".
+    values : numpy.ndarray of complex, shape (4,)
+        Per unit time T, by ascending real part; NaN unless the status is "found". Without a
+        damper shape (2,).
     status : str
-        "found", "not_separated" (the strip does not hold as many as there are states), or
-        "not_converged" (the iteration for the eigenvalues near zero).
+        "found"; "not_separated" if the strip |Im lambda| < s/2 holds another number of
+        eigenvalues; "not_converged" if the iteration for the eigenvalues near zero failed.
     """
 
     values: np.ndarray
     status: str
 
     def multipliers(self, time) -> np.ndarray:
-        """Floquet multipliers over a time."""
+        """Floquet multipliers exp(lambda time), for a time in units of T."""
         return np.exp(self.values * time)
 
 
 def exponents(solution) -> Exponents:
-    """Floquet exponents of a `multiharmonic.Solution`."""
+    """Floquet exponents of a solution of harmonic balance.
+
+    Parameters
+    ----------
+    solution : many_harmonics.Solution
+
+    Returns
+    -------
+    Exponents
+    """
     balance = solution.balance
-    number = 2 if balance.damper is None else 4
-    orbit, rows = solution.coefficients, balance.contacts(solution.coefficients)
-    unknown = np.full(number, complex(np.nan, np.nan))
+    dimension = 2 if balance.damper is None else 4
+    orbit, contacts = solution.coefficients, balance.contacts(solution.coefficients)
+    unknown = np.full(dimension, complex(np.nan, np.nan))
     try:
-        found = _near_zero(*(balance.operator(orbit, rows, power) for power in range(3)))
+        copies = _near_zero(*(balance.operator(orbit, contacts, power) for power in range(3)))
     except ArpackNoConvergence:
         return Exponents(unknown, "not_converged")
-    strip = balance.frequency / balance.period / (1 if balance.symmetric else 2)
-    height = found.imag / strip
-    inside = np.where(height > 1 - EDGE, found.real + 1j * strip, found)
+    half_spacing = balance.frequency / balance.period / (1 if balance.symmetric else 2)
+    height = copies.imag / half_spacing
+    inside = np.where(height > 1 - EDGE, copies.real + 1j * half_spacing, copies)
     inside = inside[(height > -1 + EDGE) & (height < 1 + EDGE)]
-    if len(inside) != number:
+    if len(inside) != dimension:
         return Exponents(unknown, "not_separated")
     return Exponents(inside[np.lexsort((inside.imag, inside.real))], "found")
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Eigenvalues of the quadratic problem, those nearest zero if the problem is large.
+    """Eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
 
-    The inverse of the problem's first-order form, whose largest eigenvalues these are, needs
-    the factors of the Jacobian alone.
+    All of them up to DENSE unknowns. They are the reciprocals of the largest eigenvalues of the
+    inverted first-order form, which needs the LU factors of `stiffness` alone.
     """
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)

@@ -1,14 +1,16 @@
-r"""Harmonic balance with any number of harmonics, exact but for the truncation.
+"""Harmonic balance with any number of harmonics; truncation is its only error beside rounding.
 
-Z1 and Z2 are Fourier series over the period of the motion. The contact force of equations (22)
-to (24) is r1 f(Z2) + c d/dT f(Z2), c = 2 zc sqrt(r1 rm): the dashpot's part M(Z2) Z2' is the
-rate of f(Z2), since contact ends at zero penetration. Its coefficient of the harmonic k is
-therefore (r1 + i k nu c) times that of f, which is continuous even where the force jumps.
+Z1 and Z2 are Fourier series with base frequency nu over the period of the motion. The contact
+force of equations (22) to (24) is r1 f(Z2) + c d/dT f(Z2) with c = 2 zc sqrt(r1 rm): contact ends
+at zero penetration, so the dashpot term M(Z2) Z2' is the time derivative of f(Z2). The Fourier
+coefficient k of the force is therefore (r1 + i k nu c) times that of f. f is continuous even where
+the force jumps.
 
-f(Z2) is M (Z2 -+ d0), with M = 1 in contact. Between the ends of the contacts, roots of
-|Z2| = d0 that are located to rounding, the coefficients of M are known in closed form, and so
-those of f: a convolution. The derivative of f is M alone, as f vanishes at the ends. No force
-is sampled, so nothing aliases; the cubic force is, at enough points to be exact.
+f(Z2) = M (Z2 -+ d0), with M = 1 in contact and 0 elsewhere. The ends of the contacts are the roots
+of |Z2| = d0, located to rounding. They give the coefficients of M in closed form, and a convolution
+gives those of f. The derivative of f with respect to Z2 is M, since f vanishes at the ends. The
+contact force is not sampled, so it has no aliasing error; the cubic force is sampled at enough
+points to be exact.
 
 Compare the alternating frequency-time method: Cameron and Griffin, J. Appl. Mech. 56, 149 (1989).
 """
@@ -22,6 +24,8 @@ from scipy.linalg import lu_factor, lu_solve
 from impact_damper.system.parameters import check_count, pack
 from impact_damper.theory import fourier
 
+# Newton's method: largest relative change of a coefficient on convergence, steps allowed, and
+# smallest factor by which a step is shortened.
 TOLERANCE = 1e-11
 ITERATIONS = 40
 LEAST_DAMPING = 1e-4
@@ -29,26 +33,26 @@ LEAST_DAMPING = 1e-4
 
 @dataclass(frozen=True)
 class Balance:
-    """The equations of harmonic balance for one oscillator, damper and forcing.
+    """The equations of harmonic balance for one oscillator, damper and forcing frequency.
 
     Attributes
     ----------
     oscillator : Oscillator
     damper : Damper or None
     frequency : float
-        W.
+        W, dimensionless.
     highest : int
-        N, the highest harmonic of the period.
+        N, the highest retained harmonic of the base frequency.
     period : int
-        Period of the motion in forcing periods, n; the base frequency nu is W/n.
+        n, period of the motion in forcing periods; the base frequency is nu = W/n.
     symmetric : bool
-        Odd harmonics only: Z(T + half a period) = -Z(T), for which n must be odd. Else all
-        harmonics, the mean included.
+        True: odd harmonics only, for motions with Z(T + half a period) = -Z(T); n and N must be
+        odd. False: all harmonics from 0 to N.
 
     Raises
     ------
     TypeError, ValueError
-        If a value is not of its kind or out of range.
+        If a value has the wrong type or is out of range.
     """
 
     oscillator: object
@@ -70,41 +74,48 @@ class Balance:
 
     @property
     def harmonics(self) -> np.ndarray:
-        """The retained harmonics k of the period, of shape (m,)."""
+        """Retained harmonics k of the base frequency, shape (m,)."""
         return np.arange(1, self.highest + 1, 2) if self.symmetric else np.arange(self.highest + 1)
 
     @property
     def rates(self) -> np.ndarray:
-        """i k nu, which multiplies a coefficient when its series is differentiated."""
+        """i k nu, by which differentiation multiplies each coefficient, shape (m,)."""
         return 1j * self.harmonics * (self.frequency / self.period)
 
     @property
     def kept(self) -> np.ndarray:
-        """Mask of the real unknowns: a mean has no imaginary part."""
+        """Mask of the real unknowns: excludes the imaginary part of the mean, which is zero."""
         one = np.concatenate([self.harmonics >= 0, self.harmonics > 0])
         return np.concatenate([one] * (1 if self.damper is None else 2))
 
     def to_real(self, coefficients) -> np.ndarray:
-        """Real unknowns of coefficients (1 or 2, m): the real parts of Z1, its imaginary, Z2."""
+        """Real unknowns of complex coefficients (1 or 2, m).
+
+        In the order Re Z1, Im Z1, Re Z2, Im Z2.
+        """
         return np.hstack([coefficients.real, coefficients.imag]).ravel()[self.kept]
 
     def to_complex(self, unknowns) -> np.ndarray:
-        """Coefficients of the harmonics of Z1 and, with a damper, Z2: (1 or 2, m)."""
+        """Complex coefficients, shape (1 or 2, m), of real unknowns: inverse of `to_real`."""
         whole = np.zeros(len(self.kept))
         whole[self.kept] = unknowns
         real, imaginary = np.moveaxis(whole.reshape(-1, 2, len(self.harmonics)), 1, 0)
         return real + 1j * imaginary
 
     def contacts(self, coefficients) -> np.ndarray:
-        """Contacts of Z2 as rows of `fourier.intervals`, in the angle nu T; none without damper."""
+        """Contacts in a period, rows of `fourier.intervals` in the angle nu T.
+
+        Shape (count, 3), with count 0 without a damper.
+        """
         if self.damper is None:
             return np.empty((0, 3))
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """What is left of (3) and (4), or (20) and (21), harmonic by harmonic; shape (1 or 2, m).
+        """Residual of (3) and (4), with a dashpot of (20) and (21), in each harmonic.
 
-        In units of the forcing, whose own coefficient is 1/2; `rows` are the `contacts`.
+        Left side minus right side, shape (1 or 2, m); the forcing cos(W T) has the coefficient
+        1/2. `rows` are the `contacts` of the coefficients.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
@@ -127,14 +138,14 @@ class Balance:
 
     @property
     def stiffness(self) -> np.ndarray:
-        """r1 + i k nu c, the contact's stiffness with its dashpot."""
+        """r1 + i k nu c, dynamic stiffness of the contact spring and dashpot, shape (m,)."""
         return self.damper.contact_stiffness + self.rates * self.damper.dashpot
 
     def operator(self, coefficients, rows, power=0) -> np.ndarray:
-        """Linearised equations as a real matrix of `to_real` unknowns.
+        """Real matrix Q0, Q1 or Q2 (`power`) of the linearised equations, in `to_real` unknowns.
 
-        A disturbance exp(lambda T) p, p periodic, obeys (Q0 + lambda Q1 + lambda^2 Q2) p = 0;
-        `power` chooses the Q. Q0 is the Jacobian of `residual`; `rows` are the `contacts`.
+        A disturbance exp(lambda T) p with periodic p obeys (Q0 + lambda Q1 + lambda^2 Q2) p = 0.
+        Q0 is the Jacobian of `residual`. `rows` are the `contacts` of the coefficients.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         unit = np.eye(len(k))
@@ -157,24 +168,26 @@ class Balance:
         return whole[np.ix_(self.kept, self.kept)]
 
     def _contact_share(self, rows):
-        """Coefficients 0 ... 2N of M, which is 1 in contact."""
+        """Fourier coefficients 0 ... 2N of M, which is 1 in contact and 0 elsewhere."""
         return fourier.indicator(rows, np.arange(2 * self.highest + 1))
 
 
 class Solution(NamedTuple):
-    """A solution of the balance, or where the search for one ended.
+    """Last iterate of Newton's method for a balance: a solution if the status is "converged".
 
     Attributes
     ----------
     balance : Balance
-    coefficients : numpy.ndarray, shape (1 or 2, m)
-        Two-sided Fourier coefficients of Z1 and, with a damper, Z2.
+    coefficients : numpy.ndarray of complex, shape (2, m)
+        Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper of Z1
+        only, shape (1, m).
     status : str
-        "converged", "stalled" (no damped step reduces the next one), or "iteration_limit".
+        "converged", "stalled" (no shortened step makes the next step shorter), or
+        "iteration_limit".
     iterations : int
-        Steps of Newton's method.
+        Steps of Newton's method taken.
     residual : float
-        Largest entry of the residual.
+        Largest absolute entry of the real residual.
     """
 
     balance: Balance
@@ -185,20 +198,24 @@ class Solution(NamedTuple):
 
 
 def solve(balance, start, iterations=ITERATIONS) -> Solution:
-    """Damped Newton's method for the balance, from coefficients of any number of harmonics.
+    """Solve a balance by damped Newton's method, from an approximation with any harmonics.
 
-    A step is halved until the next one, by the same Jacobian, is shorter (the natural
-    monotonicity test of Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3): the
-    residual itself, ruled by the stiff contact, is a poor guide. It has converged
-    when a step changes no coefficient by more than 1e-11 of the largest.
+    A step is halved until the following step, computed with the same Jacobian, is shorter: the
+    natural monotonicity test of Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
+    3.3. The residual would be a poor measure, since the stiff contact dominates it. The method
+    has converged when a step changes no coefficient by more than 1e-11 of the largest one.
 
     Parameters
     ----------
     balance : Balance
     start : array, shape (1 or 2, any)
-        Coefficients of the first harmonics; the others begin at zero.
+        Coefficients of the lowest retained harmonics; all higher ones start at zero.
     iterations : int
-        Steps allowed.
+        Number of steps allowed.
+
+    Returns
+    -------
+    Solution
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -228,9 +245,10 @@ def solve(balance, start, iterations=ITERATIONS) -> Solution:
 
 
 def _convolution(coefficients, harmonics):
-    """Matrices that take z and conj(z) to the retained coefficients of a product g z.
+    """Matrices A, B such that A z + B conj(z) are the retained coefficients of a product g z.
 
-    `coefficients` are g_0 ... g_2N at least; the mean of z counts once.
+    `coefficients` are g_0 ... g_2N or more. The column of B for the mean of z is zero, since the
+    mean must count once.
     """
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
@@ -241,6 +259,6 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Real matrix of the map dz -> by_value dz + by_conjugate conj(dz), real parts first."""
+    """Real matrix of dz -> by_value dz + by_conjugate conj(dz), with real parts first."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])

@@ -1,6 +1,7 @@
-"""What single-term harmonic balance says in each cell of a map.
+"""Single-term harmonic balance in each cell of a balance map, and start states for simulations.
 
-It knows elastic contact only: with e < 1 it says what it says for e = 1.
+Single-term harmonic balance holds for elastic contact. In cells with restitution e < 1 its
+solutions for e = 1 are used.
 """
 
 from dataclasses import replace
@@ -10,27 +11,31 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.theory import single_harmonic as balance
+from impact_damper.theory.free_oscillator import free_folds, free_solutions
+from impact_damper.theory.single_harmonic import impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# A motion is high from this share of the free resonance's amplitude on.
+# A motion is high if its amplitude is at least this share of the free resonance amplitude.
 HIGH = 0.5
 
 
 class Cells(NamedTuple):
-    """What harmonic balance says in cells, and where runs start; NaN where there is none.
+    """Solutions of harmonic balance in all cells, and start states; NaN without a solution.
 
     Attributes
     ----------
     resonance : numpy.ndarray, shape (rows, columns)
-        Amplitude of the free resonance branch, beyond its end that at its end.
-    quiet, high : numpy.ndarray, shape (rows, columns)
-        Flags `balance_quiet` and `balance_high`.
-    quiet_amplitude, quiet_growth, high_amplitude : numpy.ndarray, shape (rows, columns)
-        |a| of these solutions, and the growth rate of the slow flow.
+        Amplitude of the free resonance branch; above the frequency at which the branch ends, its
+        amplitude at the end.
+    quiet, high : numpy.ndarray of int, shape (rows, columns)
+        Values of the flags `balance_quiet` and `balance_high`.
+    quiet_amplitude, high_amplitude : numpy.ndarray, shape (rows, columns)
+        |a| of the quiet and of the high solution.
+    quiet_growth : numpy.ndarray, shape (rows, columns)
+        Growth rate of the slow flow at the quiet solution, per unit time T.
     quiet_start, high_start : numpy.ndarray, shape (rows, columns, 4)
-        States at T = 0 of these solutions; where there is no high one, on the free resonance
-        branch with the loose mass at rest amid the gap.
+        State Z1, Z1', Z2, Z2' at T = 0 of both solutions. Without a high solution, the state on
+        the free resonance branch with the loose mass at rest in the middle of the gap.
     """
 
     resonance: np.ndarray
@@ -44,15 +49,16 @@ class Cells(NamedTuple):
 
 
 def balance_cells(rows) -> Cells:
-    """Harmonic balance in the cells of a map.
+    """Solve the harmonic balance (7) in all cells of a map.
 
-    The quiet solution is that of (7) with the smallest |a|, if it is below half of the free
-    resonance; the high one is the stable solution with the largest |a| from that half on.
+    The quiet solution has the smallest |a|, provided that |a| is below half the amplitude of the
+    free resonance branch. The high solution is the stable one with the largest |a|, provided that
+    |a| is at least this half.
 
     Parameters
     ----------
     rows : list of tuple
-        Of each row the oscillator, the damper and the forcing frequencies.
+        Oscillator, Damper and array of forcing frequencies of each row.
 
     Returns
     -------
@@ -68,59 +74,67 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Harmonic balance in one cell."""
-    resonance, top = _resonance(oscillator, frequency)
+    """Harmonic balance in one cell: `Cells` of scalars."""
+    resonance, resonance_phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
-    if top is not None:
-        # the loose mass at rest amid the gap
-        start = _start(resonance, 0.0, top, frequency)
+    if resonance_phase is not None:
+        start = _start(resonance, 0.0, resonance_phase, frequency)
+        # loose mass at rest in the middle of the gap: Z2 = 0, Z2' = Z1'
         high_start = np.array([start[0], start[1], 0.0, start[1]])
     nothing = np.nan, np.nan, np.full(4, np.nan)
     elastic = replace(damper, restitution=1.0)
     try:
-        found, growth = _solutions(oscillator, elastic, frequency)
+        solutions, growth = _solutions(oscillator, elastic, frequency)
     except ArithmeticError:
         unresolved = flag("balance_quiet", "unresolved")
         return Cells(resonance, unresolved, *nothing, unresolved, np.nan, high_start)
     signs = stability(growth)
-    size = np.abs(found.amplitude)
+    amplitude = np.abs(solutions.amplitude)
+
+    def start_at(k):
+        return _start(*(values[k] for values in solutions), frequency)
+
     quiet = flag("balance_quiet", "none"), *nothing
-    if len(size) and np.min(size) < HIGH * resonance:
-        k = np.argmin(size)
+    if len(amplitude) and np.min(amplitude) < HIGH * resonance:
+        k = np.argmin(amplitude)
         verdict = {1: "stable", -1: "unstable", 0: "unresolved"}[int(signs[k])]
-        start = _start(found.amplitude[k], found.relative_amplitude[k], found.phase[k], frequency)
-        quiet = flag("balance_quiet", verdict), size[k], growth[k], start
+        quiet = flag("balance_quiet", verdict), amplitude[k], growth[k], start_at(k)
     high = flag("balance_high", "none"), np.nan, high_start
-    large = np.flatnonzero((signs == flag("stability", "stable")) & (size >= HIGH * resonance))
+    large = np.flatnonzero((signs == flag("stability", "stable")) & (amplitude >= HIGH * resonance))
     if len(large):
-        k = large[np.argmax(size[large])]
-        start = _start(found.amplitude[k], found.relative_amplitude[k], found.phase[k], frequency)
-        high = flag("balance_high", "stable"), size[k], start
+        k = large[np.argmax(amplitude[large])]
+        high = flag("balance_high", "stable"), amplitude[k], start_at(k)
     return Cells(resonance, *quiet, *high)
 
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Solutions of (7) and their growth rates; kept, for over e they do not change."""
-    found = balance.impacting_solutions(oscillator, damper, frequency)
-    return found, growth_rate(fixed_points(found), oscillator, damper, frequency)
+    """Solutions of (7) and their growth rates; cached, since they do not depend on e."""
+    solutions = impacting_solutions(oscillator, damper, frequency)
+    return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
 
 @lru_cache(4096)
 def _resonance(oscillator, frequency):
-    """Amplitude and phase of the free resonance branch; beyond its end that amplitude and None."""
+    """Amplitude and phase of the free resonance branch; above its end (end amplitude, None)."""
     folds = _folds(oscillator)
     if folds and frequency > folds[-1].frequency:
         return folds[-1].amplitude, None
-    free = balance.free_solutions(oscillator, frequency)
+    free = free_solutions(oscillator, frequency)
     return free.amplitude[-1], free.phase[-1]
 
 
-_folds = lru_cache(balance.free_folds)
+_folds = lru_cache(free_folds)
 
 
 def _start(amplitude, relative_amplitude, phase, frequency):
-    """State at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
+    """State Z1, Z1', Z2, Z2' at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
     inline, across = np.cos(phase), -frequency * np.sin(phase)
-    sizes = amplitude, relative_amplitude
-    return np.array([part for size in sizes for part in (size * inline, size * across)])
+    return np.array(
+        [
+            amplitude * inline,
+            amplitude * across,
+            relative_amplitude * inline,
+            relative_amplitude * across,
+        ]
+    )

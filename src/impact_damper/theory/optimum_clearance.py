@@ -1,4 +1,4 @@
-"""What theory says of the optimum clearance by equations (7), against what is found."""
+"""The optimum clearance by harmonic balance and by straight flight, to compare with simulations."""
 
 from dataclasses import replace
 
@@ -10,26 +10,36 @@ from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 from impact_damper.theory.straight_flight import Flight, least_displacement_ratio
 
+# rm W^2 d0 at which the first harmonic of a straight flight between rigid walls spans the gap.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
+# A solution of (7) with a smaller |a| counts as a = 0.
 ZERO_AMPLITUDE = 1e-6
 
 
 def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
-    """rm W^2 d0 for which max |Z1| is least, in the limit of high frequency and rigid walls.
+    """rm W^2 d0 at which max |Z1| is smallest, in the limit of high frequency and rigid walls.
 
-    There spring and damping do not count, and the loose mass flies straight: see `flight.Flight`.
-    For e = 1 it is 1.1382 + 0.1382 rm.
+    In this limit the spring and the damping of the primary mass are negligible, and the loose mass
+    flies at constant velocity (see `straight_flight.Flight`). For e = 1 the result is
+    1.1382 + 0.1382 rm.
 
     Parameters
     ----------
-    mass_ratio, restitution : float
-        rm and e.
+    mass_ratio : float
+        rm, dimensionless.
+    restitution : float
+        e, dimensionless.
+
+    Returns
+    -------
+    float
+        Dimensionless; rule (18) has the value 1.
     """
     return least_displacement_ratio(Flight(mass_ratio, restitution))
 
 
 def _analytical(oscillator, damper, frequency):
-    """Signed a of the stable solution of (7) with the smallest |a|, and how the search ended."""
+    """Signed a of the stable solution of (7) with the smallest |a|, and the flag meaning."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     try:
@@ -42,7 +52,22 @@ def _analytical(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """|a| of (7) over the sweep, and the clearance where a vanishes."""
+    """Amplitude by (7) along a clearance sweep, and the clearance at which the amplitude vanishes.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    dampers : list of Damper
+        In order of ascending clearance, otherwise equal.
+    frequency : float
+        W, dimensionless.
+
+    Returns
+    -------
+    dict
+        Data of the variables `analytical_amplitude`, `analytical_status`, `analytical_optimum`
+        and `analytical_kind`.
+    """
     signed, status = zip(
         *(_analytical(oscillator, each, frequency) for each in dampers), strict=True
     )
@@ -53,10 +78,10 @@ def analytical_table(oscillator, dampers, frequency):
         return _analytical(oscillator, replace(dampers[0], clearance=clearance), frequency)[0]
 
     for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
-        place = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
-        # the sign may change by a jump to another solution as well
-        if abs(amplitude(place)) < ZERO_AMPLITUDE:
-            best, kind = place, "kink"
+        clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
+        # The sign also changes where the smallest solution becomes another one, with a jump.
+        if abs(amplitude(clearance)) < ZERO_AMPLITUDE:
+            best, kind = clearance, "kink"
     return {
         "analytical_amplitude": np.abs(signed),
         "analytical_status": np.array([flag("analytical_status", each) for each in status]),
@@ -66,7 +91,20 @@ def analytical_table(oscillator, dampers, frequency):
 
 
 def excess_table(ratio, damper):
-    """rm W^2 d0 at the optimum, and the shares of its excess over 1 that are explained."""
+    """Shares of the excess of rm W^2 d0 at the optimum over 1 that two closed forms explain.
+
+    Parameters
+    ----------
+    ratio : float
+        rm W^2 d0 at the simulated optimum, dimensionless.
+    damper : Damper
+
+    Returns
+    -------
+    dict
+        Data of the variables `optimum_ratio`, `straight_flight_ratio`, `first_harmonic_share` and
+        `straight_flight_share`.
+    """
     straight = straight_flight_ratio(damper.mass_ratio, damper.restitution)
     harmonic = FIRST_HARMONIC_RATIO if damper.restitution == 1 else np.nan
     return {

@@ -1,9 +1,8 @@
 """All real roots of a smooth function of one variable, double roots included.
 
-Between neighbouring extrema a function is monotone: a change of sign there is
-one root and no more, no change of sign is no root, and an extremum that is zero
-to rounding is a double root. Nothing is decided by the imaginary part of a
-computed root, so a double root is never lost.
+Between neighbouring extrema a function is monotone, so a change of sign means exactly one root
+and no change of sign means none. An extremum that is zero to rounding is a double root. No
+decision rests on the imaginary part of a computed root, which rounding spoils at a double root.
 """
 
 import numpy as np
@@ -12,18 +11,24 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from scipy.optimize import brentq
 
 EPSILON = np.finfo(float).eps
+# Values below ROUNDING times the sum of the sizes of a function's terms count as zero.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
+# An interval is halved if the size of the terms varies by more than this factor.
 LARGEST_RANGE = 1e6
 
 
 def polynomial_roots(coefficients) -> np.ndarray:
-    """Real roots of a polynomial, ascending, a double root once.
+    """Real roots of a polynomial, ascending; a double root is listed once.
 
     Parameters
     ----------
-    coefficients : array_like
+    coefficients : array_like, shape (degree + 1,)
         Lowest power first; the last must not be zero.
+
+    Returns
+    -------
+    numpy.ndarray, shape (count,)
     """
     reach = 2 * np.max(np.abs(polyroots(coefficients))) or 1.0
     return _between(
@@ -36,28 +41,32 @@ def polynomial_roots(coefficients) -> np.ndarray:
 
 
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
-    """Real roots of an analytic function in [lower, upper], ascending, a double root once.
+    """Real roots of an analytic function in [lower, upper], ascending; a double root once.
 
-    The function is replaced by a Chebyshev interpolant whose degree is doubled until
-    its last coefficients have fallen to rounding; an interval in which that rounding
-    differs by more than 1e6 is halved first. The interpolant gives the extrema,
-    as eigenvalues of a companion matrix (Trefethen, Approximation Theory and
-    Approximation Practice, 2013, chapter 18); the function itself gives the roots.
+    The extrema come from a Chebyshev interpolant, as eigenvalues of a companion matrix
+    (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18). The degree of
+    the interpolant is doubled until its last coefficients reach the rounding error; an interval
+    in which the rounding error varies by a factor above 1e6 is halved first. The roots between
+    the extrema come from the function itself.
 
     Parameters
     ----------
     function : callable
-        Maps x, a number or an array, to its value.
+        Maps x, a number or an array, to the function's value.
     size : callable
-        Maps an array x to the sum of the sizes of the terms of the function, which says
-        how much of a value may be rounding; positive.
+        Maps an array x to the sum of the absolute values of the function's terms, positive.
+        Rounding errors of `function` are proportional to `size`.
     lower, upper : float
         Ends of the interval.
+
+    Returns
+    -------
+    numpy.ndarray, shape (count,)
 
     Raises
     ------
     ArithmeticError
-        If the function needs a degree above 512.
+        If an interpolant of degree 512 does not resolve the function.
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):
@@ -78,7 +87,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Roots of `function` in [lower, upper], which the real parts of its `extrema` split."""
+    """Roots of `function` in [lower, upper], given its `extrema`, of which the real part counts."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     signs = np.where(np.abs(values) <= ROUNDING * size(points), 0, np.sign(values))

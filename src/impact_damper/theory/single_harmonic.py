@@ -1,10 +1,12 @@
-"""Single-term harmonic balance of section 2.1: Z1 = a cos(W T + t1), Z2 = b cos(W T + t2).
+"""Single-term harmonic balance with the damper (section 2.1): equations (6), (7), (13), (14).
 
-Equation (6d) makes t2 = t1 when the sign of a is left free: a < 0 is the set in
-which Z1 and Z2 are in antiphase. b > 0 is no restriction, for a change of sign of
-a and b together is a shift of t1 by half a period.
+The ansatz is Z1 = a cos(W T + t1), Z2 = b cos(W T + t2). Equation (6d) requires
+sin(t1 - t2) = 0; we take t2 = t1 and let the amplitude a have either sign. With a < 0, Z1 and Z2
+are in antiphase. b > 0 loses no solution: changing the signs of both a and b only shifts t1 by
+half a period.
 
-The balance holds for elastic contact; every quantity is dimensionless.
+The equations hold for elastic contact (restitution 1). Every quantity is dimensionless, angles
+are in radian.
 """
 
 from typing import NamedTuple
@@ -14,6 +16,7 @@ from scipy.optimize import brentq
 
 from impact_damper.system.bounds import plain
 from impact_damper.system.parameters import check_damper, check_frequency
+from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.roots import polynomial_roots, smooth_roots
 
 
@@ -23,22 +26,15 @@ class Solutions(NamedTuple):
     Attributes
     ----------
     amplitude : numpy.ndarray
-        a, amplitude of Z1, negative in antiphase to Z2.
+        a, signed amplitude of Z1: negative in antiphase to Z2.
     relative_amplitude : numpy.ndarray
         b > 0, amplitude of Z2.
     phase : numpy.ndarray
-        t1 in (-pi, pi], phase to the forcing.
+        t1 in (-pi, pi], phase of Z2 to the forcing; also the phase of Z1 if a > 0.
     """
 
     amplitude: np.ndarray
     relative_amplitude: np.ndarray
-    phase: np.ndarray
-
-
-class FreeSolutions(NamedTuple):
-    """Motions without the damper at one frequency: a > 0 and t1, arrays of shape (count,)."""
-
-    amplitude: np.ndarray
     phase: np.ndarray
 
 
@@ -52,9 +48,9 @@ class RigidSolutions(NamedTuple):
     amplitude, phase : numpy.ndarray
         a and t1 as in `Solutions`.
     pulling : numpy.ndarray of bool
-        True where a > d0: the walls would have to pull, so (7) has no such solution.
+        True where a > d0: the contact force would have to be tensile, so (7) has no such solution.
     residual : numpy.ndarray
-        What is left of (13a).
+        Residual of (13a), left side minus right side.
     """
 
     tangent: np.ndarray
@@ -65,22 +61,22 @@ class RigidSolutions(NamedTuple):
 
 
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
-    """First harmonic B of the contact force over r1, and dB/db, equation (6e).
+    """First harmonic B(b) of the contact force divided by r1, equation (6e), and dB/db.
 
-    With d0/b = cos(p) they are b (2/pi)(p - sin p cos p) and (2/pi)(p + sin p cos p);
-    both are zero where b <= d0.
+    With the contact angle p, cos(p) = d0/b, we have B = b (2/pi)(p - sin p cos p) and
+    dB/db = (2/pi)(p + sin p cos p). Both are zero for b <= d0, without contact.
 
     Parameters
     ----------
     relative_amplitude : float or array_like
-        b >= 0.
+        b >= 0, dimensionless.
     clearance : float
-        d0.
+        d0, dimensionless.
 
     Returns
     -------
     tuple of numpy.ndarray
-        B and dB/db, shaped as `relative_amplitude`.
+        B and dB/db, each with the shape of `relative_amplitude`.
     """
     amplitude = np.maximum(relative_amplitude, clearance)
     angle = np.arctan2(np.sqrt((amplitude - clearance) * (amplitude + clearance)), clearance)
@@ -89,10 +85,12 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
-    """All real roots of (14), ascending, and what they mean in (13).
+    """All real roots D of (14), ascending, with the amplitude and phase that they give in (13).
 
     Raises
     ------
+    TypeError
+        If `damper` is not a Damper, or the frequency not a number.
     ValueError
         If the contact is not elastic, or the frequency out of range.
     """
@@ -118,23 +116,25 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
 
 
 def impacting_solutions(oscillator, damper, frequency) -> Solutions:
-    """All solutions of (7) with (6e), by ascending contact angle p, where d0/b = cos(p).
+    """All solutions of (7) with (6e), by ascending contact angle p, where cos(p) = d0/b.
 
-    (7c) gives a(p) = (d0/cos p)(1 - k (p - sin p cos p)), k = 2 r1/(pi rm W^2), and
-    (7a, b) leave one equation for p after t1 is eliminated:
+    (7c) gives a(p) = (d0/cos p)(1 - k (p - sin p cos p)) with k = 2 r1/(pi rm W^2). Eliminating
+    t1 from (7a, b) leaves one equation for p:
 
         G(p) = (a wl^2 - a W^2 + (3/4) a^3 + rm W^2 (b - a))^2 + (h a W)^2 - 1 = 0.
 
-    cos^6(p) G(p) is an entire function, and (7b) bounds |a| and so p. Its count of roots
-    is certain to rounding: between neighbouring extrema there is one root or none, by
-    the signs there (see `smooth_roots`).
+    cos^6(p) G(p) is an entire function, and (7b) bounds |a| and thereby p. No root is missed, to
+    rounding: between two neighbouring extrema the function is monotone, so their signs tell
+    whether there is one root or none (see `smooth_roots`).
 
     Raises
     ------
+    TypeError
+        If `damper` is not a Damper, or the frequency not a number.
     ValueError
-        If the contact is not elastic, or the frequency not positive.
+        If the contact is not elastic, or the frequency out of range.
     ArithmeticError
-        If G could not be resolved.
+        If no polynomial of the allowed degree resolves G.
     """
     balance = _Balance(oscillator, damper, check_frequency(frequency))
     lower, upper = balance.angle_range()
@@ -146,71 +146,26 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Motions that touch no wall, the loose mass at rest: the free ones with |a| < d0."""
+    """Motions without contact, the loose mass at rest: the free solutions with a < d0.
+
+    The loose mass at rest makes Z2 = Z1, so b = a.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `free_solutions`; also if `damper` is not a Damper.
+    """
     check_damper(damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
     return Solutions(free.amplitude[inside], free.amplitude[inside], free.phase[inside])
 
 
-def free_solutions(oscillator, frequency) -> FreeSolutions:
-    """All motions without the damper, by ascending amplitude a > 0: roots of a cubic in a^2."""
-    detuning = oscillator.linear_frequency**2 - check_frequency(frequency) ** 2
-    drag = oscillator.damping * frequency
-    squares = polynomial_roots([-1, detuning**2 + drag**2, 1.5 * detuning, 0.5625])
-    amplitude = np.sqrt(squares)
-    inline = amplitude * (detuning + 0.75 * squares)
-    return FreeSolutions(amplitude, np.arctan2(-drag * amplitude, inline))
-
-
-class Point(NamedTuple):
-    """A point of the free response curve: W and a."""
-
-    frequency: float
-    amplitude: float
-
-
-def maximum_response(oscillator) -> Point:
-    """Exact maximum of the free response curve over W.
-
-    The cubic for a is a quadratic in W^2 with the roots m - h^2/2 +- sqrt(1/a^2 - h^2 m
-    + h^4/4), m = wl^2 + (3/4) a^2; they meet at the maximum.
-
-    Raises
-    ------
-    ValueError
-        If the damping is so large that the curve falls from W = 0 on.
-    """
-    damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
-    linear = damping * (stiffness - damping / 4)
-    amplitude = (-linear + np.sqrt(linear**2 + 3 * damping)) / (1.5 * damping)
-    square = stiffness + 0.75 * amplitude - damping / 2
-    if square <= 0:
-        raise ValueError(f"damping = {oscillator.damping:g}: too large, the response has no peak")
-    return Point(float(np.sqrt(square)), float(np.sqrt(amplitude)))
-
-
-def free_folds(oscillator) -> list[Point]:
-    """Folds of the free response curve, by ascending amplitude; none or two.
-
-    On the branch W^2 = m - h^2/2 + S of `maximum_response`, S its root, dW/da = 0 asks for
-    (3/2) S = 1/u^2 + (3/4) h^2, u = a^2, which is a polynomial of degree five in u.
-    """
-    damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
-    squares = polynomial_roots(
-        [1, 0, 1.5 * damping, -2.25, 2.25 * damping * stiffness, 1.6875 * damping]
-    )
-    squares = squares[squares > 0]
-    frequencies = stiffness + 0.75 * squares - damping / 2 + (1 / squares**2 + 0.75 * damping) / 1.5
-    return [
-        Point(float(np.sqrt(square)), float(np.sqrt(u)))
-        for square, u in zip(frequencies, squares, strict=True)
-        if square > 0
-    ]
-
-
 class _Balance:
-    """(7) with (6e) as functions of the contact angle p; each term is multiplied by cos^3(p)."""
+    """The terms of (7) with (6e) as functions of the contact angle p.
+
+    Multiplied by powers of cos(p), since a and b have a pole at p = pi/2.
+    """
 
     def __init__(self, oscillator, damper, frequency):
         check_elastic(damper)
@@ -221,7 +176,7 @@ class _Balance:
         self.stiffness = 2 * damper.contact_stiffness / (np.pi * self.inertia)
 
     def terms(self, angle):
-        """cos(p), a cos(p), and cos(t1) and -sin(t1) of (7a, b) times cos^3(p)."""
+        """Return cos(p), a cos(p), cos(t1) cos^3(p) and -sin(t1) cos^3(p) by (7a, b)."""
         cosine = np.cos(angle)
         scaled = self.scaled_amplitude(angle)
         force = self.inertia * (self.clearance - scaled)
@@ -229,16 +184,19 @@ class _Balance:
         return cosine, scaled, inline, self.drag * scaled * cosine**2
 
     def scaled_amplitude(self, angle):
-        """a cos(p) of (7c)."""
+        """Return a cos(p) by (7c)."""
         return self.clearance * (1 - self.stiffness * _excess(angle))
 
     def defect(self, angle):
-        """cos^6(p) G(p)."""
+        """Return cos^6(p) G(p), with G as in `impacting_solutions`."""
         cosine, _, inline, quadrature = self.terms(angle)
         return inline**2 + quadrature**2 - cosine**6
 
     def defect_size(self, angle):
-        """Rounding error of `defect` in units of the machine's; that of a cos(p) counts most."""
+        """Bound on the rounding error of `defect`, in units of the machine precision.
+
+        The rounding error of a cos(p) dominates.
+        """
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled
@@ -252,9 +210,9 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Least and greatest p that (7a, b) allow; equal if they allow none.
+        """Smallest and largest p that (7a, b) allow; equal if they allow none.
 
-        (7b) bounds |a| by 1/(h W), and (7a) bounds (3/4) |a|^3 by its other terms.
+        (7b) bounds |a| by 1/(h W), and (7a) bounds (3/4) |a|^3 by the remaining terms.
         """
         reach = 1 / self.drag
         lower, upper = self._angles_within(reach)
@@ -264,9 +222,10 @@ class _Balance:
         return self._angles_within(bound) if bound < reach else (lower, upper)
 
     def _angles_within(self, reach):
-        """Range of p that holds every |a| <= reach.
+        """Return the range of p that contains every solution with |a| <= reach.
 
-        a cos(p) + reach cos(p) falls with p; a cos(p) - reach cos(p) rises, then falls.
+        The upper end is the root of (a + reach) cos(p), which decreases with p; the lower end is
+        the first root of (a - reach) cos(p), which increases and then decreases, or 0.
         """
         reach *= 1 + 1e-6
         largest = reach + (1 + reach * (abs(self.detuning) + 0.75 * reach**2)) / self.inertia
@@ -283,10 +242,10 @@ class _Balance:
 
 
 def _excess(angle):
-    """p - sin(p) cos(p) for 0 <= p <= pi/2 without cancellation.
+    """Return p - sin(p) cos(p) for 0 <= p <= pi/2 without cancellation.
 
-    It is half of e(2p), e(x) = x - sin(x): the series of e serves at 2p/9, and
-    e(3y) = 3 e(y) + 4 sin^3(y) leads back from there.
+    With e(x) = x - sin(x), the result is e(2p)/2. The Taylor series of e is summed at 2p/9, and
+    e(3y) = 3 e(y) + 4 sin^3(y), applied twice, gives e(2p).
     """
     third = angle * (2 / 3)
     ninth = third / 3
@@ -297,6 +256,7 @@ def _excess(angle):
 
 
 def check_elastic(damper):
+    """Raise TypeError if `damper` is not a Damper, ValueError if its contact is not elastic."""
     check_damper(damper)
     if damper.restitution != 1:
         raise ValueError(

@@ -1,9 +1,9 @@
-"""Slow flow (17) in the Cartesian amplitudes A = a exp(i t1), C = b exp(i t2), and its Jacobian.
+"""Slow flow (17) and its Jacobian in the complex amplitudes A = a exp(i t1), C = b exp(i t2).
 
-Z1 = Re(A exp(i W T)) and Z2 = Re(C exp(i W T)) with slowly varying A and C. Times
-exp(-i t1) and exp(-i t2) the real and imaginary parts are (17a) to (17d); unlike
-those, these have no singularity at a = 0, where the design sits. The eigenvalues
-at a fixed point are the same.
+Z1 = Re(A exp(i W T)) and Z2 = Re(C exp(i W T)) with slowly varying A and C (section 2.2). The
+polar equations (17a) to (17d) are the real and imaginary parts of A' exp(-i t1) and C' exp(-i t2).
+They are singular at a = 0, which is the design point; the equations in A and C are not, and their
+Jacobian has the same eigenvalues at a fixed point.
 """
 
 import numpy as np
@@ -11,23 +11,32 @@ import numpy as np
 from impact_damper.system.parameters import check_frequency
 from impact_damper.theory.single_harmonic import contact_amplitude
 
+# Growth rates of smaller modulus count as marginal.
 MARGIN = 1e-9
 
 
 def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
-    """Rates of the slow amplitudes, equation (17).
+    """Time derivatives of the slow amplitudes, equation (17).
 
     Parameters
     ----------
     state : array_like, shape (..., 4)
-        Re A, Im A, Re C, Im C. With `damper=None` shape (..., 2), Re A and Im A.
-    oscillator, damper, frequency
-        The forced oscillator, its damper or None, and W.
+        Re A, Im A, Re C, Im C, dimensionless. Without a damper shape (..., 2): Re A, Im A.
+    oscillator : Oscillator
+    damper : Damper or None
+        Elastic contact; the restitution is not used.
+    frequency : float
+        W, dimensionless.
 
     Returns
     -------
     numpy.ndarray
-        Rates, shaped as `state`.
+        Derivatives by T, with the shape of `state`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the frequency is not a number or out of range.
     """
     frequency = check_frequency(frequency)
     state = np.asarray(state, float)
@@ -47,12 +56,17 @@ def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
-    """Derivatives of `slow_flow` by the state, appendix A in Cartesian amplitudes.
+    """Jacobian of `slow_flow` by the state: appendix A in complex amplitudes.
 
     Returns
     -------
     numpy.ndarray, shape (..., 4, 4)
-        Or (..., 2, 2) with `damper=None`.
+        Without a damper shape (..., 2, 2).
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the frequency is not a number or out of range.
     """
     frequency = check_frequency(frequency)
     state = np.asarray(state, float)
@@ -83,7 +97,17 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """States of harmonic-balance `Solutions` (count, 4), or of `FreeSolutions` (count, 2)."""
+    """States of harmonic-balance solutions, which are fixed points of the slow flow.
+
+    Parameters
+    ----------
+    solutions : single_harmonic.Solutions or free_oscillator.FreeSolutions
+
+    Returns
+    -------
+    numpy.ndarray, shape (count, 4)
+        Re A, Im A, Re C, Im C. For `FreeSolutions` shape (count, 2): Re A, Im A.
+    """
     turn = np.exp(1j * solutions.phase)
     parts = [
         part
@@ -95,12 +119,12 @@ def fixed_points(solutions) -> np.ndarray:
 
 
 def stability(growth) -> np.ndarray:
-    """1 (stable) for a growth rate below -1e-9, -1 (unstable) above 1e-9, 0 (marginal) between."""
+    """Flag `stability` of growth rates: 1 stable (< -1e-9), -1 unstable (> 1e-9), 0 marginal."""
     return -np.sign(np.where(np.abs(growth) <= MARGIN, 0.0, growth)).astype(int)
 
 
 def _push(loose, damper):
-    """r1 B(b)/b, and the derivatives of r1 (B/b) C by C and by its conjugate."""
+    """Return r1 B(b)/b, and the derivatives of r1 (B/b) C by C and by the conjugate of C."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)
@@ -114,7 +138,7 @@ def _push(loose, damper):
 
 
 def _block(by_value, by_conjugate):
-    """Real 2 x 2 matrices of the map dz -> by_value dz + by_conjugate conj(dz)."""
+    """Return the real 2 x 2 matrices of dz -> by_value dz + by_conjugate conj(dz)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     rows = [
         np.stack([total.real, -difference.imag], axis=-1),

@@ -1,9 +1,9 @@
-"""Closed forms for the optimum clearance: the quiet motion as flights between two impacts.
+"""Closed forms for the optimum clearance: the quiet motion as straight flights between impacts.
 
-While the displacement is small the cubic spring does not count, and the primary mass is a linear
-oscillator under the forcing and two impulses a period. The walls may be rigid or stiff, impacts
-elastic or not. Two optima of rm W^2 d0 follow: that of the least max |Z1|, and that of the least
-first harmonic of Z1.
+At small displacement the cubic spring is negligible, and the primary mass is a linear oscillator
+under the forcing and two impulses per period. The walls may be rigid or stiff, the impacts elastic
+or inelastic. The optimum value of rm W^2 d0 follows for two criteria: the smallest max |Z1|, and
+the smallest first harmonic of Z1.
 """
 
 from functools import cache
@@ -14,53 +14,57 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.system.parameters import check_damper, check_number
 
+# Impulses tried before the minimum of max |x| is refined.
 GRID = 65
-# q and the phase of the turning point where both displacements are equal, for straight flights
-# without losses: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
+# Impulse q and phase of the turning point at which the displacement at the impact equals the one
+# at the turning point, for elastic rigid walls without damping and stiffness:
+# q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 NEWTON_STEPS = 3
-# Two roots of the free oscillator that coincide are taken this little apart.
+# Distance put between the two roots of the free oscillator if they coincide (critical damping).
 APART = 1e-20j
 
 
 class Flight(NamedTuple):
-    """The quiet motion near its optimum, in units of 1/W^2 for lengths and W T for time.
+    """The quiet motion near its optimum, with lengths in units of 1/W^2 and time as phase W T.
 
-    Let x be W^2 Z1, and phi the phase behind a peak of -x in the response to the forcing alone,
-    -A cos(phi). The loose mass flies straight and is turned back at each wall, W^2 x2 =
-    -(q/rm) (1 - 2 (phi - s)/pi) for half a period from an impact at the lag s on, and mirrored
-    for the other half. Its impulses of 4 q/pi on the primary mass leave there q R(y),
+    Let x = W^2 Z1. The response to the forcing alone is -A cos(phi), where the phase phi is zero
+    at a peak of -x. An impact takes place at the lag s, phi = s. In the following half period the
+    loose mass flies at constant velocity, W^2 x2 = -(q/rm) (1 - 2 (phi - s)/pi); in the other half
+    the motion is its mirror image. The impulses 4 q/pi of the loose mass on the primary mass add
+    q R(y) to the displacement:
 
-        x = -A cos(phi) + q R(y),      y = pi/2 - (phi - s),  |y| <= pi/2,
+        x = -A cos(phi) + q R(y),      y = pi/2 - (phi - s),  |y| <= pi/2.
 
-    where R is the periodic response of x'' + g x' + l^2 x to alternating impulses 4/pi; R = 2 y/pi
-    for g = l = 0. Three things close the problem.
+    R is the periodic response of x'' + g x' + l^2 x to alternating impulses 4/pi; R = 2 y/pi for
+    g = l = 0. Three conditions complete the problem.
 
-    Lag. In an elastic impact the mean approach speed is zero, with restitution it is (1 - e)/
-    (1 + e) of half its jump. Hence A sin(s) = q L, where L is (2/pi) (1 + 1/rm) (1 - e)/(1 + e)
-    plus what damping takes, (2/pi) tanh(pi g/2) for l = 0.
+    Lag. The mean of the relative velocities before and after an impact is zero for e = 1; for
+    e < 1 it is (1 - e)/(1 + e) times half the velocity jump. Hence A sin(s) = q L, where L is
+    (2/pi) (1 + 1/rm) (1 - e)/(1 + e) plus a term of the damping, (2/pi) tanh(pi g/2) for l = 0.
 
-    Walls. The gap at an impact gives rm W^2 d0 = q + rm x(s) for rigid walls. An elastic contact
-    takes the phase pi k, k = W/sqrt(r1 (1 + 1/rm)), one with the damping ratio z of the pair
-    theta = pi k/sqrt(1 - z^2). The straight lines before and after it, of approach speeds v and
-    e v, meet beyond the wall by v theta e/(1 + e): the motion is that between rigid walls further
-    out, which takes (1 + rm) q (4/pi) theta e/(1 + e)^2 off rm W^2 d0, for e = 1 (1 + rm) q k. The
-    forcing during a contact takes theta (1 - e)/(1 + e) - 2 z k off the lag.
+    Walls. For rigid walls the gap at an impact gives rm W^2 d0 = q + rm x(s). An elastic contact
+    lasts the phase pi k with k = W/sqrt(r1 (1 + 1/rm)); a damped one lasts
+    theta = pi k/sqrt(1 - z^2), where z is the damping ratio of the pair of masses. The straight
+    lines of the flights before and after, with speeds v and e v, intersect beyond the wall at the
+    depth v theta e/(1 + e). The motion therefore equals one between rigid walls farther out by
+    this depth, which reduces rm W^2 d0 by (1 + rm) q (4/pi) theta e/(1 + e)^2; for e = 1 by
+    (1 + rm) q k. The forcing during a contact reduces the lag by theta (1 - e)/(1 + e) - 2 z k.
 
-    Tip. In a contact of finite duration x turns before the lines meet: it stays below by the
-    share 1 - 2/pi of that distance, by which a half sine stays below its end tangents.
+    Tip. In a contact of finite duration x has a rounded maximum below the intersection of the
+    lines, by the share 1 - 2/pi of the depth, as a half sine has below its end tangents.
 
-    Stiffness l and damping g are exact in this for rigid walls. What k leaves is of the orders k^2,
-    so 1/r1, and k g; with e < 1 also a small part of the tip's rounding, of order (1 - e) k. The
-    cubic spring is left out: near an optimum it adds about (3/4) max |Z1|^2/W^2 to l^2, and the
-    clearance is off by about that share.
+    For rigid walls l and g enter exactly. The neglected effects of the contact are of the orders
+    k^2, that is 1/r1, and k g; for e < 1 also a small part of the rounding of the tip, of order
+    (1 - e) k. The cubic spring is neglected: near an optimum it would add about
+    (3/4) max |Z1|^2/W^2 to l^2, and the relative error of the clearance is about as large.
 
     Attributes
     ----------
     mass_ratio, restitution : float
-        rm and e.
+        rm and e, dimensionless.
     contact : float
-        k, the phase of an elastic contact over pi; 0 for rigid walls.
+        k, phase of an elastic contact divided by pi; 0 for rigid walls.
     damping : float
         g = h/W.
     stiffness : float
@@ -75,60 +79,60 @@ class Flight(NamedTuple):
 
     @property
     def forced(self):
-        """A, the amplitude of the response to the forcing alone."""
+        """A, amplitude of the response x to the forcing alone."""
         return 1 / np.hypot(1 - self.stiffness**2, self.damping)
 
     @property
     def forced_lag(self):
-        """Phase of the forcing's peak behind phi = 0."""
+        """Phase phi at which the forcing has its maximum."""
         return np.arctan2(self.damping, 1 - self.stiffness**2)
 
     @property
     def loss(self):
-        """L/A, so that sin(s) = q L/A for rigid walls."""
+        """L/A: for rigid walls sin(s) = q L/A."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
 
     @property
     def contact_damping(self):
-        """z, the damping ratio of the two masses in contact."""
+        """z, damping ratio of the relative motion in contact, appendix B."""
         return -np.log(self.restitution) / np.hypot(np.pi, np.log(self.restitution))
 
     @property
     def contact_phase(self):
-        """theta, the phase that a contact takes."""
+        """theta, phase W T that a contact lasts."""
         return np.pi * self.contact / np.sqrt(1 - self.contact_damping**2)
 
     @property
     def reach(self):
-        """How far beyond the wall the lines of a contact meet, over (1 + 1/rm) q."""
+        """Depth beyond the wall at which the lines of both flights intersect, over (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
     def setback(self):
-        """What a contact of finite duration takes off the lag."""
+        """Reduction of the lag s by a contact of finite duration."""
         share = (1 - self.restitution) / (1 + self.restitution)
         return self.contact_phase * share - 2 * self.contact_damping * self.contact
 
     @property
-    def most(self):
-        """An impulse q beyond which there is no flight, or no turning point in it."""
+    def largest_impulse(self):
+        """Largest impulse q for which a flight with a turning point exists."""
         bound = np.pi / 2 * self.forced
         return min(bound, 1 / self.loss) if self.loss > 0 else bound
 
     def lag(self, impulse):
-        """s for an impulse q."""
+        """Lag s for an impulse q."""
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Divided difference of a function over the two roots of the free oscillator."""
+        """Divided difference of a function over the characteristic roots of x'' + g x' + l^2 x."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
 
     def motion(self, phase, impulse):
-        """x and its first two derivatives at a phase between an impact and the next."""
+        """x and its first two derivatives at a phase between an impact and the next one."""
         y = np.pi / 2 - (phase - self.lag(impulse))
         pushed = [
             -2
@@ -148,10 +152,10 @@ class Flight(NamedTuple):
         tip = self.motion(self.lag(impulse), impulse)[0]
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
-    def largest(self, impulse):
-        """max |x| for an impulse q: at the rounded tip, or at a turning point between impacts.
+    def largest_displacement(self, impulse):
+        """max |x| for an impulse q, at the rounded tip or at a turning point between impacts.
 
-        Newton's method finds the turning points from where they are for g = l = 0.
+        Newton's method locates the turning points, started from their positions for g = l = 0.
         """
         lag = self.lag(impulse)
         turn = np.arcsin(np.minimum(2 * impulse / (np.pi * self.forced), 1.0))
@@ -165,21 +169,21 @@ class Flight(NamedTuple):
 
 
 def flight_of(oscillator, damper, frequency) -> Flight:
-    """The flight of the loose mass of a damper, whatever its clearance.
+    """Flight of the loose mass of a damper; independent of its clearance.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     frequency : float
-        W, above omega_l.
+        W, dimensionless, above omega_l.
 
     Raises
     ------
     TypeError
-        If `damper` is not a Damper.
+        If `damper` is not a Damper, or the frequency not a number.
     ValueError
-        If the frequency is not above the linear one.
+        If the frequency is not above the linear frequency omega_l.
     """
     check_damper(damper)
     frequency = check_number(
@@ -199,31 +203,33 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """rm W^2 d0 at which max |Z1| is least.
+    """rm W^2 d0 at which max |Z1| is smallest, dimensionless.
 
-    With Lambda = (1 + 1/rm) (1 - e)/(1 + e) and rigid walls, no damping and no stiffness, it is
-    (1 + rm) q - rm cos(s) in two regimes. Up to Lambda = 0.369 the displacement at an impact
-    equals that between impacts, a kink: q = 1.1382, s = 0 for e = 1. Beyond, that between impacts
-    has a smooth minimum of its own, where Lambda cos(s + tan(s)) = sin(s) and q = pi sin(s)/
-    (2 Lambda).
+    For rigid walls without damping and stiffness the result is (1 + rm) q - rm cos(s), with two
+    cases of Lambda = (1 + 1/rm) (1 - e)/(1 + e). For Lambda <= 0.369 the displacement at the
+    impact equals the one between impacts at the optimum, a kink; for e = 1 there q = 1.1382 and
+    s = 0. For larger Lambda the displacement between impacts is the larger one and has a smooth
+    minimum, where Lambda cos(s + tan(s)) = sin(s) and q = pi sin(s)/(2 Lambda).
     """
-    impulses = np.linspace(0, flight.most, GRID + 2)[1:-1]
-    best = int(np.argmin(flight.largest(impulses)))
+    impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
+    best = int(np.argmin(flight.largest_displacement(impulses)))
     bounds = impulses[max(best - 1, 0)], impulses[min(best + 1, GRID - 1)]
-    found = minimize_scalar(
-        flight.largest, bounds=bounds, method="bounded", options={"xatol": 1e-10}
+    minimum = minimize_scalar(
+        flight.largest_displacement, bounds=bounds, method="bounded", options={"xatol": 1e-10}
     )
-    return float(flight.ratio(found.x))
+    return float(flight.ratio(minimum.x))
 
 
 def least_harmonic_ratio(flight) -> float:
-    """rm W^2 d0 at which the first harmonic of Z1 is least; closed.
+    """rm W^2 d0 at which the first harmonic of Z1 is smallest, dimensionless; in closed form.
 
-    The harmonic is the response to that of forcing and impulses together, 1 - c q exp(-i p) with
-    c = 8/pi^2 and p the lag of an impact behind the forcing. Its modulus is least where, of the
-    angle u whose sine is q L/A and n = u - p, tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)). For e = 1
-    without damping q = pi^2/8, and with rigid walls rm W^2 d0 = (1 + rm) pi^2/8 - rm: the mass
-    that flies through 8/pi^2 of the gap, as if Z1 stood still, is the limit of a small rm.
+    The first harmonic of Z1 is the response to the first harmonic of forcing plus impulses,
+    1 - c q exp(-i p), with c = 8/pi^2 and the lag p of the impact behind the forcing. Let
+    sin(u) = q L/A and n = u - p. The modulus is smallest where
+    tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
+
+    For e = 1 without damping q = pi^2/8, and for rigid walls rm W^2 d0 = (1 + rm) pi^2/8 - rm.
+    For small rm this tends to pi^2/8, the value for a primary mass at rest.
     """
     share = 8 / np.pi**2
     loss = flight.loss
@@ -235,10 +241,14 @@ def least_harmonic_ratio(flight) -> float:
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Both optima for elastic contact, explicit: of first order in k and g, and without stiffness.
+    """Both optima of rm W^2 d0 for elastic contact, to first order in k and g, without stiffness.
 
-    rm W^2 d0 = (1 + rm) (1.138 - 0.860 k + 0.095 g) - rm for the least max |Z1|, and
-    (1 + rm) (1 - k) pi^2/8 - rm for the least first harmonic; NaN for e < 1.
+    Returns
+    -------
+    displacement : float
+        For the smallest max |Z1|: (1 + rm) (1.138 - 0.860 k + 0.095 g) - rm; NaN for e < 1.
+    harmonic : float
+        For the smallest first harmonic of Z1: (1 + rm) (1 - k) pi^2/8 - rm; NaN for e < 1.
     """
     if flight.restitution != 1:
         return np.nan, np.nan
