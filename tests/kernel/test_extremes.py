@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.system.parameters import MOST_STIFF
+from impact_damper.system.bounds import MOST_STIFF
 
 SHORT = idm.Settling(patience=100, limit=100, watched=2)
 OUTCOMES = [flag("outcome", name) for name in ("unresolved", "settled", "chaotic")]

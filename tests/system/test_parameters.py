@@ -7,14 +7,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from impact_damper.system.parameters import (
-    Damper,
-    Oscillator,
-    check_count,
-    check_number,
-    describe,
-    pack,
-)
+from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.parameters import Damper, Oscillator, describe, pack
 
 
 @pytest.mark.parametrize(

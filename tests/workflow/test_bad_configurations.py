@@ -12,7 +12,7 @@ from helpers.broken import GONE, MAPPINGS, ROOT, SMALL, at, broken, changed, jun
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from impact_damper.system import parameters
+from impact_damper.system import bounds
 from impact_damper.workflow.configuration import (
     ConfigurationError,
     check_configuration,
@@ -104,12 +104,12 @@ def test_no_file_is_worse_than_rejected(tmp_path_factory, content):
 @pytest.mark.parametrize(
     ("name", "library"),
     [
-        ("frequency", parameters.FREQUENCY_RANGE),
-        ("damping", parameters.DAMPING_RANGE),
-        ("mass_ratio", parameters.MASS_RATIO_RANGE),
-        ("clearance", parameters.CLEARANCE_RANGE),
-        ("clearance_or_rule", parameters.CLEARANCE_RANGE),
-        ("stiffness", parameters.STIFFNESS_RANGE),
+        ("frequency", bounds.FREQUENCY_RANGE),
+        ("damping", bounds.DAMPING_RANGE),
+        ("mass_ratio", bounds.MASS_RATIO_RANGE),
+        ("clearance", bounds.CLEARANCE_RANGE),
+        ("clearance_or_rule", bounds.CLEARANCE_RANGE),
+        ("stiffness", bounds.STIFFNESS_RANGE),
     ],
 )
 def test_the_configuration_allows_what_the_library_allows(name, library):

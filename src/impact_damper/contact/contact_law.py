@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 from scipy.optimize import brentq
 
-from impact_damper.system.parameters import check_number
+from impact_damper.system.bounds import check_number
 
 EXIT_RULES = ("zero_penetration", "no_tension")
 

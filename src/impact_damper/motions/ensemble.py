@@ -13,8 +13,8 @@ from tqdm import tqdm
 from impact_damper.motions.records import MOTION, measure
 from impact_damper.motions.settling import settle_many
 from impact_damper.system import packed
+from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import check_count, check_number
 
 CHUNK = 128
 

@@ -17,8 +17,9 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals import averages, orbit_models, runs
 from impact_damper.rivals.cheapest import SCIPY
 from impact_damper.rivals.taylor_runs import name_of, taylor
+from impact_damper.system.bounds import check_count
 from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import check_count, describe, pack
+from impact_damper.system.parameters import describe, pack
 
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 AVERAGES = averages.STATISTICS

@@ -18,8 +18,10 @@ from impact_damper.motions.simulate import check_settling
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair, quiet_orbits, straight_flight_end
 from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system import packed
+from impact_damper.system.bounds import check_number
+from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import Damper, Oscillator, check_increasing, check_number, pack
+from impact_damper.system.parameters import Damper, Oscillator, pack
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, balance_cells
 

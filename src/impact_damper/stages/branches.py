@@ -11,16 +11,10 @@ from impact_damper.motions.simulate import COMPONENTS, check_state, phase_of
 from impact_damper.orbits.branches import SAME, follow_branch
 from impact_damper.orbits.continuation import Problem
 from impact_damper.orbits.shooting import STROBE, find_orbit
+from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown
+from impact_damper.system.checks import check_span
 from impact_damper.system.families import LINEAR, family_of
-from impact_damper.system.parameters import (
-    FREQUENCY_RANGE,
-    check_count,
-    check_number,
-    check_span,
-    describe,
-    pack,
-    shown,
-)
+from impact_damper.system.parameters import describe, pack
 
 NEARBY = 0.02
 # At a slower contact the 3/2-power term of the map at grazing is felt.

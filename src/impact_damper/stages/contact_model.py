@@ -14,14 +14,9 @@ from impact_damper.contact.logged_contacts import CLOSE, FAIR, SIZES, extreme_mo
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.contact import SCENE, VARIABLES
 from impact_damper.motions.simulate import check_settling
-from impact_damper.system.parameters import (
-    check_count,
-    check_damper,
-    check_frequencies,
-    check_increasing,
-    check_number,
-    describe,
-)
+from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.checks import check_frequencies, check_increasing
+from impact_damper.system.parameters import check_damper, describe
 
 LINEAR = 1e-3
 LOG = ("contact_used", "contact_row", "contact_size")

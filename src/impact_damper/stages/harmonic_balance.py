@@ -5,13 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.system.parameters import (
-    MASS_RATIO_RANGE,
-    check_frequencies,
-    check_number,
-    check_oscillator,
-    describe,
-)
+from impact_damper.system.bounds import MASS_RATIO_RANGE, check_number
+from impact_damper.system.checks import check_frequencies
+from impact_damper.system.parameters import check_oscillator, describe
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import free_folds, free_solutions

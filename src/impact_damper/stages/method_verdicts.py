@@ -12,14 +12,10 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions import records, strobe_map
 from impact_damper.rivals import fixed_step, merson, scipy_methods
+from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.checks import check_frequency, check_increasing
 from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import (
-    check_count,
-    check_frequency,
-    check_increasing,
-    check_number,
-    pack,
-)
+from impact_damper.system.parameters import pack
 
 FIXED = ("heun", "verlet", "runge_kutta_4")
 # Through the kink, and with contacts located.

@@ -24,7 +24,8 @@ from impact_damper.migration.damper_release import (
 )
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import MOST_SEED, check_settling
-from impact_damper.system.parameters import check_count, check_damper, describe, pack
+from impact_damper.system.bounds import check_count
+from impact_damper.system.parameters import check_damper, describe, pack
 
 PAPER_CYCLES = 350
 

@@ -15,14 +15,10 @@ from impact_damper.data.datasets import dataset
 from impact_damper.motions.records import first_collisions, trace
 from impact_damper.rivals import fixed_step, merson, scipy_methods
 from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
+from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
-from impact_damper.system.parameters import (
-    check_count,
-    check_increasing,
-    check_number,
-    describe,
-    pack,
-)
+from impact_damper.system.parameters import describe, pack
 
 METHODS = ("taylor", "runge_kutta_4", "merson", *scipy_methods.METHODS)
 OUTCOMES = ("found", "unseen", "not_reached", "failed")

@@ -15,19 +15,15 @@ from impact_damper.motions import records, strobe_map
 from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
 from impact_damper.motions.sweep import RESOLUTION, SAME, sweep
 from impact_damper.stages.harmonic_balance import optimum_clearance
-from impact_damper.system.packed import CLEARANCE
-from impact_damper.system.parameters import (
-    CLEARANCE_RANGE,
-    Damper,
-    check_count,
+from impact_damper.system.bounds import CLEARANCE_RANGE, check_count, shown
+from impact_damper.system.checks import (
     check_frequency,
     check_increasing,
     check_numbers,
     check_starts,
-    describe,
-    pack,
-    shown,
 )
+from impact_damper.system.packed import CLEARANCE
+from impact_damper.system.parameters import Damper, describe, pack
 from impact_damper.theory.optimum_clearance import analytical_table, excess_table
 
 NEAR_MINIMUM = 1.1

@@ -9,7 +9,8 @@ from impact_damper.migration.damper_release import DESTINATIONS, release_data, s
 from impact_damper.motions import records
 from impact_damper.motions.simulate import check_settling
 from impact_damper.stages.response import frequency_response
-from impact_damper.system.parameters import check_count, describe
+from impact_damper.system.bounds import check_count
+from impact_damper.system.parameters import describe
 
 
 def _scan_records(response):

@@ -6,15 +6,10 @@ from impact_damper.data.datasets import dataset
 from impact_damper.motions import records
 from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
 from impact_damper.motions.sweep import sweep
+from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import (
-    check_count,
-    check_frequencies,
-    check_number,
-    check_starts,
-    describe,
-    pack,
-)
+from impact_damper.system.parameters import describe, pack
 
 
 def frequency_response(

@@ -15,15 +15,10 @@ from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.ensemble import Settling
 from impact_damper.rivals.fixed_step import METHODS, STABILITY_LIMIT, run_fixed
+from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
-from impact_damper.system.parameters import (
-    check_count,
-    check_damper,
-    check_increasing,
-    check_number,
-    describe,
-    pack,
-)
+from impact_damper.system.parameters import check_damper, describe, pack
 from impact_damper.theory.free_oscillator import free_solutions
 
 ACCURACIES = (0.01, 0.1)

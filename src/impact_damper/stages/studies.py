@@ -14,7 +14,9 @@ from impact_damper.data.variables.studies import AXES, OUTCOMES
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
-from impact_damper.system.parameters import Damper, check_count, check_increasing, describe, pack
+from impact_damper.system.bounds import check_count
+from impact_damper.system.checks import check_increasing
+from impact_damper.system.parameters import Damper, describe, pack
 
 CELL = np.dtype(
     [

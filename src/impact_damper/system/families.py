@@ -1,14 +1,16 @@
-"""Families of systems that differ in one parameter, in which branches of orbits are followed."""
+"""Families of systems along one parameter, for the continuation of branches of orbits."""
 
 from dataclasses import replace
 
 import numpy as np
 
+from impact_damper.system.bounds import shown
+from impact_damper.system.checks import check_span
 from impact_damper.system.packed import DASHPOT
-from impact_damper.system.parameters import Damper, Oscillator, check_span, pack, shown
+from impact_damper.system.parameters import Damper, Oscillator, pack
 
-# Owner of each parameter that a branch can be followed in; all but the frequency and the
-# restitution are followed by their logarithm.
+# Parameters in which a branch can be followed, and the dataclass that each belongs to. The
+# coordinate of continuation is the parameter's logarithm, or for LINEAR ones the parameter.
 PARAMETERS = {
     "frequency": None,
     "damping": Oscillator,
@@ -21,7 +23,27 @@ LINEAR = ("frequency", "restitution")
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Packed parameters by the parameter's coordinate along a branch, and that of the values.
+    """Return the packed parameters as a function of the coordinate of one parameter.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        W.
+    parameter : str
+        A key of PARAMETERS.
+    span : sequence of float
+        Least and greatest value of the parameter.
+
+    Returns
+    -------
+    pack_at : callable
+        Packed parameters by coordinate.
+    here : float
+        Coordinate of the system given.
+    ends : tuple of float
+        Coordinates of the ends of the span.
 
     Raises
     ------
@@ -52,7 +74,7 @@ def family_of(oscillator, damper, frequency, parameter, span):
 
 
 def _pack_by(oscillator, damper, frequency, parameter):
-    """Packed parameters as a function of one of them."""
+    """Return the packed parameters as a function of the value of one parameter."""
 
     def pack_at(value):
         if parameter == "frequency":
@@ -60,7 +82,8 @@ def _pack_by(oscillator, damper, frequency, parameter):
         if parameter == "damping":
             return pack(replace(oscillator, damping=value), damper, frequency)
         if parameter == "restitution":
-            # Its derivative at 1 is taken from both sides.
+            # Mirrored beyond 1, with a negative dashpot, so that finite differences at 1 can be
+            # central.
             p = pack(oscillator, replace(damper, restitution=min(value, 2 - value)), frequency)
             p[DASHPOT] *= np.sign(1 - value)
             return p

@@ -1,9 +1,10 @@
-"""Places of the parameters in the packed array that `parameters.pack` makes and kernels read.
+"""Indices of the parameters in the array that `parameters.pack` makes and kernels read.
 
-Kernels take plain arrays of numbers, so each parameter has a place, and is read by its name.
+Kernels take the parameters as an array `p` of COUNT numbers and read each by the name of its
+index, as `p[FREQUENCY]`. In this order: W, h, omega_l^2, d0, r1, 1/rm, and the dashpot's
+coefficient 2 zeta_c sqrt(r1 rm).
 """
 
-# W, h, omega_l^2, d0, r1, 1/rm and the dashpot's coefficient, in this order.
 NAMES = (
     "FREQUENCY",
     "DAMPING",

@@ -1,4 +1,4 @@
-"""Parameters of the oscillator and of the damper, checked when they are made.
+"""Dataclasses of the oscillator and of the damper, and their parameters packed for kernels.
 
 Everything is dimensionless, scaled as in section 2.1 of Chatterjee, Mallik and
 Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)).
@@ -9,77 +9,20 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from impact_damper.system import packed
 from impact_damper.system.bounds import (
     CLEARANCE_RANGE,
     DAMPING_RANGE,
-    FREQUENCY_RANGE,
     LINEAR_FREQUENCY_RANGE,
     MASS_RATIO_RANGE,
-    MOST_RUNS,
     MOST_STIFF,
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
-    check_count,
-    check_number,
     check_parameters,
     parameter,
     shown,
 )
-
-
-def check_numbers(name, values, **bounds):
-    """Return a number or a sequence of them as an array, or raise as `check_number` does.
-
-    Raises
-    ------
-    TypeError, ValueError
-        Naming the place of the number that is wrong.
-    """
-    return np.array([check_number(f"{name}[{i}]", x, **bounds) for i, x in _numbered(values)])
-
-
-def check_counts(name, values, **bounds):
-    """As `check_numbers`, for whole numbers."""
-    return np.array([check_count(f"{name}[{i}]", x, **bounds) for i, x in _numbered(values)], int)
-
-
-def _numbered(values):
-    return enumerate(values if isinstance(values, (list, tuple)) else np.atleast_1d(values))
-
-
-def check_frequency(value):
-    """Return the forcing frequency W, or raise if it is out of range."""
-    return check_number("frequency", value, **FREQUENCY_RANGE)
-
-
-def check_increasing(name, values, least="one"):
-    """Return numbers as an array, or raise ValueError unless they increase; `least` one or two."""
-    numbers = check_numbers(name, values)
-    if len(numbers) < {"one": 1, "two": 2}[least] or np.any(np.diff(numbers) <= 0):
-        given = shown(numbers.tolist())
-        raise ValueError(f"{name} = {given}: must be increasing, and at least {least}")
-    return numbers
-
-
-def check_frequencies(values, least="one"):
-    """Return increasing forcing frequencies as an array, or raise as `check_frequency` does."""
-    return check_increasing(
-        "frequencies", check_numbers("frequencies", values, **FREQUENCY_RANGE), least
-    )
-
-
-def check_starts(starts, points, least=1):
-    """Raise unless `starts` is a number of runs that can be kept in memory at so many points."""
-    most = max(least, MOST_RUNS // points)
-    check_count("starts", starts, least=least, most=most, why=f"at {points} points: memory")
-
-
-def check_span(name, span, **bounds) -> tuple:
-    """Return least and greatest value of a range above 0, or raise TypeError or ValueError."""
-    ends = check_numbers(name, span, **bounds)
-    if ends.shape != (2,) or not 0 < ends[0] < ends[1]:
-        raise ValueError(f"{name} = {shown(span)}: must be least and greatest value, above 0")
-    return float(ends[0]), float(ends[1])
+from impact_damper.system.checks import check_frequency
 
 
 def check_oscillator(oscillator):
@@ -108,7 +51,7 @@ class Oscillator:
     Raises
     ------
     TypeError, ValueError
-        If a value is not a number or out of range; so does `Damper`.
+        If a value is not a number or out of range.
     """
 
     damping: float = parameter(DAMPING_RANGE, "h, damping")
@@ -134,6 +77,11 @@ class Damper:
         Coefficient of restitution e (xi in the paper), 1 for elastic contact.
     contact_stiffness : float
         r1 = k2/(m1 w0^2), dimensionless; 2000 throughout the paper.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is not a number or out of range.
     """
 
     mass_ratio: float = parameter(MASS_RATIO_RANGE, "rm, loose mass over primary mass")
@@ -159,12 +107,13 @@ class Damper:
 
 
 def pack(oscillator, damper, frequency) -> np.ndarray:
-    """Parameters as the kernels read them; `damper=None` switches the damper off.
+    """Return the parameters as the array that kernels read; `damper=None` for no damper.
 
     Returns
     -------
     numpy.ndarray, shape (packed.COUNT,)
-        In the places that `packed` names. Without a damper the clearance is infinite.
+        In the places that `packed` names. Without a damper the clearance is infinite and the
+        contact's parameters are 0.
 
     Raises
     ------
@@ -173,11 +122,14 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     ValueError
         If the frequency is out of range, or the contact too fast for it.
     """
-    frequency = check_frequency(frequency)
+    p = np.zeros(packed.COUNT)
+    p[packed.FREQUENCY] = frequency = check_frequency(frequency)
     check_oscillator(oscillator)
-    stiffness = oscillator.linear_frequency**2
+    p[packed.DAMPING] = oscillator.damping
+    p[packed.STIFFNESS] = oscillator.linear_frequency**2
     if damper is None:
-        return np.array([frequency, oscillator.damping, stiffness, np.inf, 0.0, 0.0, 0.0])
+        p[packed.CLEARANCE] = np.inf
+        return p
     check_damper(damper)
     natural = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
     if natural > MOST_STIFF * frequency:
@@ -186,21 +138,15 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
             f"{damper.mass_ratio:g} and frequency = {frequency:g}: must be so small that the "
             f"contact is at most {MOST_STIFF:g} times as fast as the forcing (steps of a contact)"
         )
-    return np.array(
-        [
-            frequency,
-            oscillator.damping,
-            stiffness,
-            damper.clearance,
-            damper.contact_stiffness,
-            1 / damper.mass_ratio,
-            damper.dashpot,
-        ]
-    )
+    p[packed.CLEARANCE] = damper.clearance
+    p[packed.CONTACT_STIFFNESS] = damper.contact_stiffness
+    p[packed.INVERSE_MASS_RATIO] = 1 / damper.mass_ratio
+    p[packed.DASHPOT] = damper.dashpot
+    return p
 
 
 def describe(*parts) -> dict:
-    """Parameters of an oscillator, a damper or None as one dictionary of plain numbers."""
+    """Return the fields of dataclasses as one dictionary of numbers; None has no fields."""
     return {
         field.name: getattr(part, field.name)
         for part in parts

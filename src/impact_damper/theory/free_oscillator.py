@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.system.parameters import check_frequency
+from impact_damper.system.checks import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
 

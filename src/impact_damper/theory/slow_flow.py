@@ -8,7 +8,7 @@ Jacobian has the same eigenvalues at a fixed point.
 
 import numpy as np
 
-from impact_damper.system.parameters import check_frequency
+from impact_damper.system.checks import check_frequency
 from impact_damper.theory.single_harmonic import contact_amplitude
 
 # Growth rates of smaller modulus count as marginal.

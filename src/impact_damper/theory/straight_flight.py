@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from impact_damper.system.parameters import check_damper, check_number
+from impact_damper.system.bounds import check_number
+from impact_damper.system.parameters import check_damper
 
 # Impulses tried before the minimum of max |x| is refined.
 GRID = 65
