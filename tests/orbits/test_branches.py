@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 from impact_damper.motions import strobe_map
 from impact_damper.motions.ensemble import Settling, settle
 from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.continuation import Problem
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.stages.branches import complete_branches, orbit_branch, periodic_orbit
 from impact_damper.stages.response import frequency_response
@@ -147,6 +148,34 @@ def test_branch_of_two_turns_is_recognised_from_every_motion_on_it():
     branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
     assert (branches["branch_period"].values == 1).sum() == 1
     assert branches["seeds"] >= 4
+
+
+def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
+    for branch in (quiet, resonance):
+        middle = branch.points[len(branch.points) // 3]
+        orbit = find_orbit(middle.orbit.p, middle.orbit.strobe_states[0])
+        assert branch.holds(orbit, middle.value)
+        assert not branch.holds(orbit, middle.value + 0.01)
+    alien = find_orbit(free(1.9), scene_of("non-resonance").state)
+    assert not quiet.holds(alien, 1.9)
+    with_half = replace(quiet.points[5].orbit, periods=2)
+    assert not quiet.holds(with_half, quiet.points[5].value)
+
+
+def test_no_guess_far_away_near_a_fold(resonance, monkeypatch):
+    """Along a tangent at right angles to the parameter a guess would be 1e5 away."""
+    fold = event(resonance, "fold")
+    guesses = []
+    monkeypatch.setattr(Problem, "correct", lambda self, x, border: guesses.append(x))
+    Problem.of(free, fold.orbit).at_value(fold, fold.value + 0.02)
+    assert np.linalg.norm(guesses[0] - fold.x) < 0.1
+
+
+def test_what_was_found_is_told(capsys):
+    response = frequency_response(PAPER, None, [2.0], starts=8)
+    complete_branches(PAPER, None, (1.9, 2.1), [response], progress="free")
+    told = capsys.readouterr().err
+    assert "free: 100%" in told and "branches with" in told and "range_ends" in told
 
 
 @pytest.mark.parametrize(

@@ -16,5 +16,6 @@ branches = complete_branches(
     Damper(**job["damper"]),
     job["frequencies"],
     [load(path) for path in snakemake.input.motions],
+    progress=snakemake.wildcards.curve,
 )
 save(branches, snakemake.output[0])

@@ -16,5 +16,6 @@ branches = complete_branches(
     None,
     job["frequencies"],
     [load(path) for path in snakemake.input.motions],
+    progress=snakemake.wildcards.oscillator,
 )
 save(branches, snakemake.output[0])

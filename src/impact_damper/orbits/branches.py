@@ -1,6 +1,8 @@
-"""A branch of periodic orbits, followed both ways from one of them as far as it goes."""
+"""A branch of periodic orbits, followed from one orbit in both directions of a parameter."""
 
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -13,38 +15,78 @@ from impact_damper.orbits.continuation import (
     Point,
     Problem,
 )
+from impact_damper.orbits.shooting import Orbit
 
-SAME = 1e-5
-WEAK = 0.02
-GLANCE = 1e-4
 MOST_POINTS = 2000
-# Beyond these an orbit is one of the countless saddles of a chaotic motion, and rounding takes
-# the digits that are asked for: its largest multiplier, and how much its map amplifies.
+# Two orbits at the same parameter are the same if their strobe states differ by less.
+SAME = 1e-5
+# `Branch.holds` compares states only where max |Z1| on the step comes so close to the orbit's.
+NEARBY = 0.02
+# A branch whose last contact, slower than this, disappears has come to a motion without contacts.
+WEAK = 0.02
+# Distance along the tangent at which a lost branch is examined for a new contact.
+GLANCE = 1e-4
+# A branch is left where the largest multiplier, or the norm of the derivative of the map,
+# exceeds these: the orbit is then one of the countless saddles of a chaotic motion, and rounding
+# spoils the digits that are stored.
 UNSTABLE = 100.0
 AMPLIFYING = 300.0
 
 
-class Branch(NamedTuple):
+@dataclass(frozen=True)
+class Branch:
     """A branch of orbits.
 
     Attributes
     ----------
+    family : callable
+        Maps the parameter to packed parameters.
     points : list of Point
-        In order along it, events among them.
+        Points in order along the branch, those of events among them.
     events : list of (int, Event)
-        Each with the number of its point.
+        Events, each with the index of its point.
     ends : tuple of str
-        What ends it before the first point and after the last: range_ends, closed,
+        Reason why the branch ends before the first point and after the last: range_ends, closed,
         symmetry_breaking, period_doubling, grazing, contact_lost, too_unstable, lost or
         point_limit.
     lost : int
-        Events that could not be located.
+        Number of events that could not be located.
     """
 
+    family: Callable[[float], np.ndarray]
     points: list[Point]
     events: list[tuple[int, Event]]
     ends: tuple[str, str]
     lost: int
+
+    @cached_property
+    def values(self):
+        """Parameter at the points, shape (n,)."""
+        return np.array([point.value for point in self.points])
+
+    @cached_property
+    def displacements(self):
+        """Largest |Z1| at the points, shape (n,)."""
+        return np.array([point.orbit.record["maximum_displacement"] for point in self.points])
+
+    def holds(self, orbit, value) -> bool:
+        """Return whether an orbit at a value of the parameter lies on the branch.
+
+        On each step of the branch that crosses the value, and on which max |Z1| comes close to
+        that of the orbit, the orbit of the branch at the value is computed and compared.
+        """
+        if orbit.periods != self.points[0].orbit.periods:
+            return False
+        away = self.values - value
+        size = self.displacements
+        closeness = np.abs(size[:-1] - orbit.record["maximum_displacement"])
+        crossing = (away[:-1] * away[1:] <= 0) & (closeness <= NEARBY + np.abs(np.diff(size)))
+        for k in np.flatnonzero(crossing):
+            point = self.points[k if abs(away[k]) <= abs(away[k + 1]) else k + 1]
+            found = Problem.of(self.family, point.orbit).at_value(point, value)
+            if found is not None and found.orbit.is_same(orbit, SAME):
+                return True
+        return False
 
 
 def follow_branch(family, orbit, value, span) -> Branch:
@@ -53,11 +95,11 @@ def follow_branch(family, orbit, value, span) -> Branch:
     Parameters
     ----------
     family : callable
-        From the parameter to packed parameters.
+        Maps the parameter to packed parameters.
     orbit : Orbit
         A converged orbit of the branch.
     value : float
-        The parameter there.
+        The parameter of that orbit.
     span : tuple of float
         Least and greatest value of the parameter.
 
@@ -78,69 +120,72 @@ def follow_branch(family, orbit, value, span) -> Branch:
             raise ArithmeticError(f"no orbit of the family at {value:g} close to the one given")
         walks.append(_walk(problem, first, span))
         if walks[0].ends[1] == "closed":
-            return walks[0]._replace(ends=("closed", "closed"))
+            return replace(walks[0], ends=("closed", "closed"))
     down, up = walks
     count = len(down.points) - 1
     events = [(count - k, _reversed(event)) for k, event in reversed(down.events)]
     events += [(count + k, event) for k, event in up.events]
     points = down.points[:0:-1] + up.points
-    return Branch(points, events, (down.ends[1], up.ends[1]), down.lost + up.lost)
+    return Branch(family, points, events, (down.ends[1], up.ends[1]), down.lost + up.lost)
 
 
 def _reversed(event):
+    """The event as met in the other direction."""
     return event._replace(before=event.after, after=event.before)
 
 
-def _walk(problem, first, span):
-    """The part of a branch that begins at a point in the direction of its tangent."""
-    points, events, lost, end = [first], [], 0, "point_limit"
+def _walk(problem, first, span) -> Branch:
+    """Follow a branch from a point along its tangent; the start has the end reason ""."""
+    points, events, lost, end = [first], [], 0, ""
     length = FIRST_STEP
-    while len(points) < MOST_POINTS:
-        here = points[-1]
-        there = _next(problem, here, span, length)
-        if there is None:
+    while not end and len(points) < MOST_POINTS:
+        point = points[-1]
+        ahead = _next(problem, point, span, length)
+        if ahead is None:
             length /= 2
             if length < SHORTEST_STEP:
-                end = _loss(problem, here)
-                break
+                end = _loss(problem, point)
             continue
-        length = (there.x - here.x) @ here.tangent
-        news, missed = events_between(problem, here, there, length)
+        length = (ahead.x - point.x) @ point.tangent
+        located, missed = events_between(problem, point, ahead, length)
         lost += missed
-        if _deviation(here.orbit) @ _deviation(there.orbit) < 0:
+        if _deviation(point.orbit) @ _deviation(ahead.orbit) < 0:
             end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
-            news, turned = _up_to_fold(news, end)
-            lost += not turned and not missed
-        for event in news:
+            located, met = _up_to_fold(located, end)
+            lost += not met and not missed
+        for event in located:
             events.append((len(points), event))
             points.append(event.point)
-        if end != "point_limit":
+        if end:
             break
-        points.append(there)
-        if there.value in span:
-            end = "range_ends"
-            break
-        if len(points) > 3 and _passes(problem, here, there, first):
+        points.append(ahead)
+        end = _end_at(problem, point, ahead, first, span, len(points))
+        if end == "closed":
             points[-1] = first
-            end = "closed"
-            break
-        if _is_too_unstable(there.orbit):
-            end = "too_unstable"
-            break
-        moved = problem.rephased(there)
-        if moved is None:
-            end = "lost"
-            break
-        problem, points[-1] = moved
+        elif not end:
+            moved = problem.rephased(ahead)
+            if moved is None:
+                end = "lost"
+            else:
+                problem, points[-1] = moved
         length = min(1.3 * length, LONGEST_STEP)
-    return Branch(points, events, ("", end), lost)
+    return Branch(problem.family, points, events, ("", end or "point_limit"), lost)
 
 
-def _deviation(orbit):
-    """Difference, shape (4,), from an orbit of more symmetry, whose branch is met where it turns.
+def _end_at(problem, point, ahead, first, span, count):
+    """Reason why a branch ends at the point ahead, the last of `count`, or ""."""
+    if ahead.value in span:
+        return "range_ends"
+    if count > 3 and _passes(problem, point, ahead, first):
+        return "closed"
+    return "too_unstable" if _is_too_unstable(ahead.orbit) else ""
 
-    For odd n that is the symmetric one, for even n one of half the period; a symmetric orbit
-    counts as one that meets none.
+
+def _deviation(orbit: Orbit):
+    """Difference, shape (4,), of an orbit from one of more symmetry.
+
+    Two branches meet where it changes sign. For odd n the other orbit is the symmetric one, for
+    even n one of half the period. A symmetric orbit has no such branch to meet: ones.
     """
     if orbit.root is not None:
         return np.ones(4)
@@ -149,25 +194,28 @@ def _deviation(orbit):
 
 
 def _up_to_fold(events, kind):
-    """The events up to the fold at which a branch meets another, of a kind in truth; if found."""
+    """Drop events after the first fold and relabel that fold as `kind`.
+
+    Returns the events, and whether there was a fold.
+    """
     for k, event in enumerate(events):
         if event.kind == "fold":
             return [*events[:k], event._replace(kind=kind)], True
     return events, False
 
 
-def _next(problem, here, span, length):
-    """The next point, at the end of the range if the step would leave it, or None."""
-    there = problem.step(here, length)
-    if there is not None and np.clip(there.value, *span) != there.value:
-        there = problem.at_value(here, float(np.clip(there.value, *span)))
-    if there is None or there.tangent @ here.tangent < STRAIGHT:
+def _next(problem, point, span, length):
+    """Return the next point, at the end of the range if the step would leave it, or None."""
+    ahead = problem.step(point, length)
+    if ahead is not None and np.clip(ahead.value, *span) != ahead.value:
+        ahead = problem.at_value(point, float(np.clip(ahead.value, *span)))
+    if ahead is None or ahead.tangent @ point.tangent < STRAIGHT:
         return None
-    return there
+    return ahead
 
 
 def _loss(problem, last):
-    """What ends a branch at a point beyond which Newton's method finds none.
+    """Reason why a branch ends at a point beyond which Newton's method finds no other.
 
     At a grazing contact the branch turns so sharply that it is not followed further.
     """
@@ -179,14 +227,14 @@ def _loss(problem, last):
 
 
 def _is_too_unstable(orbit):
-    """Whether an orbit amplifies rounding beyond the digits that are asked for."""
+    """Whether an orbit amplifies rounding so much that its stored digits would be wrong."""
     matrix = orbit.monodromy if orbit.root is None else orbit.root
     return abs(orbit.multipliers[0]) > UNSTABLE or np.linalg.norm(matrix, 2) > AMPLIFYING
 
 
-def _passes(problem, here, there, first):
+def _passes(problem, point, ahead, first):
     """Whether the first point of a branch lies on the step between two others."""
-    if (here.value - first.value) * (there.value - first.value) > 0:
+    if (point.value - first.value) * (ahead.value - first.value) > 0:
         return False
-    again = problem.at_value(here, first.value)
+    again = problem.at_value(point, first.value)
     return again is not None and first.orbit.is_same(again.orbit, SAME)

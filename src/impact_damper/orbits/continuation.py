@@ -21,6 +21,7 @@ CLOSE, ROUNDING = 1e-10, 1e-4
 SINGULAR = 1e-8
 SYMMETRIC = 1e-6
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP = 0.01, 0.04, 1e-7
+FARTHEST_GUESS = 2 * LONGEST_STEP
 STRAIGHT = 0.98  # least cosine between the tangents at both ends of a step
 ASIDE = 0.2  # a correction by more than this part of the step may have led to another branch
 
@@ -134,9 +135,14 @@ class Problem:
         return None if found is None or np.linalg.norm(found.x - x) > aside else found
 
     def at_value(self, point, value):
-        """The point at a value of the parameter close to a point's, or None."""
-        direction = point.tangent[-1] or np.inf
-        x = point.x + (value - point.x[-1]) / direction * point.tangent
+        """Return the point at a value of the parameter close to that of a point, or None.
+
+        The first guess lies on the tangent. Near a fold, where the tangent is at right angles to
+        the parameter, it would lie far away, in states that take minutes to integrate: it is
+        taken at most FARTHEST_GUESS along the tangent.
+        """
+        length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
+        x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
         x[-1] = value
         found = self.correct(x, np.eye(len(x))[-1])
         if found is None:

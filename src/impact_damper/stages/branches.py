@@ -3,20 +3,22 @@
 Orbits may be stable or not, of any period, and touch the walls in any sequence.
 """
 
+import sys
+from collections import Counter
+
 import numpy as np
 import xarray as xr
+from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.simulate import COMPONENTS, check_state, phase_of
-from impact_damper.orbits.branches import SAME, follow_branch
-from impact_damper.orbits.continuation import Problem
+from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import STROBE, find_orbit
 from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown
 from impact_damper.system.checks import check_span
 from impact_damper.system.families import LINEAR, family_of
 from impact_damper.system.parameters import describe, pack
 
-NEARBY = 0.02
 # At a slower contact the 3/2-power term of the map at grazing is felt.
 SLOW = 0.01
 
@@ -105,8 +107,8 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     return branches_dataset([branch], back, made, "Branch of periodic orbits")
 
 
-def complete_branches(oscillator, damper, frequencies, motions):
-    """Every branch of orbits over frequency that settled motions lie on, as far as it goes.
+def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
+    """Every branch of orbits over frequency on which settled motions lie, as far as it goes.
 
     Parameters
     ----------
@@ -115,16 +117,24 @@ def complete_branches(oscillator, damper, frequencies, motions):
     frequencies : tuple of float
         Least and greatest frequency W, dimensionless.
     motions : list of xarray.Dataset
-        Of `response.frequency_response` or `subharmonic.subharmonic_suppression` for them.
+        Results of `frequency_response` or `subharmonic_suppression` for this oscillator and
+        damper.
+    progress : str, optional
+        Title of a progress bar and of a summary on stderr; neither is shown without.
 
     Returns
     -------
     xarray.Dataset
-        As of `orbit_branch`, for all branches; and the number of motions that were used, and
-        that Newton's method led to no orbit from. Mirror images count as one branch. Motions
-        without contacts belong to the free oscillator and are left out where there is a damper.
-    """
+        As from `orbit_branch`, for all branches; `seeds`, the number of settled motions, and
+        `seeds_lost`, the number of those from which Newton's method led to no orbit. Mirror
+        images count as one branch. Motions without contacts are left out if there is a damper,
+        because they are those of the free oscillator.
 
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of another type or out of range.
+    """
     frequencies = check_span("frequencies", frequencies, **FREQUENCY_RANGE)
     if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
         raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
@@ -133,18 +143,39 @@ def complete_branches(oscillator, damper, frequencies, motions):
         return pack(oscillator, damper, value)
 
     family(frequencies[0])
-    branches, seeds, lost = [], 0, 0
-    for period, frequency, _, state in sorted(_seeds(motions, damper), key=lambda s: s[:3]):
-        seeds += 1
-        orbit = find_orbit(family(frequency), state, period)
-        if not orbit.converged or orbit.repeats_sooner():
-            lost += 1
-        elif not any(_holds(branch, family, orbit, frequency) for branch in branches):
-            branches.append(follow_branch(family, orbit, frequency, frequencies))
-    made = describe(oscillator, damper) | {"parameter": "frequency"}
-    data = branches_dataset(branches, float, made, "Branches of periodic orbits")
-    counts = dataset({"seeds": seeds, "seeds_lost": lost}, {}, made, data.attrs["title"])
-    return data.assign(counts.variables)
+    branches, lost = [], 0
+    seeds = sorted(_seeds(motions, damper), key=lambda seed: seed[:3])
+    with tqdm(seeds, desc=progress, disable=progress is None, mininterval=1.0) as bar:
+        for period, frequency, _, state in bar:
+            orbit = find_orbit(family(frequency), state, period)
+            if not orbit.converged or orbit.repeats_sooner():
+                lost += 1
+            elif not any(branch.holds(orbit, frequency) for branch in branches):
+                branches.append(follow_branch(family, orbit, frequency, frequencies))
+                bar.set_postfix(branches=len(branches))
+    if progress is not None:
+        tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
+    parameters = describe(oscillator, damper) | {"parameter": "frequency"}
+    data = branches_dataset(branches, float, parameters, "Branches of periodic orbits")
+    counts = {"seeds": len(seeds), "seeds_lost": lost}
+    return data.assign(dataset(counts, {}, parameters, data.attrs["title"]).variables)
+
+
+def _summary(branches, seeds, lost):
+    """Text: numbers of motions, branches, orbits, events by kind and ends by reason."""
+
+    def listed(names):
+        counts = Counter(names)
+        return ", ".join(f"{name} {counts[name]}" for name in sorted(counts)) or "none"
+
+    events = listed(event.kind for branch in branches for _, event in branch.events)
+    ends = listed(end for branch in branches for end in branch.ends)
+    orbits = sum(len(branch.points) for branch in branches)
+    unlocated = sum(branch.lost for branch in branches)
+    return (
+        f"{seeds} motions, {lost} of them without an orbit; {len(branches)} branches with "
+        f"{orbits} orbits; events: {events}; not located: {unlocated}; ends: {ends}"
+    )
 
 
 def _found(oscillator, damper, frequency, state, period, phase):
@@ -175,26 +206,6 @@ def _seeds(motions, damper):
                 float(motion["maximum_displacement"]),
                 motion["state"].values,
             )
-
-
-def _holds(branch, family, orbit, value):
-    """Whether an orbit lies on a branch: whether one of its orbits there is the same."""
-    size = orbit.record["maximum_displacement"]
-    for here, there in zip(branch.points, branch.points[1:], strict=False):
-        if here.orbit.periods != orbit.periods:
-            return False
-        if (here.value - value) * (there.value - value) > 0:
-            continue
-        if abs(here.orbit.record["maximum_displacement"] - size) > NEARBY + abs(
-            here.orbit.record["maximum_displacement"] - there.orbit.record["maximum_displacement"]
-        ):
-            continue
-        nearer = min(here, there, key=lambda point: abs(point.value - value))
-        problem = Problem.of(family, nearer.orbit)
-        found = problem.at_value(nearer, value)
-        if found is not None and found.orbit.is_same(orbit, SAME):
-            return True
-    return False
 
 
 def _status(orbit):
