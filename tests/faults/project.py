@@ -15,7 +15,7 @@ DATA = "results/optimum/h215_rm012.nc"
 TARGETS = [
     DATA,
     "results/design/figure_05a.nc",
-    "results/tables/optima.csv",
+    "results/tables/optimum.csv",
     "results/figures/figure_06.png",
 ]
 CONFIGURATIONS = ["config/smoke.yaml", "config/small.yaml"]

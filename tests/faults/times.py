@@ -29,7 +29,7 @@ def two_runs(context):
         project = context.fresh("two-targets")
         both = [
             project.start(targets=["results/design/figure_05a.nc"]),
-            project.start(targets=["results/tables/optima.csv"]),
+            project.start(targets=["results/tables/optimum.csv"]),
         ]
         told = [process.communicate()[0] for process in both]
         expect(not any(process.returncode for process in both), str(told)[-500:])

@@ -18,8 +18,8 @@ from impact_damper.stages.design_rules import (
 )
 from impact_damper.stages.optimum import clearance_sweep
 from impact_damper.system.parameters import Damper, Oscillator, pack
-from impact_damper.tables.design_rules import SWEEPS, WORDS
-from impact_damper.tables.design_rules import design_rules as table_of
+from impact_damper.tables.clearance import RULE_NAMES, SWEEPS
+from impact_damper.tables.clearance import design_rules as table_of
 
 PAPER = Oscillator(0.215)
 GIVEN = {"mass_ratio": 0.25, "restitution": 0.75, "contact_stiffness": 2000.0}
@@ -118,15 +118,15 @@ def test_table_counts(grid, sweeps):
     table = table_of({"design_rules": {"made": grid}, "optimum": sweeps})
     rows = table.set_index(["group", "criterion", "rule"])
     for rule in RULES:
-        row = rows.loc["made", "max |Z1|", WORDS[rule]]
+        row = rows.loc["made", "max |Z1|", RULE_NAMES[rule]]
         cell = grid.sel(criterion="displacement", rule=rule)
         error = 100 * np.abs(cell.rule_ratio / cell.best_ratio - 1).values
         assert row["designs"] == 4 and row["optima found"] == 4
         for most in (1, 2, 5, 10):
             assert row[f"within {most} %"] == np.sum(error <= most)
         assert_allclose(row["largest error, %"], np.nanmax(error))
-    assert rows.loc["all grids, e = 1", "max |Z1|", WORDS["flight"]]["designs"] == 2
-    assert rows.loc[SWEEPS, "max |Z1|", WORDS["flight"]]["within 1 %"] == 2
+    assert rows.loc["all grids, e = 1", "max |Z1|", RULE_NAMES["flight"]]["designs"] == 2
+    assert rows.loc[SWEEPS, "max |Z1|", RULE_NAMES["flight"]]["within 1 %"] == 2
 
 
 def test_drawing(grid, tmp_path):

@@ -9,7 +9,7 @@ from impact_damper.data.datasets import flag
 from impact_damper.figures.harmonic_convergence import draw_harmonics
 from impact_damper.stages import harmonic_convergence
 from impact_damper.system.parameters import Damper, Oscillator, pack
-from impact_damper.tables.harmonics import harmonics as table
+from impact_damper.tables.design import harmonic_convergence as table
 from impact_damper.theory import convergence
 
 SOFT = Damper(0.12, 2.0, contact_stiffness=200.0)

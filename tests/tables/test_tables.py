@@ -6,7 +6,7 @@ import pytest
 from helpers.made_up import world
 
 from impact_damper.data.table_files import save
-from impact_damper.tables import paper
+from impact_damper.tables import clearance, design, migration, responses
 
 
 @pytest.fixture(scope="module")
@@ -14,58 +14,58 @@ def data():
     return world()
 
 
-def test_design(data):
-    table = paper.design(data).set_index("curve")
+def test_harmonic_balance(data):
+    table = design.harmonic_balance(data).set_index("curve")
     assert len(table) == len(data["design"])
     assert table.loc["figure_05a", "rm Wp^2 d0"] == pytest.approx(1)
     assert table.loc["figure_03b", "d0 of (19)"] == pytest.approx(1 / (0.12 * 2.1**2))
 
 
 def test_bands(data):
-    table = paper.bands(data).set_index("curve")
+    table = responses.bands(data).set_index("curve")
     assert set(table.index) == set(data["design"]) | set(data["response"])
     row = table.loc["figure_05b"]
     assert row["width, balance"] == pytest.approx(row["width, motions"])
-    assert row["ended by"] == "other motion appears"
-    assert row["widest range of it"] == pytest.approx(3 * 0.01)
-    assert row["share of it with a single motion"] == 1
+    assert row["event at lower edge"] == "other motion appears"
+    assert row["widest range of high chaos"] == pytest.approx(3 * 0.01)
+    assert row["share of band with one motion"] == 1
     assert np.isnan(table.loc["figure_03a", "width, motions"])
     assert np.isnan(table.loc["figure_10", "width, balance"])
 
 
 def test_no_band_is_read_off_without_the_resonance_branch(data):
-    table = paper.bands(data | {"free_branches": {}}).set_index("curve")
+    table = responses.bands(data | {"free_branches": {}}).set_index("curve")
     assert table.loc["figure_05b", "width, balance"] > 0
     assert "width, motions" not in table
 
 
-def test_optima(data):
-    table = paper.optima(data).set_index("sweep")
+def test_optimum(data):
+    table = clearance.optimum(data).set_index("sweep")
     assert len(table) == len(data["optimum"])
     assert table.loc["0.107_0.12_1.0", "excess over (18)"] == pytest.approx(0.05)
     assert (table.kind == "kink").all()
 
 
-def test_subharmonics(data):
-    table = paper.subharmonics(data)
+def test_subharmonic(data):
+    table = responses.subharmonic(data)
     free = table[table.damper == "off"].set_index("data")
     assert free.loc["h215", "from W"] == pytest.approx(0.8 * 2)
     assert free.loc["h215", "to W"] == pytest.approx(1.1 * 2)
     damped = table[table.data == "figure_05c"]
     assert list(damped.branch) == ["all", "4"]
     assert list(damped["largest max |Z1|"]) == pytest.approx([0.1, 0.1])
-    assert damped["over that without damper"].iloc[0] == pytest.approx(0.1 / 0.8)
+    assert damped["largest ratio to free max |Z1|"].iloc[0] == pytest.approx(0.1 / 0.8)
     assert list(table[table.data == "figure_05a"].branch) == ["all"]
 
 
 def test_free_oscillator_without_subharmonic(data):
     free = data["free_branches"]["h215"]
     changed = data | {"free_branches": {"none": free.assign(branch_period=0 * free.branch_period)}}
-    assert paper.subharmonics(changed).branch.iloc[0] == "none"
+    assert responses.subharmonic(changed).branch.iloc[0] == "none"
 
 
 def test_migration(data):
-    table = paper.migration(data)
+    table = migration.migration(data)
     assert len(table) == 2 * len(data["migration"])
     row = table[(table.case == "figure_15") & (table["released from"] == "quiet")].iloc[0]
     assert row["to subharmonic"] == 0.5
@@ -73,8 +73,8 @@ def test_migration(data):
     assert row["median cycles, all runs"] == pytest.approx(150)
 
 
-def test_releases(data):
-    table = paper.releases(data).set_index(["scan", "released from", "leads to"])
+def test_release_scan(data):
+    table = migration.release_scan(data).set_index(["scan", "released from", "leads to"])
     both = table.loc["wide", "quiet", "non-resonance, subharmonic"]
     assert both["at W"] == "1.5, 1.7 to 1.8"
     assert both["frequencies"] == 3

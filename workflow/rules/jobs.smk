@@ -32,19 +32,19 @@ STAGES = {
 
 # Stages whose data a table holds.
 TABLES = {
-    "design": ["design", "design_orbit"],
+    "harmonic_balance": ["design", "design_orbit"],
     "bands": ["design", "free_branches", "branches", "response"],
-    "optima": ["optimum"],
-    "subharmonics": ["free_branches", "branches", "subharmonic"],
+    "optimum": ["optimum"],
+    "subharmonic": ["free_branches", "branches", "subharmonic"],
     "orbits": ["free_branches", "branches"],
     "bifurcations": ["free_branches", "branches"],
     "migration": ["migration"],
-    "releases": ["release_scan"],
+    "release_scan": ["release_scan"],
     "contact_model": ["contact_model"],
     "contact_motions": ["contact_model"],
     "rigid_limit": ["rigid_limit"],
     "design_rules": ["design_rules", "optimum"],
-    "harmonics": ["harmonics"],
+    "harmonic_convergence": ["harmonics"],
     "grazing": ["missed_contacts"],
     "steps": ["stable_steps"],
     "verdicts": ["verdicts"],
@@ -66,15 +66,21 @@ TABLES = {
     ],
 }
 
-# Module of the package that makes a table, where it is not `tables`.
+# Module of `tables` that makes a table.
 TABLE_MODULES = {
-    "orbits": "orbits",
-    "bifurcations": "orbits",
+    "harmonic_balance": "design",
+    "harmonic_convergence": "design",
+    "bands": "responses",
+    "subharmonic": "responses",
+    "orbits": "responses",
+    "bifurcations": "responses",
+    "optimum": "clearance",
+    "migration": "migration",
+    "release_scan": "migration",
     "contact_model": "contact",
     "contact_motions": "contact",
     "rigid_limit": "contact",
-    "design_rules": "design_rules",
-    "harmonics": "harmonics",
+    "design_rules": "clearance",
     "grazing": "integrators",
     "steps": "integrators",
     "verdicts": "integrators",
@@ -239,7 +245,7 @@ def release_scan_job(name):
 
 def table_module(wildcards):
     """Full name of the module that makes a table."""
-    return f"impact_damper.tables.{TABLE_MODULES.get(wildcards.table, 'paper')}"
+    return f"impact_damper.tables.{TABLE_MODULES[wildcards.table]}"
 
 
 def table_code(wildcards):

@@ -1,4 +1,4 @@
-"""Counts of where harmonic balance fails, by map and class."""
+"""Table of the maps that compare harmonic balance with the exact motions."""
 
 import numpy as np
 import pandas as pd
@@ -22,9 +22,9 @@ AMPLITUDES = {
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Cells of each map by class, the share of chaos, and how far amplitudes are off.
+    """Number of cells of each map by verdict, share of chaos, and share of accurate amplitudes.
 
-    A share has the 95 % interval that it would have for cells drawn at random.
+    Shares come with the 95 % interval of a binomial share, as if the cells were drawn at random.
     """
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
@@ -41,11 +41,11 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _words(variable, value):
-    """What the balance says and what is true, from the meaning of a flag."""
+    """Verdict of harmonic balance and exact result, from the meaning of a flag."""
     words = extract.meaning(variable, value)
-    said, _, true = words.partition(" ")
-    if said in BALANCE_VERDICT and true:
-        return {"balance": said, "truth": true}
+    balance, _, truth = words.partition(" ")
+    if balance in BALANCE_VERDICT and truth:
+        return {"balance": balance, "truth": truth}
     return {"balance": "", "truth": words}
 
 
@@ -55,7 +55,7 @@ def _share(count, total):
 
 
 def _summary(data):
-    """Chaos among high motions, and what becomes of the stable quiet orbits."""
+    """Rows on chaos among the high motions, and on the cells with a stable quiet orbit."""
     kinds = data["high_run_motion"].values
     chaotic = np.sum(kinds == flag("high_run_motion", "high_chaotic"))
     settled = np.sum(kinds == flag("high_run_motion", "high"))
@@ -69,8 +69,8 @@ def _summary(data):
     question = "balance stable, orbit stable"
     yield _row(question, "reached from the balance's solution", landed.sum(), len(landed))
     size = data["balance_quiet_amplitude"].values[agreed]
-    for words, true in AMPLITUDES.items():
-        near = np.abs(size / data[true].values[agreed] - 1) <= NEAR
+    for words, variable in AMPLITUDES.items():
+        near = np.abs(size / data[variable].values[agreed] - 1) <= NEAR
         yield _row(question, f"|a| within 20 % of {words}", near.sum(), len(near))
 
 

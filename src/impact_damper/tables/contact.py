@@ -1,26 +1,26 @@
-"""Tables of the contact model and of its rigid limit, with counts of the cells of their maps."""
+"""Tables of the contact model and of the rigid limit, with counts of the cells of their maps."""
 
 import numpy as np
 import pandas as pd
 
 from impact_damper.claims import extract
 from impact_damper.data.variables import VARIABLES
-from impact_damper.tables.paper import parameters_by_symbol
+from impact_damper.tables.columns import parameter_columns
 
 
-def _shares(name, values):
-    """How many cells a map has of each flag."""
+def _counts(name, values):
+    """Number of cells with each meaning of a flag."""
     flags = VARIABLES[name].flags
     return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """What the contact model comes to without load, by exit rule, and counts of the map's cells."""
+    """Contacts without load by exit rule, and number of cells of the map with each verdict."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
             cells = data.sel(exit_rule=rule)
-            counts = _shares("contact_verdict", cells.contact_verdict.values)
+            counts = _counts("contact_verdict", cells.contact_verdict.values)
             rows.append({"case": name, "exit": rule, "cells": cells.contact_verdict.size} | counts)
             for i, restitution in enumerate(data.used.values):
                 rows.append(
@@ -31,7 +31,7 @@ def contact_model(datasets) -> pd.DataFrame:
 
 
 def _unloaded(data, pulls):
-    """Columns for a contact without load; the wall pulls only with the paper's rule."""
+    """Columns of a contact without load; the wall pulls only with the paper's exit rule."""
     realised = float(data.unloaded_restitution)
     row = {
         "damping ratio": float(data.unloaded_damping),
@@ -41,15 +41,15 @@ def _unloaded(data, pulls):
     }
     if pulls:
         row |= {
-            "share of it with pull": float(data.unloaded_pull_time),
-            "impulse of pull": float(data.unloaded_pull_impulse),
-            "largest pull": float(data.unloaded_pull_peak),
+            "share of contact with pull": float(data.unloaded_pull_time),
+            "impulse of pull over push": float(data.unloaded_pull_impulse),
+            "largest pull over push": float(data.unloaded_pull_peak),
         }
     return row
 
 
 def contact_motions(datasets) -> pd.DataFrame:
-    """Contacts of simulated motions in the map, and max |Z1| by either rule for their end."""
+    """Contacts of simulated motions, and max |Z1| with either exit rule."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for place in np.ndindex(*(data.sizes[dim] for dim in data.scene_outcome.dims)):
@@ -57,7 +57,7 @@ def contact_motions(datasets) -> pd.DataFrame:
             size = float(motion.scene_displacement)
             rows.append(
                 {"case": name}
-                | parameters_by_symbol(data, "mass_ratio", "clearance")
+                | parameter_columns(data, "mass_ratio", "clearance")
                 | {
                     "e": float(motion.used),
                     "W": float(motion.frequency),
@@ -74,16 +74,16 @@ def contact_motions(datasets) -> pd.DataFrame:
                     "within 5 % of e": float(motion.scene_fair),
                     "least e": float(motion.scene_restitution_low),
                     "largest e": float(motion.scene_restitution_high),
-                    "error of closed form": float(motion.scene_restitution_error),
-                    "error of its time": float(motion.scene_duration_error),
-                    "not released by it": int(motion.scene_unreleased),
+                    "error of closed-form e": float(motion.scene_restitution_error),
+                    "error of closed-form duration": float(motion.scene_duration_error),
+                    "not released by closed form": int(motion.scene_unreleased),
                 }
             )
     return pd.DataFrame(rows)
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Errors of rigid impacts at the damper's own r1, their order, and counts of the cells."""
+    """Errors of rigid impacts at the damper's own r1, their order in r1, and counts of cells."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=extract.parameter(data, "frequency"), method="nearest")
@@ -94,7 +94,7 @@ def rigid_limit(datasets) -> pd.DataFrame:
         edges = [0.0, *data.threshold.values, np.inf]
         rows.append(
             {"case": name}
-            | parameters_by_symbol(
+            | parameter_columns(
                 data, "damping", "mass_ratio", "clearance", "restitution", "frequency"
             )
             | {
@@ -102,7 +102,7 @@ def rigid_limit(datasets) -> pd.DataFrame:
                 "max |Z1|": float(data.own_displacement),
                 "rigid error": float(data.own_error),
                 "mended error": float(data.own_mended_error),
-                "error of decay": float(data.own_decay_error),
+                "error of multiplier": float(data.own_decay_error),
                 "order": float(own.rigid_order),
                 "mended order": float(own.mended_order),
             }
@@ -111,7 +111,7 @@ def rigid_limit(datasets) -> pd.DataFrame:
                 for i, (level, r1) in enumerate(zip(data.threshold.values, needed, strict=True))
             }
             | {"cells": error.size}
-            | _shares("rigid_verdict", data.rigid_verdict.values)
+            | _counts("rigid_verdict", data.rigid_verdict.values)
             | {
                 f"error {low:.0%} to {high:.0%}" if high < np.inf else f"error over {low:.0%}": int(
                     np.sum(both & (error >= low) & (error < high))
@@ -120,7 +120,7 @@ def rigid_limit(datasets) -> pd.DataFrame:
             }
             | {
                 f"compliant {words}": count
-                for words, count in _shares(
+                for words, count in _counts(
                     "compliant_status", data.compliant_status.values
                 ).items()
                 if words != "found"

@@ -29,7 +29,7 @@ MODULES = [
     "impact_damper.workflow.compile_kernels",
     "impact_damper.stages.accuracy",
     "impact_damper.stages.migration",
-    "impact_damper.tables.paper",
+    "impact_damper.tables.responses",
     "netCDF4",
     "snakemake.script",
 ]

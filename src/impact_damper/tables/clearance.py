@@ -1,0 +1,119 @@
+"""Tables of the optimum clearance: simulated optima, and the accuracy of design rules."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import extract
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.stages.design_rules import RULES, rule_ratios
+from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.tables.columns import parameter_columns
+
+WITHIN = (1, 2, 5, 10)  # errors counted, in per cent
+RULE_NAMES = {
+    "balance": "(18): 1",
+    "gap_harmonic": "pi^2/8",
+    "straight_flight": "straight flight between rigid walls",
+    "elastic": "explicit, elastic contact",
+    "flight": "flight with corrections",
+}
+SWEEPS = "clearance sweeps of figures 6, 7 and 11"
+CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"}
+
+
+def optimum(datasets) -> pd.DataFrame:
+    """Optimum clearance of each sweep by simulation, equations (7), rules and straight flight."""
+    rows = []
+    for name, data in datasets.get("optimum", {}).items():
+        best, rule = float(data.optimum_clearance), float(data.rule_clearance)
+        lower, upper = data.near_clearance.values
+        rows.append(
+            {"sweep": name}
+            | parameter_columns(data, "damping", "frequency", "mass_ratio", "restitution")
+            | {
+                "d0 of (18) at W": rule,
+                "d0 of (19) at Wp": float(data.peak_rule_clearance),
+                "optimum d0 of (7)": float(data.analytical_optimum),
+                "optimum d0": best,
+                "least max |Z1|": float(data.optimum_displacement),
+                "kind": extract.meaning("optimum_kind", data.optimum_kind),
+                "within 10 % from d0": lower,
+                "to d0": upper,
+                "excess over (18)": best / rule - 1,
+                "rm W^2 d0": float(data.optimum_ratio),
+                "rm W^2 d0 of straight flight": float(data.straight_flight_ratio),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def design_rules(datasets) -> pd.DataFrame:
+    """Number of optima that each rule predicts within 1, 2, 5 and 10 %, and the cost of its error.
+
+    One row for each group of designs, criterion and rule. The groups are the grids, the clearance
+    sweeps of the paper's figures, and the cells of all grids with elastic or with inelastic
+    contact. All optima count, stable or not. The cost of an error is the relative excess of
+    max |Z1| at the clearance of the rule.
+    """
+    cells = pd.concat([*_grids(datasets), *_sweeps(datasets)], ignore_index=True)
+    grids = cells[cells.group != SWEEPS]
+    elastic = np.where(grids.restitution == 1, "all grids, e = 1", "all grids, e < 1")
+    cells = pd.concat([cells, grids.assign(group=elastic)], ignore_index=True)
+    keys = ["group", "criterion", "rule"]
+    groups = cells.groupby(keys, sort=False)
+    return pd.DataFrame([dict(zip(keys, name, strict=True)) | _row(each) for name, each in groups])
+
+
+def _grids(datasets):
+    """Frames of the cells of each grid, one row for each design, criterion and rule."""
+    for name, data in datasets.get("design_rules", {}).items():
+        cells = data.to_dataframe().reset_index()
+        cells["group"] = name
+        cells["found"] = cells.best_kind != flag("best_kind", "not_found")
+        cells["stable"] = cells.best_stability == flag("best_stability", "stable")
+        cells["rule_excess"] = cells.rule_excess.where(cells.criterion == "displacement")
+        yield cells.replace({"rule": RULE_NAMES, "criterion": CRITERIA})
+
+
+def _sweeps(datasets):
+    """Frames as in `_grids` for the clearance sweeps; simulated, so their optima are stable."""
+    for data in datasets.get("optimum", {}).values():
+        parameters = parameters_of(data)
+        oscillator = Oscillator(parameters["damping"], parameters["linear_frequency"])
+        names = "mass_ratio", "restitution", "contact_stiffness"
+        damper = Damper(clearance=1.0, **{name: parameters[name] for name in names})
+        best = float(data.optimum_ratio)
+        yield pd.DataFrame(
+            {
+                "group": SWEEPS,
+                "criterion": CRITERIA["displacement"],
+                "rule": [RULE_NAMES[rule] for rule in RULES],
+                "restitution": parameters["restitution"],
+                "best_ratio": best,
+                "rule_ratio": rule_ratios(oscillator, damper, parameters["frequency"])[0],
+                "rule_excess": np.nan,
+                "found": np.isfinite(best),
+                "stable": np.isfinite(best),
+            }
+        )
+
+
+def _row(cells):
+    """Columns of a group of cells with one criterion and one rule."""
+    error = 100 * (cells.rule_ratio / cells.best_ratio - 1).abs()
+    excess = 100 * cells.rule_excess
+    lost = cells.found & cells.rule_ratio.notna() & excess.isna()
+    return {
+        "designs": len(cells),
+        "optima found": int(cells.found.sum()),
+        "optima with a stable motion": int(cells.stable.sum()),
+        "optima predicted": int(error.notna().sum()),
+        **{f"within {most} %": int((error <= most).sum()) for most in WITHIN},
+        "median error, %": error.median(),
+        "largest error, %": error.max(),
+        "no quiet motion at the clearance of the rule": int(lost.sum())
+        if excess.notna().any()
+        else np.nan,
+        "median excess of max |Z1|, %": excess.median(),
+        "largest excess, %": excess.max(),
+    }

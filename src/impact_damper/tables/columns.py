@@ -1,0 +1,30 @@
+"""Shared by the tables: columns with the parameters of a dataset, and runs of True."""
+
+import numpy as np
+
+from impact_damper.data.datasets import parameters_of
+
+SYMBOLS = {
+    "damping": "h",
+    "linear_frequency": "omega_l",
+    "mass_ratio": "rm",
+    "clearance": "d0",
+    "restitution": "e",
+    "frequency": "W",
+    "contact_stiffness": "r1",
+}
+
+
+def parameter_columns(data, *names) -> dict:
+    """Values of the named parameters of a dataset, by the paper's symbols.
+
+    Parameters that the dataset does not have, such as those of the damper without one, are left
+    out.
+    """
+    parameters = parameters_of(data)
+    return {SYMBOLS[name]: parameters[name] for name in names if name in parameters}
+
+
+def runs_of_true(mask) -> np.ndarray:
+    """First index, and index after the last, of each run of True; shape (count, 2)."""
+    return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

@@ -1,0 +1,115 @@
+"""Tables of harmonic balance: the designs of the curves, and convergence with more harmonics."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import extract
+from impact_damper.claims.claim import Missing
+from impact_damper.data.datasets import flag, is_settled
+from impact_damper.tables.columns import SYMBOLS, parameter_columns
+
+# Parameters in the table of convergence, and accuracies for which it lists the harmonics needed.
+MOTION = ("damping", "frequency", "mass_ratio", "clearance", "restitution", "contact_stiffness")
+ACCURACIES = {0.01: "N for 1 %", 1e-3: "N for 1e-3", 1e-6: "N for 1e-6"}
+MEASURES = {
+    "maximum": "max |Z1|",
+    "retained": "up to N",
+    "omitted": "beyond N",
+    "multiplier": "multipliers",
+}
+COLD_STARTS = {
+    "same_motion": "same motion",
+    "another_motion": "another motion",
+    "stalled": "stalled",
+    "iteration_limit": "not done",
+}
+
+
+def harmonic_balance(datasets) -> pd.DataFrame:
+    """Rule (19), harmonic balance and the exact quiet orbit of each curve at its peak frequency."""
+    rows = []
+    for name, data in datasets.get("design", {}).items():
+        peak = float(data.peak_frequency)
+        parameters = parameter_columns(
+            data, "damping", "linear_frequency", "mass_ratio", "clearance"
+        )
+        inertia = parameters["rm"] * peak**2
+        rows.append(
+            {"curve": name}
+            | parameters
+            | {
+                "Wp": peak,
+                "free |a| at Wp": float(data.peak_amplitude),
+                "d0 of (19)": 1 / inertia,
+                "rm Wp^2 d0": inertia * parameters["d0"],
+                "|a| at Wp": float(data.quiet_amplitude),
+                "reduction at Wp": float(data.reduction),
+            }
+            | _exact_orbit(datasets.get("design_orbit", {}).get(name))
+        )
+    return pd.DataFrame(rows)
+
+
+def _exact_orbit(orbit):
+    """Columns of the exact quiet orbit at the design point, and of random starts there."""
+    if orbit is None:
+        return {}
+    starts = {
+        "starts that settle": float(np.mean(is_settled({"outcome": orbit.design_run_outcome}))),
+        "largest max |Z1| of starts": float(orbit.design_run_displacement.max()),
+    }
+    try:
+        quiet = extract.design_point(orbit)
+    except Missing:
+        return {"quiet orbit": "not found"} | starts
+    multiplier = float(extract.largest_multiplier(quiet))
+    return {
+        "quiet orbit": "stable" if multiplier < 1 else "unstable",
+        "max |Z1| of quiet orbit": float(quiet.orbit_displacement),
+        "largest multiplier": multiplier,
+        "stable from h": extract.stable_from(orbit),
+    } | starts
+
+
+def harmonic_convergence(datasets) -> pd.DataFrame:
+    """Harmonics that each motion needs, observed and predicted decay of errors, and cold starts."""
+    return pd.DataFrame(
+        {"motion": name} | _convergence(data)
+        for name, data in datasets.get("harmonics", {}).items()
+    )
+
+
+def _convergence(data):
+    """Row of a motion in the table of convergence."""
+    highest = data["highest_harmonic"].values
+    error = data["series_error"]
+    row = {SYMBOLS[name]: np.nan for name in MOTION} | parameter_columns(data, *MOTION)
+    row |= {"max |Z1|": float(data["exact_maximum"])}
+    for accuracy, title in ACCURACIES.items():
+        row[title] = _needed(highest, error.sel(error_measure="maximum").values, accuracy)
+    row |= {
+        "highest N": highest[-1],
+        "failed": int(np.sum(data["series_status"] != flag("series_status", "converged"))),
+        "Hill failed": int(np.sum(data["hill_status"] != flag("hill_status", "found"))),
+        "error of multipliers": float(error.sel(error_measure="multiplier")[-1]),
+        "decay": "exp(-rate N)" if data["decay_kind"] == 1 else "N^-power",
+        "fitted from N": float(data["asymptotic_harmonic"]),
+    }
+    for measure, title in MEASURES.items():
+        decay = data.sel(error_measure=measure)
+        row[f"{title}, observed"] = float(decay["decay_observed"])
+        row[f"{title}, predicted"] = float(decay["decay_predicted"])
+    tried = data["cold_status"].values >= 0
+    row["cold starts"] = int(np.sum(tried))
+    for meaning, title in COLD_STARTS.items():
+        row[title] = int(np.sum(data["cold_status"] == flag("cold_status", meaning)))
+    lost = data["cold_status"].values > flag("cold_status", "same_motion")
+    row["first lost at N"] = int(highest[lost][0]) if lost.any() else np.nan
+    return row
+
+
+def _needed(highest, error, accuracy):
+    """Smallest N from which on all errors are at most `accuracy`; NaN if the last one is not."""
+    above = np.flatnonzero(~(error <= accuracy))
+    first = above[-1] + 1 if len(above) else 0
+    return highest[first] if first < len(highest) else np.nan

@@ -1,0 +1,86 @@
+"""Tables of migration control: the cases of the paper, and scans of releases over frequency."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import extract
+from impact_damper.data.datasets import flag
+from impact_damper.tables.columns import parameter_columns, runs_of_true
+
+
+def migration(datasets) -> pd.DataFrame:
+    """Free motions that releases of each damped motion lead to, and the runs of the controller."""
+    rows = []
+    for name, case in datasets.get("migration", {}).items():
+        reached = case.trial_outcome == flag("trial_outcome", "reached")
+        runs = {
+            "runs that arrive": float(reached.mean()),
+            "within 350 cycles": float(case.within_share.sel(bound="share")),
+            "median switchings of runs that arrive": float(case.switchings.where(reached).median()),
+            "median cycles, damper on, all runs": float(case.damper_time.median()),
+            "median cycles, all runs": float(case.total_time.median()),
+            "most cycles, all runs": float(case.total_time.max()),
+            "long damped runs that settle on the quiet motion": float(
+                (case.landed_on == flag("landed_on", "quiet")).mean()
+            ),
+            "rate of settling per cycle": float(case.escape_rate.sel(bound="share")),
+        }
+        for k in range(case.sizes["damped"]):
+            shares = case.release_share.isel(damped=k)
+            rows.append(
+                {"case": name}
+                | parameter_columns(case, "frequency")
+                | {
+                    "released from": extract.meaning("damped_kind", case.damped_kind[k]),
+                    "period": int(case.damped_period[k]),
+                    "max |Z1|": float(case.damped_displacement[k]),
+                }
+                | {
+                    f"to {end}".replace("_", "-"): float(shares.sel(free_motion=end, bound="share"))
+                    for end in case.free_motion.values
+                }
+                | {
+                    "to non-resonance at least": float(
+                        shares.sel(free_motion="non_resonance", bound="lower")
+                    ),
+                    "to non-resonance at most": float(
+                        shares.sel(free_motion="non_resonance", bound="upper")
+                    ),
+                }
+                | runs
+            )
+    return pd.DataFrame(rows)
+
+
+def release_scan(datasets) -> pd.DataFrame:
+    """Frequencies at which releases of each kind of damped motion lead to which free motions."""
+    rows = []
+    for name, scan in datasets.get("release_scan", {}).items():
+        shares = scan.release_share.sel(bound="share", drop=True).to_series().unstack().dropna()
+        shares["kind"] = scan.damped_kind.to_series()
+        shares["period"] = scan.damped_period.to_series()
+        shares = shares.groupby(["kind", "period", "frequency"])[list(scan.free_motion.values)]
+        for (kind, period), motion in shares.mean().groupby(level=["kind", "period"]):
+            motion = motion.droplevel(["kind", "period"])
+            ends = motion.apply(lambda row: ", ".join(row.index[row > 0]), axis=1)
+            for destinations, part in motion.groupby(ends, sort=False):
+                rows.append(
+                    {"scan": name}
+                    | parameter_columns(scan, "damping", "mass_ratio", "clearance", "restitution")
+                    | {
+                        "released from": extract.meaning("damped_kind", kind),
+                        "period": int(period),
+                        "leads to": destinations.replace("_", "-"),
+                        "at W": _ranges(scan.frequency.values, part.index),
+                        "frequencies": len(part),
+                    }
+                    | {f"to {end}".replace("_", "-"): part[end].mean() for end in part}
+                )
+    return pd.DataFrame(rows)
+
+
+def _ranges(grid, chosen):
+    """Chosen values of a grid as text; neighbouring ones are joined to a range."""
+    runs = runs_of_true(np.isin(grid, chosen))
+    ends = [dict.fromkeys([f"{grid[first]:.5g}", f"{grid[last - 1]:.5g}"]) for first, last in runs]
+    return ", ".join(" to ".join(pair) for pair in ends)

@@ -1,0 +1,196 @@
+"""Tables of frequency responses: suppression bands, subharmonics, branches and bifurcations."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import exact, extract
+from impact_damper.claims.claim import Missing
+from impact_damper.claims.suppression import chaotic_high, high_motions, suppression_band
+from impact_damper.data.datasets import flag
+from impact_damper.tables.columns import parameter_columns, runs_of_true
+
+DAMPER = ("mass_ratio", "clearance", "restitution")
+
+
+def bands(datasets) -> pd.DataFrame:
+    """Suppression band of each curve, by harmonic balance and by the motions that exist."""
+    designs, responses = datasets.get("design", {}), datasets.get("response", {})
+    rows = []
+    for name in dict.fromkeys([*designs, *responses]):
+        row = {"curve": name} | parameter_columns(
+            designs.get(name, responses.get(name)), "damping", "linear_frequency", *DAMPER
+        )
+        if name in designs:
+            row |= _balance_band(designs[name])
+        if name in responses:
+            row |= _existing_band(datasets, name)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _balance_band(data):
+    """Columns of the band by harmonic balance."""
+    lower, upper = data.edge_frequency.values
+    lower_event, upper_event = (
+        extract.meaning("edge_event", value) for value in data.edge_event.values
+    )
+    return {
+        "lower edge, balance": float(lower),
+        "event at lower edge": lower_event,
+        "upper edge, balance": float(upper),
+        "event at upper edge": upper_event,
+        "width, balance": float(data.band_width),
+        "least reduction in band": float(data.edge_reduction.min()),
+        "no reduction above W": float(data.break_even_frequency),
+    }
+
+
+def _existing_band(datasets, name):
+    """Columns of the band by the motions that exist, and of chaotic high motions."""
+    response = datasets["response"][name]
+    try:
+        free = exact.free_of(datasets, response)
+        band = suppression_band(datasets, name)
+    except Missing:
+        return {}
+    frequency, step = response.frequency.values, extract.spacing(response)
+    motions = extract.touching(response).sum("motion")
+    inside = frequency[(frequency > band.lower + band.resolution) & (frequency <= band.upper)]
+    chaotic = chaotic_high(response, free).values
+    high = high_motions(response, free) & extract.is_outcome(response, "chaotic")
+    share = response.share.where(high, 0).sum("motion").values[chaotic] / response.sizes["start"]
+    return {
+        "lower edge, motions": band.lower,
+        "lower edge at most": band.lower + band.resolution,
+        "upper edge, motions": band.upper,
+        "width, motions": band.width,
+        "share of band with one motion": float((motions.sel(frequency=inside) == 1).mean())
+        if len(inside)
+        else np.nan,
+        "high chaos from W": frequency[chaotic].min() if chaotic.any() else np.nan,
+        "high chaos to W": frequency[chaotic].max() if chaotic.any() else np.nan,
+        "width of high chaos": chaotic.sum() * step,
+        "widest range of high chaos": extract.longest_run(chaotic) * step,
+        "share of starts in high chaos": np.mean(share) if chaotic.any() else np.nan,
+    }
+
+
+def subharmonic(datasets) -> pd.DataFrame:
+    """One-third subharmonic without the damper, and every stable branch of it with the damper."""
+    rows = [
+        {"data": name, "damper": "off"}
+        | parameter_columns(free, "damping", "linear_frequency")
+        | _free_subharmonic(free)
+        for name, free in datasets.get("free_branches", {}).items()
+    ]
+    for name, curve in datasets.get("subharmonic", {}).items():
+        head = {"data": name, "damper": "on"} | parameter_columns(
+            curve, "damping", "linear_frequency", "mass_ratio", "clearance"
+        )
+        existing = curve.where(curve.free_subharmonic.notnull())
+        led = existing.switched_share.sel(switched_motion="subharmonic")
+        rows.append(
+            head
+            | {
+                "branch": "all",
+                "largest max |Z1|": float(existing.damped_subharmonic.max()),
+                "largest ratio to free max |Z1|": float(existing.subharmonic_ratio.max()),
+                "share of starts on the free one that lead to it": float(led.mean()),
+            }
+        )
+        if name in datasets.get("branches", {}):
+            part = exact.stable_subharmonics(datasets["branches"][name])
+            rows += [head | _stable_part(branch) for _, branch in part.groupby("branch")]
+    return pd.DataFrame(rows)
+
+
+def _stable_part(part):
+    """Number and period of a branch of subharmonics, and its stable range of W."""
+    return {
+        "branch": f"{part.branch.iloc[0] + 1}",
+        "period": part.period.iloc[0],
+        "from W": part.lower.min(),
+        "to W": part.upper.max(),
+        "largest max |Z1|": part["size"].max(),
+    }
+
+
+def _free_subharmonic(free):
+    """Columns of the free one-third subharmonic, if it exists."""
+    try:
+        part = exact.subharmonic(free)
+    except Missing:
+        return {"branch": "none"}
+    return _stable_part(part[part.stable])
+
+
+def orbits(datasets) -> pd.DataFrame:
+    """Branches of periodic orbits: period, range, where stable, ends, and numerical errors."""
+    rows = []
+    for name, parameters, data in _branches(datasets):
+        for branch in range(data.sizes["branch"]):
+            part = data.isel(point=np.flatnonzero(data["orbit_branch"].values == branch))
+            value = part["followed_value"].values
+            stable = part["orbit_stability"].values == flag("orbit_stability", "stable")
+            grazing = part["orbit_status"].values == flag("orbit_status", "near_grazing")
+            ends = [extract.meaning("branch_end", end) for end in data["branch_end"].values[branch]]
+            rows.append(
+                {"data": name}
+                | parameters
+                | {
+                    "branch": branch + 1,
+                    "period": int(data["branch_period"][branch]),
+                    "orbits": len(value),
+                    "near grazing": int(grazing.sum()),
+                    "from W": value.min(),
+                    "to W": value.max(),
+                    "stable W": _stable_ranges(value, stable),
+                    "largest max |Z1|": float(part["orbit_displacement"].max()),
+                    "one end": ends[0],
+                    "other end": ends[1],
+                    "events": int((data["event_branch"].values == branch).sum()),
+                    "not located": int(data["branch_events_lost"][branch]),
+                    "largest residual, absolute": float(part["orbit_residual"].max()),
+                    "largest error of Liouville's determinant": float(
+                        part["liouville_error"].max()
+                    ),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def _branches(datasets):
+    """Name, parameter columns and dataset of all branches, those without a damper first."""
+    for stage in ("free_branches", "branches"):
+        for name, data in datasets.get(stage, {}).items():
+            yield name, parameter_columns(data, "damping", *DAMPER), data
+
+
+def _stable_ranges(value, stable):
+    """Ranges of W of the stable parts of a branch, as text."""
+    parts = [value[first:last] for first, last in runs_of_true(stable)]
+    return ", ".join(f"{part.min():.5g} to {part.max():.5g}" for part in parts)
+
+
+def bifurcations(datasets) -> pd.DataFrame:
+    """Located bifurcations and changes of contact, by branch and forcing frequency."""
+    rows = []
+    for name, parameters, data in _branches(datasets):
+        for k in range(data.sizes["event"]):
+            branch = int(data["event_branch"][k])
+            rows.append(
+                {"data": name}
+                | parameters
+                | {
+                    "branch": branch + 1,
+                    "period": int(data["branch_period"][branch]),
+                    "W": f"{float(data['event_value'][k]):.10f}",
+                    "event": extract.meaning("event_kind", data["event_kind"].values[k]),
+                    "max |Z1|": float(data["event_displacement"][k]),
+                    "walls before": str(data["walls_before"].values[k]),
+                    "walls after": str(data["walls_after"].values[k]),
+                    "least speed of contact": float(data["event_speed"][k]),
+                }
+            )
+    frame = pd.DataFrame(rows)
+    return frame.sort_values(["data", "branch", "W"], kind="stable") if rows else frame
