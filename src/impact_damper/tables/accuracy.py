@@ -6,7 +6,7 @@ import pandas as pd
 from impact_damper.claims import extract
 from impact_damper.data.datasets import parameters_of
 from impact_damper.rivals.cheapest import METHODS, choice
-from impact_damper.tables import paper
+from impact_damper.tables import clearance, responses
 
 ORBITS = ("rigid", "rigid_mended", "rigid_balance", "full_balance", "many_harmonics", "shooting")
 INTEGRATORS = tuple(name for name in METHODS if name not in ORBITS)
@@ -97,7 +97,7 @@ def readings(datasets) -> pd.DataFrame:
     An edge by simulation lies between two frequencies; no error is given within them.
     """
     rows = []
-    for sweep in paper.optima(datasets).to_dict("records"):
+    for sweep in clearance.optimum(datasets).to_dict("records"):
         true = sweep["optimum d0"]
         found = {
             "rule (18)": sweep["d0 of (18) at W"],
@@ -108,13 +108,13 @@ def readings(datasets) -> pd.DataFrame:
             _reading(sweep["sweep"], "optimum d0", model, value, true, true)
             for model, value in found.items()
         ]
-    for band in paper.bands(datasets).to_dict("records"):
-        if not {"lower, balance", "lower, motions"} <= band.keys():
+    for band in responses.bands(datasets).to_dict("records"):
+        if not {"lower edge, balance", "lower edge, motions"} <= band.keys():
             continue
         for edge in ("lower", "upper"):
-            least = band[f"{edge}, motions"]
-            most = band["or up to"] if edge == "lower" else least
-            value = band[f"{edge}, balance"]
+            least = band[f"{edge} edge, motions"]
+            most = band["lower edge at most"] if edge == "lower" else least
+            value = band[f"{edge} edge, balance"]
             words = f"{edge} edge of the band"
             rows.append(_reading(band["curve"], words, "full balance (7)", value, least, most))
     return pd.DataFrame(rows).dropna(subset=["by the model", "by the motions"])
