@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from benchmarks.methods import METHODS, starts_of
+from benchmarks.methods import TIMED, starts_of
 
 LIMIT = 1e-9
 # Tolerances are 10^(-k/STEPS), for k from LOOSEST to TIGHTEST, 3e-14, which SciPy
@@ -22,7 +22,7 @@ class Found(NamedTuple):
 
 def measured(scene, name, tolerance):
     """A method with a tolerance, and its largest error over its starts."""
-    run = METHODS[name].prepare(scene, tolerance)
+    run = TIMED[name].prepare(scene, tolerance)
     error = scene.error(run(starts_of(scene, name)))
     return run, error if math.isfinite(error) else math.inf
 

@@ -7,54 +7,55 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.accuracy import measured
-from benchmarks.methods import METHODS, applying, starts_of
+from benchmarks.methods import RIVALS, TIMED, applying, starts_of
 from benchmarks.timing import interleaved
 from impact_damper.figures.style import (
     BLACK,
     BLUE,
-    GREEN,
     GREY,
-    ORANGE,
-    PURPLE,
     SKY,
-    VERMILION,
     figure,
     legend,
     letter_panels,
     style,
 )
+from impact_damper.rivals.methods import METHODS, name_and_mode
 
-# No tighter tolerance is tried after a run that took so long, in seconds.
+# No tighter tolerance is tried after a run that took longer, in seconds.
 LONG = 0.5
-# Whoever is further from the exact state has lost the motion.
+# Error of the state from which on a run has lost the motion.
 LOST = 0.1
+# Colour, line and marker of the kernel and of heyoka.py; rivals have the colour of their figures.
 LOOK = {
     "kernel": (BLUE, "-", "o"),
     "kernel_12_15": (BLUE, "--", "4"),
     "kernel_24_30": (BLUE, ":", "*"),
     "kernel_ensemble": (SKY, "-", "s"),
-    "heyoka": (VERMILION, "-", "^"),
-    "heyoka_batch": (ORANGE, "-", "v"),
-    "merson_located": (GREEN, "-", "D"),
-    "merson": (GREEN, ":", "D"),
-    "dop853_events": (BLACK, "-", "P"),
-    "dop853": (BLACK, ":", "P"),
-    "lsoda_events": (PURPLE, "-", "<"),
-    "lsoda": (PURPLE, ":", "<"),
-    "radau_events": (GREY, "-", ">"),
-    "radau": (GREY, ":", ">"),
+    "heyoka": (BLACK, "-", "^"),
+    "heyoka_batch": (GREY, "-", "v"),
 }
+MARKERS = "DP<>"
+
+
+def looks():
+    """Return colour, line and marker of each method: of a rival, a line where it locates."""
+    rivals, markers = {}, {}
+    for label in RIVALS:
+        name, located = name_and_mode(label)
+        marker = markers.setdefault(name, MARKERS[len(markers) % len(MARKERS)])
+        rivals[label] = METHODS[name].colour, "-" if located else ":", marker
+    return LOOK | rivals
 
 
 def points_of(scene, name, exponents, rounds):
-    """Rows of the table of `points` for one method: tolerances 10^-exponent, while not LONG."""
+    """Return rows of the table of `points` for one method, at tolerances 10^-exponent."""
     rows = []
     starts = starts_of(scene, name)
     for exponent in exponents:
         begin = time.perf_counter()
         run, error = measured(scene, name, 10.0**-exponent)
         seconds = time.perf_counter() - begin
-        if not METHODS[name].slow:
+        if not TIMED[name].slow:
             seconds = np.median(interleaved({"": lambda run=run: run(starts)}, rounds)[""])
         status = "found" if error <= LOST else "lost" if math.isfinite(error) else "given_up"
         rows.append({
@@ -67,16 +68,16 @@ def points_of(scene, name, exponents, rounds):
     return rows
 
 
-def points(scenes, exponents, rounds, names=tuple(METHODS)):
-    """Error of the state and microseconds a forcing period, for each scene, method, tolerance.
+def points(scenes, exponents, rounds, names=tuple(TIMED)):
+    """Return error of the state and microseconds a forcing period, by scene, method and tolerance.
 
-    The time is the median of `rounds`, that of the one run where a method is slow. `status` is
-    found, lost (the state is off by more than LOST) or given_up (the run did not end).
+    The time is the median of `rounds`, or of one run if a method is slow. `status` is found, lost
+    (the state is off by more than LOST) or given_up (the run did not end).
     """
     rows = []
     for scene in scenes:
         for name in [each for each in applying(scene) if each in names]:
-            coarse = exponents[::2] if METHODS[name].slow else exponents
+            coarse = exponents[::2] if TIMED[name].slow else exponents
             rows += points_of(scene, name, coarse, rounds)
         print(f"  {scene.name}: error against time of {len(applying(scene))} methods", flush=True)
     return pd.DataFrame(rows)
@@ -97,7 +98,7 @@ def draw(table):
     panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     for axes, scene in zip(panels, names, strict=False):
         here = table[table["scene"] == scene]
-        for name, (color, line, marker) in LOOK.items():
+        for name, (color, line, marker) in looks().items():
             of = here[here["method"] == name]
             found, lost = of[of["status"] == "found"], of[of["status"] != "found"]
             axes.plot(
@@ -108,7 +109,7 @@ def draw(table):
                 marker=marker,
                 markersize=3.2,
                 markerfacecolor=color if line == "-" else "white",
-                label=METHODS[name].title,
+                label=TIMED[name].title,
             )
             axes.plot(
                 lost["microseconds"],

@@ -5,13 +5,14 @@ import math
 import numpy as np
 import pandas as pd
 
-from benchmarks.methods import METHODS
-from benchmarks.scenes import Scene
+from benchmarks.methods import TIMED
+from benchmarks.scenes import BenchmarkScene
 from benchmarks.timing import interleaved
 from impact_damper.figures.style import curve, figure, legend, letter_panels, points, style
 from impact_damper.kernel.single import advance, side_of, workspace
 from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import random_states
+from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import Damper, Oscillator, pack
 
 OSCILLATOR = Oscillator(0.215)
@@ -35,7 +36,11 @@ def motion(damper, frequency, start):
     end, last = begin + PERIODS * period, y.copy()
     _, contacts, _ = advance(p, last, none, side_of(p, last), begin, end, 1e-9, work)
     size = float(measured(p, y.copy(), PERIODS, 1e-9)["maximum_displacement"])
-    return Scene("motion", p, begin, end, PERIODS, y[None], last[None]), contacts / PERIODS, size
+    return (
+        BenchmarkScene("motion", p, begin, end, PERIODS, y[None], last[None]),
+        contacts / PERIODS,
+        size,
+    )
 
 
 def motions(count, seed=1995):
@@ -70,14 +75,15 @@ def per_period(found, rounds, tolerances=TOLERANCES):
     """
     rows = []
     for scene, contacts, size in found:
-        runs = {each: METHODS["kernel"].prepare(scene, each) for each in tolerances}
+        runs = {each: TIMED["kernel"].prepare(scene, each) for each in tolerances}
         calls = {
             each: lambda run=run, starts=scene.starts: run(starts) for each, run in runs.items()
         }
         for tolerance, seconds in interleaved(calls, rounds).items():
             rows.append({
-                "frequency": scene.parameters[0], "contacts": contacts, "displacement": size,
-                "tolerance": tolerance, "median_us": 1e6 * np.median(seconds) / PERIODS,
+                "frequency": scene.parameters[FREQUENCY], "contacts": contacts,
+                "displacement": size, "tolerance": tolerance,
+                "median_us": 1e6 * np.median(seconds) / PERIODS,
             })  # fmt: skip
     return pd.DataFrame(rows)
 

@@ -13,6 +13,16 @@ import math
 import heyoka
 import numpy as np
 
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    DAMPING,
+    DASHPOT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+)
+
 FASTEST = {"fast_math": True, "force_avx512": True}
 # Trajectories of a batch: 8 to 64 were tried, with vectors of four numbers and of eight.
 BATCH = 16
@@ -38,7 +48,7 @@ class Motions:
 
     Parameters
     ----------
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters.
     tolerance : float
     batch : int
@@ -53,7 +63,7 @@ class Motions:
     def __init__(
         self, p, tolerance, *, batch=1, linear_forcing=True, power=False, as_par=False, **settings
     ):
-        self.batch, self.damped = batch, p[3] < math.inf
+        self.batch, self.damped = batch, p[CLEARANCE] < math.inf
         self.views = [None, None]
         x, v, z, w, c, s = heyoka.make_vars("x", "v", "z", "w", "c", "s")
         switches = [0.0, 0.0] if self.damped else []
@@ -65,18 +75,28 @@ class Motions:
             pars.append(float(value))
             return heyoka.par[len(pars) - 1]
 
-        frequency, damping = number(p[0]), number(p[1])
+        frequency, damping = number(p[FREQUENCY]), number(p[DAMPING])
         forcing = c if linear_forcing else heyoka.cos(frequency * heyoka.time)
         free = forcing - damping * v - (x**3 if power else x * x * x)
-        if p[2] != 0:
-            free -= number(p[2]) * x
+        if p[STIFFNESS] != 0:
+            free -= number(p[STIFFNESS]) * x
         system, events = [(x, v), (v, free)], []
         if self.damped:
             depth = z - heyoka.par[1]
-            force = heyoka.par[0] * (depth + number(p[6] / p[4]) * w if p[6] > 0 else depth)
-            system = [(x, v), (v, free - force), (z, w), (w, free - number(1 + p[5]) * force)]
+            force = heyoka.par[0] * (
+                depth + number(p[DASHPOT] / p[CONTACT_STIFFNESS]) * w if p[DASHPOT] > 0 else depth
+            )
+            system = [
+                (x, v),
+                (v, free - force),
+                (z, w),
+                (w, free - number(1 + p[INVERSE_MASS_RATIO]) * force),
+            ]
             event = heyoka.t_event if batch == 1 else heyoka.t_event_batch
-            gap, callback = z * z - number(p[3] ** 2), self._callback(p[3], p[4])
+            gap, callback = (
+                z * z - number(p[CLEARANCE] ** 2),
+                self._callback(p[CLEARANCE], p[CONTACT_STIFFNESS]),
+            )
             events = [event(gap, callback=callback, cooldown=COOLDOWN)]
         if linear_forcing:
             system += [(c, -frequency * s), (s, frequency * c)]

@@ -1,31 +1,39 @@
-"""Methods that are timed, behind one face: a scene and a tolerance give a function of starts."""
+"""Methods that are timed, with one interface: a scene and a tolerance give a function of starts.
+
+The integrators with which the package is compared come from `impact_damper.rivals.methods`.
+"""
 
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks import scipy_runs
 from benchmarks.heyoka_runs import BATCH, Motions
 from impact_damper.kernel import batch
 from impact_damper.kernel.single import advance, workspace
-from impact_damper.rivals.merson import run_merson
+from impact_damper.rivals.methods import (
+    COMPARED,
+    METHODS,
+    integrators,
+    name_and_mode,
+    title_with_mode,
+)
 from impact_damper.rivals.taylor_runs import ROWS, SERIES, steps_of, take_steps
 
 NO_TANGENTS = np.empty((0, 4))
 
 
-class Method(NamedTuple):
+class TimedMethod(NamedTuple):
     """One way to integrate.
 
     Attributes
     ----------
     title : str
     prepare : callable
-        Of a scene and a tolerance; returns a function from starts (m, 4) to states (m, 4), NaN
-        where a run failed. What it compiles is not timed.
+        Takes a scene and a tolerance, and returns a function from starts (m, 4) to states (m, 4),
+        NaN where a run failed. Its compilation is not timed.
     slow : bool
-        Whether one start must do where others take all.
+        Whether the method is run from the first start only.
     """
 
     title: str
@@ -94,64 +102,39 @@ def heyoka_batch(scene, tolerance):
     return heyoka(scene, tolerance, batch=BATCH)
 
 
-def scipy(method, locate):
-    """One of SciPy's methods with a compiled rate, with contacts as events or through the kink."""
+def rival(label):
+    """An integrator of the package's comparisons, called from Python once a run."""
+    name, locate = name_and_mode(label)
+    integrator = integrators()[name]
 
     def prepare(scene, tolerance):
+        given = scene.begin, scene.periods, tolerance, locate
+
         def run(starts):
-            p, begin, end = scene.parameters, scene.begin, scene.end
-            return np.array(
-                [scipy_runs.run(method, p, y, begin, end, tolerance, locate) for y in starts]
-            )
+            return np.array([integrator.end(scene.parameters, y, *given) for y in starts])
 
         return run
 
-    return prepare
+    return TimedMethod(title_with_mode(label), prepare, METHODS[name].slow)
 
 
-def merson(locate):
-    """The paper's Runge-Kutta-Merson with step control."""
-
-    def prepare(scene, tolerance):
-        strobes, largest = np.empty((scene.periods, 4)), np.empty(scene.periods)
-
-        def run(starts):
-            states = np.empty_like(starts)
-            for i, y in enumerate(starts):
-                run_merson(scene.parameters, y, scene.begin, tolerance, locate, strobes, largest)
-                states[i] = strobes[-1]
-            return states
-
-        return run
-
-    return prepare
-
-
-METHODS = {
-    "kernel": Method("this kernel, one at a time", single),
-    "kernel_ensemble": Method("this kernel, ensemble", ensemble),
-    "kernel_12_15": Method("this kernel, orders 12 and 15", of_orders((12, 15))),
-    "kernel_24_30": Method("this kernel, orders 24 and 30", of_orders((24, 30))),
-    "heyoka": Method("heyoka.py, one at a time", heyoka),
-    "heyoka_batch": Method("heyoka.py, batch mode", heyoka_batch),
-    "merson_located": Method("Runge-Kutta-Merson, contacts located", merson(True)),
-    "merson": Method("Runge-Kutta-Merson, through the kink", merson(False)),
-    "dop853_events": Method("DOP853 with events", scipy("DOP853", True), slow=True),
-    "dop853": Method("DOP853, through the kink", scipy("DOP853", False), slow=True),
-    "lsoda_events": Method("LSODA with events", scipy("LSODA", True), slow=True),
-    "lsoda": Method("LSODA, through the kink", scipy("LSODA", False), slow=True),
-    "radau_events": Method("Radau with events", scipy("Radau", True), slow=True),
-    "radau": Method("Radau, through the kink", scipy("Radau", False), slow=True),
+RIVALS = tuple(label for label in COMPARED["accuracy"] if label != "taylor")
+TIMED = {
+    "kernel": TimedMethod("this kernel, one at a time", single),
+    "kernel_ensemble": TimedMethod("this kernel, ensemble", ensemble),
+    "kernel_12_15": TimedMethod("this kernel, orders 12 and 15", of_orders((12, 15))),
+    "kernel_24_30": TimedMethod("this kernel, orders 24 and 30", of_orders((24, 30))),
+    "heyoka": TimedMethod("heyoka.py, one at a time", heyoka),
+    "heyoka_batch": TimedMethod("heyoka.py, batch mode", heyoka_batch),
+    **{label: rival(label) for label in RIVALS},
 }
-# What is the same without contacts as another method.
-NEEDS_CONTACTS = ("merson_located", "dop853_events", "lsoda_events", "radau_events")
 
 
 def starts_of(scene, name):
     """The starts from which a method is run."""
-    return scene.starts[:1] if METHODS[name].slow else scene.starts
+    return scene.starts[:1] if TIMED[name].slow else scene.starts
 
 
 def applying(scene):
-    """Names of the methods that a scene tells apart."""
-    return [name for name in METHODS if scene.components == 4 or name not in NEEDS_CONTACTS]
+    """Names of the methods for a scene: without walls, both modes of a rival are the same."""
+    return [name for name in TIMED if scene.components == 4 or not name.endswith("_located")]

@@ -4,13 +4,13 @@ import pandas as pd
 
 from benchmarks.accuracy import LIMIT, loosest
 from benchmarks.heyoka_runs import BATCH, SETTINGS
-from benchmarks.methods import METHODS, heyoka, starts_of
+from benchmarks.methods import TIMED, heyoka, starts_of
 from benchmarks.timing import interleaved, spread
 
 # Against whom each way of using the kernel is set.
 RIVALS = {
-    "kernel": ("heyoka", "dop853_events"),
-    "kernel_ensemble": ("heyoka", "heyoka_batch", "dop853_events"),
+    "kernel": ("heyoka", "DOP853_located"),
+    "kernel_ensemble": ("heyoka", "heyoka_batch", "DOP853_located"),
 }
 HOW = (
     "Each method at the loosest tolerance that keeps the error of the state at the end "
@@ -18,7 +18,7 @@ HOW = (
     "core; medians and quartiles over rounds of the ratio of times a trajectory. heyoka.py "
     "at its fastest settings (`heyoka_settings.md`), SciPy with a compiled right-hand side."
 )
-TIMED = ("kernel", "kernel_ensemble", "heyoka", "heyoka_batch", "dop853_events")
+COMPARED = ("kernel", "kernel_ensemble", "heyoka", "heyoka_batch", "DOP853_located")
 
 
 def tolerances(scene, timed, limit):
@@ -28,7 +28,7 @@ def tolerances(scene, timed, limit):
         each = found[name] = loosest(scene, name, limit)
         missed = "" if each.met else ", limit not met"
         print(
-            f"  {scene.name}, {METHODS[name].title}: tolerance {each.tolerance:.1e}, "
+            f"  {scene.name}, {TIMED[name].title}: tolerance {each.tolerance:.1e}, "
             f"error {each.error:.1e}{missed}",
             flush=True,
         )
@@ -50,7 +50,7 @@ def time_row(scene, name, found, measured):
     median, lower, upper = spread(measured)
     return {
         "scene": scene.name,
-        "method": METHODS[name].title,
+        "method": TIMED[name].title,
         "tolerance": found.tolerance,
         "error": found.error,
         "within_limit": "yes" if found.met else "no",
@@ -64,7 +64,7 @@ def time_row(scene, name, found, measured):
 def ratio_row(scene, name, rival, found, measured):
     """A row of the table of ratios."""
     median, lower, upper = spread(measured[rival] / measured[name])
-    ours, other = METHODS[name].title, METHODS[rival].title
+    ours, other = TIMED[name].title, TIMED[rival].title
     print(f"  {scene.name}, {ours}: {median:.4g} times faster than {other}", flush=True)
     return {
         "scene": scene.name,
@@ -77,12 +77,12 @@ def ratio_row(scene, name, rival, found, measured):
     }
 
 
-def compared(scenes, rounds, limit=LIMIT, timed=TIMED):
+def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
     """Times and ratios at equal error.
 
     Parameters
     ----------
-    scenes : list of scenes.Scene
+    scenes : list of scenes.BenchmarkScene
     rounds : int
     limit : float
         Largest error of any component of any state at the end.
@@ -119,9 +119,7 @@ def heyoka_settings(scenes, times, rounds):
     """
     rows = []
     for scene in scenes:
-        chosen = times[
-            (times["scene"] == scene.name) & (times["method"] == METHODS["heyoka"].title)
-        ]
+        chosen = times[(times["scene"] == scene.name) & (times["method"] == TIMED["heyoka"].title)]
         tolerance = float(chosen["tolerance"].iloc[0])
         changes = {"fastest": {}} | SETTINGS
         changes |= {f"batch of {n}": {"batch": n} for n in (4, 8, BATCH)}

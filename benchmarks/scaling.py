@@ -8,10 +8,11 @@ from multiprocessing import get_context
 import numpy as np
 import pandas as pd
 
-from benchmarks.methods import METHODS, advance_rows
+from benchmarks.methods import TIMED, advance_rows
 from benchmarks.timing import interleaved, spread
 from impact_damper.motions.ensemble import run_chunks
 from impact_damper.motions.simulate import random_states
+from impact_damper.system.packed import CLEARANCE
 from impact_damper.system.parameters import Damper
 
 TOLERANCE = 1e-9
@@ -25,7 +26,7 @@ PATIENCE = 300
 def starts_of(scene, count):
     """Starts next to the scene's orbit, and from a ball within the gap, whose motions part."""
     near = np.resize(scene.starts, (count, 4))
-    damper = Damper(0.12, scene.parameters[3]) if scene.components == 4 else None
+    damper = Damper(0.12, scene.parameters[CLEARANCE]) if scene.components == 4 else None
     return {"near the orbit": near, "random": random_states(count, RADIUS, damper, 1995)}
 
 
@@ -33,7 +34,7 @@ def sizes(scenes, counts, rounds):
     """Microseconds a trajectory and forcing period over the size of an ensemble, on one core."""
     rows = []
     for scene in scenes:
-        run = METHODS["kernel_ensemble"].prepare(scene, TOLERANCE)
+        run = TIMED["kernel_ensemble"].prepare(scene, TOLERANCE)
         for name, starts in starts_of(scene, max(counts)).items():
             calls = {count: lambda y=starts[:count], run=run: run(y) for count in counts}
             for count, seconds in interleaved(calls, rounds).items():

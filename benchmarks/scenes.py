@@ -1,29 +1,27 @@
 """Motions on which methods are timed: the scenes of the configuration, with exact states."""
 
 import math
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import yaml
 from references import extended
+from references.extended.scenes import configured_scenes
 
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-CONFIGURATION = Path(__file__).parents[1] / "config" / "config.yaml"
-# Starts are drawn within this of the scene's state, in each component.
+# Starts differ from the scene's state by at most this in each component.
 SPREAD = 1e-3
-# Where motions that start so far away leave the orbit for a chaotic one: next to grazing.
+# Smaller where motions from such starts leave the orbit for a chaotic one, next to grazing.
 SPREADS = {"grazing": 1e-8}
 
 
-class Scene(NamedTuple):
+class BenchmarkScene(NamedTuple):
     """Motions from states close to each other, all in flight at the beginning.
 
     Attributes
     ----------
     name : str
-    parameters : numpy.ndarray, shape (7,)
+    parameters : numpy.ndarray, shape (packed.COUNT,)
         As of `parameters.pack`.
     begin, end : float
         Times, W T = pi/2 at the beginning.
@@ -44,7 +42,7 @@ class Scene(NamedTuple):
     @property
     def components(self):
         """How many components of the state count: without a damper there is no Z2."""
-        return 2 if self.parameters[3] == math.inf else 4
+        return 2 if self.parameters[CLEARANCE] == math.inf else 4
 
     def error(self, states):
         """Largest error of any component of states at the end, of the first so many starts."""
@@ -58,29 +56,15 @@ def make(name, p, state, periods, count, seed=1995):
     width = SPREADS.get(name, SPREAD)
     starts = state + width * np.random.default_rng(seed).uniform(-1, 1, (count, 4))
     starts[0] = state
-    begin = 0.5 * math.pi / p[0]
-    end = begin + periods * 2 * math.pi / p[0]
-    if np.any(np.abs(starts[:, 2]) >= p[3]):
+    begin = 0.5 * math.pi / p[FREQUENCY]
+    end = begin + periods * 2 * math.pi / p[FREQUENCY]
+    if np.any(np.abs(starts[:, 2]) >= p[CLEARANCE]):
         raise ValueError(f"scene {name}: must begin in flight")
     rows = np.tile(p, (count, 1))
     exact = extended.run_many(rows, starts, np.full(count, begin), np.full((count, 1), end))
-    return Scene(name, p, begin, end, periods, starts, exact.states.astype(float))
+    return BenchmarkScene(name, p, begin, end, periods, starts, exact.states.astype(float))
 
 
 def from_configuration(count):
-    """All scenes of the configuration but those for averages, with `count` starts each."""
-    config = yaml.safe_load(CONFIGURATION.read_text())
-    keys = ("mass_ratio", "clearance", "restitution")
-    found = []
-    for name, entry in config["scenes"].items():
-        if entry["motion"] == "chaotic":
-            continue
-        oscillator = config["oscillators"][entry["oscillator"]]
-        oscillator = Oscillator(oscillator["damping"], oscillator["linear_frequency"])
-        damper = None
-        if "mass_ratio" in entry:
-            stiffness = config["contact_stiffness"]
-            damper = Damper(**{key: entry[key] for key in keys}, contact_stiffness=stiffness)
-        p = pack(oscillator, damper, entry["frequency"])
-        found.append(make(name, p, entry["state"], entry["periods"], count))
-    return found
+    """Return all scenes of the configuration but chaotic ones, with `count` starts each."""
+    return [make(name, *rest, count) for name, *rest in configured_scenes()]

@@ -9,7 +9,9 @@ from helpers.scenes import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.motions import strobe_map
-from impact_damper.rivals import fixed_step, merson, scipy_methods
+from impact_damper.rivals import fixed_step, merson
+from impact_damper.rivals.methods import integrators
+from impact_damper.rivals.scipy_methods import SciPy
 from impact_damper.system.packed import CLEARANCE
 from impact_damper.system.parameters import Damper, Oscillator, pack
 
@@ -20,7 +22,7 @@ START = np.array([0.7, -0.3, 0.5, 0.2])
 def fixed(method, p, y, steps, periods, t=0.0):
     strobes, largest = np.empty((periods, 4)), np.empty(periods)
     run = fixed_step.run_fixed(
-        fixed_step.METHODS.index(method), p, np.array(y, float), t, steps, strobes, largest
+        fixed_step.NAMES.index(method), p, np.array(y, float), t, steps, strobes, largest
     )
     return strobes, largest, run
 
@@ -33,7 +35,7 @@ def free():
     return p, states[-1]
 
 
-@pytest.mark.parametrize("method", fixed_step.METHODS)
+@pytest.mark.parametrize("method", fixed_step.NAMES)
 def test_order_of_fixed_steps(method, free):
     p, end = free
     errors = [
@@ -56,15 +58,15 @@ def test_merson_follows_its_tolerance(locate, free):
     assert 0.7 < slope < 1.1
 
 
-@pytest.mark.parametrize("method", scipy_methods.METHODS)
+@pytest.mark.parametrize("method", ["RK45", "DOP853", "LSODA", "Radau"])
 def test_scipy_on_smooth_motion(method, free):
     p, end = free
     for locate in (False, True):
-        states = scipy_methods.run_scipy(method, p, START, 0.0, 1e-9, locate, 2)
+        states = SciPy(method).strobes(p, START, 0.0, 2, 1e-9, locate, 10**6)
         assert_allclose(states[-1], end, atol=1e-5)
 
 
-@pytest.mark.parametrize("method", fixed_step.METHODS)
+@pytest.mark.parametrize("method", fixed_step.NAMES)
 def test_linear_stability_limit_of_the_contact(method):
     """With almost no clearance the pair of masses is a linear oscillator of frequency omega_c.
 
@@ -79,7 +81,7 @@ def test_linear_stability_limit_of_the_contact(method):
     def growth(scaled):
         """Largest growth per step, from the step's matrix; drift of both masses has 1."""
         h = scaled / contact
-        number = fixed_step.METHODS.index(method)
+        number = fixed_step.NAMES.index(method)
         drives = fixed_step.forcing(p, 0.0, h)
 
         def after(y):
@@ -107,7 +109,7 @@ def test_located_contacts_agree_with_the_taylor_series(damper):
     strobes, largest = np.empty((3, 4)), np.empty(3)
     merson.run_merson(p, y, begin, 1e-12, True, strobes, largest)
     assert_allclose(strobes, expected, atol=1e-8)
-    states = scipy_methods.run_scipy("DOP853", p, y, begin, 1e-12, True, 3)
+    states = SciPy("DOP853").strobes(p, y, begin, 3, 1e-12, True, 10**6)
     assert_allclose(states, expected, atol=1e-8)
 
 
@@ -135,5 +137,13 @@ def test_a_divergence_is_told():
 
 def test_too_many_evaluations_are_a_failure():
     p = pack(PAPER, DESIGN, 2.0)
-    states = scipy_methods.run_scipy("RK45", p, START, 0.0, 1e-9, True, 2, most_evaluations=20)
+    states = SciPy("RK45").strobes(p, START, 0.0, 2, 1e-9, True, most_evaluations=20)
     assert np.isnan(states).all()
+
+
+@pytest.mark.parametrize("name", ["taylor", "merson", "DOP853"])
+def test_the_end_of_a_run_is_its_last_strobe(name):
+    p = pack(PAPER, DESIGN, 2.0)
+    given = p, np.array([0.1, 0.2, 0.0, -2.4]), strobe_map.strobe_time(p), 2, 1e-10, True
+    integrator = integrators()[name]
+    assert_allclose(integrator.end(*given), integrator.strobes(*given)[-1], atol=1e-8)

@@ -11,8 +11,10 @@ from scipy.stats import binom
 
 from impact_damper.data.shares import missed_share
 from impact_damper.figures.missed_contacts import draw_missed_contacts
+from impact_damper.rivals import merson
+from impact_damper.rivals.methods import integrators
 from impact_damper.rivals.passages import draw_passages, free_flight
-from impact_damper.rivals.scipy_methods import derivative, flight_steps
+from impact_damper.rivals.scipy_methods import UNLIMITED, derivative
 from impact_damper.stages import missed_contacts as missed
 from impact_damper.system.parameters import pack
 from impact_damper.tables.integrators import grazing
@@ -87,13 +89,13 @@ def test_scipy_events_find_what_the_ends_of_steps_show(method, passages):
             (0, PERIOD),
             passage.state,
             method,
-            args=(free, 0),
+            args=(free, 0, np.array([UNLIMITED])),
             events=[wall(level) for level in levels],
             rtol=1e-8,
             atol=1e-8,
         )
-        states, _, _ = flight_steps(method, free, passage.state, 0.0, PERIOD, 1e-8)
-        seen = np.abs(states[:, 2]).max() > levels
+        ends, _ = integrators()[method].flight(free, passage.state, PERIOD, 1e-8, passage.time)
+        seen = ends.max() > levels
         assert_allclose([len(times) > 0 for times in run.t_events], seen)
 
 
@@ -137,15 +139,17 @@ def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
     p, drawn = passages
     p = free_flight(p)
     p[2] = -np.inf
-    touching, spurious, error, steps = missed._rival_counts(method, p, drawn[:2], DEPTHS, 1e-8)
+    integrator = integrators()[method]
+    touching, spurious, error, steps = missed._counts(integrator, p, drawn[:2], DEPTHS, 1e-8)
     assert_allclose(touching, [[0, 0, 0, 2]] * len(DEPTHS))
     assert not spurious.any() and np.isnan([error, steps]).all()
 
 
 def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
     p, drawn = passages
-    monkeypatch.setattr(missed, "MOST_ENDS", 10)
-    assert missed._ends("merson", free_flight(p), drawn[0].state, PERIOD, 1e-8) is None
+    monkeypatch.setattr(merson, "MOST_FLIGHT_ENDS", 10)
+    given = free_flight(p), drawn[0].state, PERIOD, 1e-8, drawn[0].time
+    assert integrators()["merson"].flight(*given) is None
 
 
 def test_failed_runs_are_neither_found_nor_missed(counted):

@@ -9,12 +9,13 @@ from collections import ChainMap
 from pathlib import Path
 
 from impact_damper.data.datasets import save
-from impact_damper.stages.accuracy import Scene, error_against_work
+from impact_damper.rivals.comparison_scenes import ComparisonScene
+from impact_damper.stages.accuracy import error_against_work
 from impact_damper.system.parameters import Damper, Oscillator
 
 job = dict(ChainMap(*snakemake.params))
 settings, damper = job.pop("settings"), job.pop("damper")
-scene = Scene(
+scene = ComparisonScene(
     oscillator=Oscillator(**job.pop("oscillator")),
     damper=None if damper is None else Damper(**damper),
     **job,

@@ -9,31 +9,18 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.data.variables import VARIABLES
 from impact_damper.figures.style import (
     BLACK,
-    BLUE,
-    GREEN,
     GREY,
-    ORANGE,
     PALE,
-    PURPLE,
     SKY,
-    VERMILION,
     figure,
     legend,
     letter_panels,
     style,
 )
+from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
 
-# Colour by family, marker and line by what is done at contacts.
-ROLES = {
-    "taylor": ("Taylor, events", BLUE, "o", "-"),
-    "merson_kink": ("Merson, kink", VERMILION, "v", ":"),
-    "merson_located": ("Merson, located", VERMILION, "^", "-"),
-    "DOP853_kink": ("DOP853, kink", GREEN, "v", ":"),
-    "DOP853_located": ("DOP853, events", GREEN, "^", "-"),
-    "LSODA_kink": ("LSODA, kink", ORANGE, "v", ":"),
-    "LSODA_located": ("LSODA, events", ORANGE, "^", "-"),
-    "Radau_kink": ("Radau, kink", PURPLE, "v", ":"),
-    "Radau_located": ("Radau, events", PURPLE, "^", "-"),
+# Models of orbits: label, colour, marker and line.
+ORBIT_ROLES = {
     "rigid": ("rigid impacts", GREY, "s", "none"),
     "rigid_mended": ("rigid, mended", GREY, "D", "none"),
     "rigid_balance": ("one term, (14)", SKY, "P", "none"),
@@ -41,7 +28,9 @@ ROLES = {
     "many_harmonics": ("many harmonics", SKY, "h", "-"),
     "shooting": ("shooting", BLACK, "*", "none"),
 }
-# Of series of further orders, named by these: first marker, then line.
+# Marker and line of integrators, by whether they locate contacts.
+LOOKS = {True: ("^", "-"), False: ("v", ":")}
+# Marker and line of Taylor series of further orders.
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
 ENDED = ("ok", "missed_contacts", "invented_contacts")
 QUANTITIES = {
@@ -84,64 +73,73 @@ def draw_accuracy(*, accuracy):
 
 
 def _panel(axes, data):
+    """Draw one scene."""
     made = parameters_of(data)
-    quantity, borne = made["accuracy"]["quantity"], made["accuracy"]["within"]
-    name, words = QUANTITIES[quantity]
+    quantity, allowed = made["accuracy"]["quantity"], made["accuracy"]["within"]
     chaotic = made["motion"] == "chaotic"
-    if chaotic:
-        truth = float(data["reference_average"].sel(statistic=quantity))
-        average = data["average"].sel(statistic=quantity).values
-        bars = data["average_error"].sel(statistic=quantity).values / truth
-        error = np.abs(average / truth - 1)
-        doubt = float(data["reference_average_error"].sel(statistic=quantity)) / truth
-        axes.axhspan(1e-9, doubt, color=PALE, zorder=0, label="error of the reference")
-    else:
-        error, bars = data[name].values, None
-    meanings = VARIABLES["run_status"].flags
-    status = data["run_status"].values
-    work = data["operations"].values
+    error, bars = (
+        _errors(axes, data, quantity) if chaotic else (data[QUANTITIES[quantity][0]].values, None)
+    )
     error = np.maximum(error, FINEST)
+    meanings, status = VARIABLES["run_status"].flags, data["run_status"].values
     ended = np.isin(status, [meanings[each] for each in ENDED])
     right = status == meanings["ok"]
     low, high = (1e-4, 1.0) if chaotic else (10 ** np.floor(np.log10(np.min(error[ended]))), 30)
-    run = np.log10(work[work > 0])
-    least, most = np.min(run), np.max(run)
-    for method, (label, color, marker, line) in _roles(data).items():
+    work = data["operations"].values
+    for method, role in _roles(data).items():
         of = data["method"].values == method
-        looks = {"color": color, "markersize": 4}
-        chosen = of & ended
-        axes.plot(work[chosen], error[chosen], color=color, linestyle=line, linewidth=0.7)
-        good, bad = of & ended & right, of & ended & ~right
-        axes.plot(work[good], error[good], marker, markerfacecolor=color, label=label, **looks)
-        if bars is not None:
-            axes.errorbar(
-                work[good], error[good], bars[good], fmt="none", ecolor=color, elinewidth=0.5
-            )
-        axes.plot(work[bad], error[bad], marker, markerfacecolor="none", **looks)
-        axes.plot(work[bad], error[bad], "x", color=BLACK, markersize=5.5, markeredgewidth=0.6)
+        _method(axes, role, work, error, bars, of & ended & right, of & ended & ~right)
         stopped = work[of & ~ended & (work > 0)]
         if len(stopped) > 0:
+            looks = {"color": role[1], "markersize": 4, "clip_on": False}
             top = np.full(len(stopped), high)
-            axes.plot(stopped, top, marker, markerfacecolor="none", clip_on=False, **looks)
+            axes.plot(stopped, top, role[2], markerfacecolor="none", **looks)
             axes.plot(stopped, top, "+", color=BLACK, markersize=7, clip_on=False)
     if quantity != "contacts":
-        axes.axhline(borne, color=BLACK, linestyle="--", linewidth=0.9, label="accuracy asked")
+        axes.axhline(allowed, color=BLACK, linestyle="--", linewidth=0.9, label="accuracy asked")
     axes.plot([], [], "x", color=BLACK, label="wrong contacts")
     axes.plot([], [], "+", color=BLACK, label="no result")
     axes.set(xscale="log", yscale="log", ylim=(low, high))
     axes.yaxis.set_major_locator(LogLocator(numticks=8))
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_minor_formatter(NullFormatter())
-    axes.set_xlim(*(10 ** np.array([np.floor(least), np.ceil(most)])))
-    axes.set_ylabel(words)
+    decades = np.log10(work[work > 0])
+    axes.set_xlim(10 ** np.floor(decades.min()), 10 ** np.ceil(decades.max()))
+    axes.set_ylabel(QUANTITIES[quantity][1])
     axes.set_title(made["scene"].replace("_", " "), loc="right", fontsize=8)
 
 
+def _errors(axes, data, quantity):
+    """Return errors and standard errors of a chaotic scene, and shade the reference's."""
+    truth = float(data["reference_average"].sel(statistic=quantity))
+    average = data["average"].sel(statistic=quantity).values
+    doubt = float(data["reference_average_error"].sel(statistic=quantity)) / truth
+    axes.axhspan(1e-9, doubt, color=PALE, zorder=0, label="error of the reference")
+    bars = data["average_error"].sel(statistic=quantity).values / truth
+    return np.abs(average / truth - 1), bars
+
+
+def _method(axes, role, work, error, bars, good, bad):
+    """Draw the runs of one method that ended, with right and with wrong contacts."""
+    label, color, marker, line = role
+    looks, ended = {"color": color, "markersize": 4}, good | bad
+    axes.plot(work[ended], error[ended], color=color, linestyle=line, linewidth=0.7)
+    axes.plot(work[good], error[good], marker, markerfacecolor=color, label=label, **looks)
+    if bars is not None:
+        axes.errorbar(work[good], error[good], bars[good], fmt="none", ecolor=color, elinewidth=0.5)
+    axes.plot(work[bad], error[bad], marker, markerfacecolor="none", **looks)
+    axes.plot(work[bad], error[bad], "x", color=BLACK, markersize=5.5, markeredgewidth=0.6)
+
+
 def _roles(data):
-    """All roles, those of series of further orders after that of the ones in use."""
-    names = sorted(set(data["method"].values) - set(ROLES))
-    further = {
-        name: ("Taylor, orders {1} and {2}".format(*name.split("_")), BLUE, marker, line)
-        for name, (marker, line) in zip(names, cycle(OTHER_ORDERS))
-    }
-    return {"taylor": ROLES["taylor"]} | further | ROLES
+    """Return label, colour, marker and line of each method, in the order of the legend."""
+    roles = {"taylor": (METHODS["taylor"].title, METHODS["taylor"].colour, "o", "-")}
+    further = sorted(set(data["method"].values) - {*COMPARED["accuracy"], *ORBIT_ROLES})
+    for name, (marker, line) in zip(further, cycle(OTHER_ORDERS)):
+        words = "Taylor, orders {1} and {2}".format(*name.split("_"))
+        roles[name] = (words, METHODS["taylor"].colour, marker, line)
+    for label in COMPARED["accuracy"]:
+        if label not in roles:
+            name, located = name_and_mode(label)
+            roles[label] = (title_with_mode(label), METHODS[name].colour, *LOOKS[located])
+    return roles | ORBIT_ROLES

@@ -20,18 +20,8 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
+from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 
-NAMES = {
-    "taylor": "Taylor series, events",
-    "heun": "Heun",
-    "verlet": "velocity Verlet",
-    "runge_kutta_4": "Runge-Kutta 4",
-    "merson": "Merson, kink",
-    "merson_located": "Merson, located",
-    "LSODA": "LSODA, kink",
-    "DOP853_located": "DOP853, events",
-}
-FIXED = ("heun", "verlet", "runge_kutta_4")
 ROLES = {
     "not_run": (WHITE, "not run"),
     "right": (PALE_SKY, "right"),
@@ -57,12 +47,16 @@ def draw_verdicts(*, verdicts):
     matplotlib.figure.Figure
     """
     (data,) = verdicts
-    drawn = figure("double", 4.8)
-    panels = drawn.subplots(2, 4, sharey=True).ravel()
+    labels = data["verdict_method"].values
+    rows = -(-len(labels) // 4)
+    drawn = figure("double", 0.8 + 2.0 * rows)
+    panels = drawn.subplots(rows, 4, sharey=True).ravel()
+    for axes in panels[len(labels) :]:
+        axes.set_axis_off()
     meanings = VARIABLES["verdict"].flags
     scenes = np.arange(data.sizes["scene"] + 1)
-    for axes, name in zip(panels, data["verdict_method"].values, strict=True):
-        fixed = name in FIXED
+    for axes, name in zip(panels, labels, strict=False):
+        fixed = METHODS[name_and_mode(name)[0]].fixed
         x = data["verdict_steps"].values if fixed else data["method_tolerance"].values
         cells = data["verdict"].sel(verdict_method=name).values
         run = (cells != meanings["not_run"]).any(axis=0)
@@ -79,8 +73,8 @@ def draw_verdicts(*, verdicts):
         axes.tick_params(which="both", top=False, right=False, left=False)
         for scene in scenes[1:-1]:
             axes.axhline(scene, color=GREY, linewidth=0.3)
-        axes.set_title(NAMES[name], loc="right", fontsize=7.5)
+        axes.set_title(title_with_mode(name), loc="right", fontsize=7.5)
     panels[0].invert_yaxis()
-    letter_panels(panels)
+    letter_panels(panels[: len(labels)])
     legend(drawn, 4)
     return drawn

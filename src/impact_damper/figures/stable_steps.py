@@ -22,13 +22,8 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
+from impact_damper.rivals.methods import METHODS
 
-NAMES = {
-    "heun": "Heun",
-    "verlet": "velocity Verlet",
-    "runge_kutta_4": "Runge-Kutta 4",
-    "merson": "Runge-Kutta-Merson",
-}
 ROLES = {
     "no_orbit": (WHITE, "no quiet motion"),
     "not_run": (WHITE, "not run"),
@@ -55,7 +50,8 @@ def draw_stable_steps(*, stable_steps):
     """
     rows = len(stable_steps)
     drawn = figure("double", 0.9 + 2.1 * rows)
-    panels = drawn.subplots(rows, 4, sharex=True, sharey=True, squeeze=False)
+    columns = stable_steps[0].sizes["fixed_method"]
+    panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     meanings = VARIABLES["step_verdict"].flags
     for row, data in zip(panels, stable_steps, strict=True):
         stiffness, scaled = data["contact_stiffness"].values, data["scaled_step"].values
@@ -87,7 +83,7 @@ def draw_stable_steps(*, stable_steps):
                 )
             axes.set(xscale="log", yscale="log", xlim=(x[0], x[-1]), ylim=(y.min(), y.max()))
             axes.yaxis.set_minor_formatter(NullFormatter())
-            axes.set_title(NAMES[name], fontsize=8)
+            axes.set_title(METHODS[name].title, fontsize=8)
         row[0].set_ylabel(axis_label(data["scaled_step"]))
         made = parameters_of(data)
         row[-1].yaxis.set_label_position("right")

@@ -1,6 +1,6 @@
 """Fixed-step methods through the kink: Heun, velocity Verlet, Runge-Kutta-4 and -Merson.
 
-They know of no contacts: the force is what it is at the position where it is asked for.
+Contacts are not located: each evaluation of the rate takes the contact force at its position.
 """
 
 import math
@@ -10,9 +10,10 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel, within
 from impact_damper.kernel.equation import external_force
 from impact_damper.rivals.equations import largest_within, moved, rate_by_position
+from impact_damper.rivals.runs import Integrator
 from impact_damper.system.packed import FREQUENCY
 
-METHODS = ("heun", "verlet", "runge_kutta_4", "merson")
+NAMES = ("heun", "verlet", "runge_kutta_4", "merson")
 HEUN, VERLET, RUNGE_KUTTA_4, MERSON = range(4)
 
 # Largest h omega for which an undamped oscillator does not grow: where |R(i h omega)| = 1 for the
@@ -23,14 +24,13 @@ STABILITY_LIMIT = {
     "runge_kutta_4": math.sqrt(8.0),
     "merson": math.sqrt(12.0),
 }
-EVALUATIONS = {"heun": 2, "verlet": 2, "runge_kutta_4": 4, "merson": 5}
-# A state beyond it has diverged.
+# Sum |Z1| + |Z1'| + |Z2'| beyond which a run has diverged.
 BEYOND = 1e3
 
 
 @kernel
 def forcing(p, t, h):
-    """The forcing at the beginning of a step, after a third and a half of it, and at its end."""
+    """Return the forcing at the beginning, a third, a half and the end of a step h from t on."""
     return (
         external_force(p, t),
         external_force(p, t + h / 3.0),
@@ -41,7 +41,7 @@ def forcing(p, t, h):
 
 @within
 def heun_step(p, drives, h, y):
-    """One step of Heun's method, order 2."""
+    """Return the state after a step of Heun's method, order 2."""
     k1 = rate_by_position(p, drives[0], y)
     k2 = rate_by_position(p, drives[3], moved(y, h, k1))
     return moved(moved(y, 0.5 * h, k1), 0.5 * h, k2)
@@ -49,7 +49,7 @@ def heun_step(p, drives, h, y):
 
 @within
 def verlet_step(p, drives, h, y):
-    """One step of velocity Verlet, order 2; forces that depend on speed take a predicted one."""
+    """Return the state after a step of velocity Verlet, order 2; forces take a predicted speed."""
     k1 = rate_by_position(p, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])
@@ -59,7 +59,7 @@ def verlet_step(p, drives, h, y):
 
 @within
 def runge_kutta_4_step(p, drives, h, y):
-    """One step of the classical Runge-Kutta method, order 4."""
+    """Return the state after a step of the classical Runge-Kutta method, order 4."""
     k1 = rate_by_position(p, drives[0], y)
     k2 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k1))
     k3 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k2))
@@ -70,7 +70,7 @@ def runge_kutta_4_step(p, drives, h, y):
 
 @within
 def merson_step(p, drives, h, y):
-    """One step of the Runge-Kutta-Merson method, order 4 with five evaluations."""
+    """Return the state after a step of Runge-Kutta-Merson, order 4 with five evaluations."""
     k1 = rate_by_position(p, drives[0], y)
     k2 = rate_by_position(p, drives[1], moved(y, h / 3.0, k1))
     k3 = rate_by_position(p, drives[1], moved(moved(y, h / 6.0, k1), h / 6.0, k2))
@@ -82,7 +82,10 @@ def merson_step(p, drives, h, y):
 
 @kernel
 def one_step(method, p, drives, h, y):
-    """One step of a method by its number in `METHODS`, under the `forcing` of the step."""
+    """Return the state after a step of the method with a number in `NAMES`.
+
+    `drives` is the `forcing` of the step.
+    """
     if method == HEUN:
         return heun_step(p, drives, h, y)
     if method == VERLET:
@@ -94,13 +97,13 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, strobes, largest):
-    """Run with a whole number of equal steps in each forcing period.
+    """Run with a whole number of equal steps in each forcing period, and return the periods run.
 
     Parameters
     ----------
     method : int
-        Number in `METHODS`.
-    p : array, shape (packed.COUNT,)
+        Number in `NAMES`.
+    p : array, shape (7,)
         Packed parameters (`parameters.pack`).
     start : array, shape (4,)
     t : float
@@ -109,18 +112,13 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
         Steps a forcing period.
     strobes, largest : array, shapes (n, 4) and (n,)
         Filled with the states after each of n periods and the largest |Z1| in each; NaN from
-        the period on in which the state leaves `BEYOND`.
-
-    Returns
-    -------
-    int
-        Periods run.
+        the period on in which the run diverges (`BEYOND`).
     """
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     strobes[:] = np.nan
     largest[:] = np.nan
-    # The same in each period. To take cosines anew takes half the time of a run.
+    # The same in each period: computing cosines again would take half the time of a run.
     drives = np.empty((steps, 4))
     for i in range(steps):
         drives[i, 0], drives[i, 1], drives[i, 2], drives[i, 3] = forcing(p, t + i * h, h)
@@ -140,9 +138,47 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
 
 @kernel
 def fixed_ends(method, p, start, t, step, ends):
-    """Time and state at the ends of equal steps, as many as `ends` (m, 5) has rows."""
+    """Fill `ends` (m, 5) with time and state at the ends of m equal steps."""
     y = (start[0], start[1], start[2], start[3])
     for i in range(len(ends)):
         y = one_step(method, p, forcing(p, t + i * step, step), step, y)
         ends[i, 0] = t + (i + 1) * step
         ends[i, 1], ends[i, 2], ends[i, 3], ends[i, 4] = y
+
+
+class FixedStep(Integrator):
+    """A method of `NAMES` with equal steps.
+
+    Parameters
+    ----------
+    name : str
+    """
+
+    def __init__(self, name):
+        self.number = NAMES.index(name)
+        self.stability_limit = STABILITY_LIMIT[name]
+
+    def _run(self, p, start, begin, periods, steps):
+        strobes, largest = np.empty((periods, 4)), np.empty(periods)
+        run_fixed(self.number, p, start, begin, steps, strobes, largest)
+        return strobes, largest
+
+    def strobes(self, p, start, begin, periods, resolution, locate=False):
+        return self._run(p, start, begin, periods, resolution)[0]
+
+    def largest_displacements(self, p, start, begin, periods, steps):
+        return self._run(p, start, begin, periods, steps)[1]
+
+    def flight(self, p, state, end, resolution, time):
+        ends = np.empty((resolution, 5))
+        fixed_ends(self.number, p, state, 0.0, end / resolution, ends)
+        if not np.abs(ends[:, 1:]).max() < BEYOND:
+            return None
+        return self._seen(p, np.concatenate([[[0.0, *state]], ends]), time)
+
+    def _seen(self, p, ends, time):
+        """Return |Z2| at the ends of steps (n, 5), and at a time, by a step that ends there."""
+        last = ends[ends[:, 0] <= time][-1]
+        there = np.empty((1, 5))
+        fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)
+        return np.abs(ends[:, 3]), abs(there[0, 3])

@@ -1,8 +1,8 @@
-"""Runge-Kutta-Merson with step control, the paper's method: through the kink, or contacts located.
+"""Runge-Kutta-Merson with step control, the paper's method, with or without located contacts.
 
 Merson's estimate of the error, exact for linear equations, is kept below the tolerance times
-1 + |y| in each component. Contacts are located, if asked for, as such codes do it: the sign of
-the gap is looked at where steps end, and a change is traced back by repeating part of the step.
+1 + |y| in each component. Contacts are located as in common codes: where the gap has changed its
+sign at the end of a step, the length of the step is reduced until the gap vanishes at its end.
 """
 
 import math
@@ -10,20 +10,28 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.single import side_of
 from impact_damper.rivals.equations import largest_within, moved, rate, wall_at
-from impact_damper.rivals.fixed_step import BEYOND
+from impact_damper.rivals.fixed_step import BEYOND, FixedStep
+from impact_damper.rivals.operations import operations
+from impact_damper.rivals.runs import read_off, stopped
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# A step shorter than this means that the tolerance cannot be met.
+# The tolerance cannot be met if steps would have to be shorter.
 SHORTEST = 1e-12
 MOST_STEPS = 10**6
+# Step ends that are kept of a forcing period, and of a flight.
+MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
+# Length of the first step, in forcing periods.
+FIRST = 1e-3
 
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """One step and its estimated error over the error allowed; `side` is the wall that acts.
+    """Return the state after one step, and its estimated error over the error allowed.
 
-    With `by_position` the wall is chosen at each evaluation instead.
+    `side` is the wall that acts; with `by_position` each evaluation of the rate chooses the wall
+    by its position instead.
     """
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
@@ -44,7 +52,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def ahead(p, side, y):
-    """How far the state is from its next event: the gap in flight, the penetration in contact."""
+    """Return the distance from the next event: the gap in flight, the penetration in contact."""
     if side == 0:
         return p[CLEARANCE] - abs(y[2])
     return side * y[2] - p[CLEARANCE]
@@ -52,10 +60,10 @@ def ahead(p, side, y):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Length within a step, at whose end the event is passed, at which it happens, and the state.
+    """Return the length of step that ends at the event, the state there, and the steps tried.
 
-    Halves towards the beginning until the event lies ahead, then regula falsi (Illinois). Returns
-    the number of steps tried as well.
+    The event lies within the step h. The step is halved until it ends before the event; then
+    regula falsi (Illinois) finds the length.
     """
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
@@ -97,9 +105,9 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     p, y : array
         Packed parameters and the state, which is replaced.
     side : int
-        Wall in contact; without `locate` it plays no part.
+        Wall in contact; unused without `locate`.
     t, end, h, tolerance : float
-        h is the step to begin with.
+        h is the length of the first step.
     locate : bool
         Whether contacts are located.
     ends : array, shape (m, 5)
@@ -108,9 +116,9 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     Returns
     -------
     side, h, steps, contacts, largest, tries
-        `contacts` begun as seen at the ends of steps; the largest |Z1|; `steps` is -1 where the
-        tolerance could not be met in `MOST_STEPS` steps or the state left `BEYOND`; `tries` are
-        all steps computed, of five evaluations each.
+        Wall in contact and next step; accepted steps, -1 if the tolerance could not be met in
+        `MOST_STEPS` steps or the run diverged (`BEYOND`); contacts begun, as seen at the ends of
+        steps; largest |Z1|; all steps computed, of five evaluations each.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, contacts, largest, tries = 0, 0, 0.0, 0
@@ -124,7 +132,7 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
             if h < SHORTEST:
                 return side, h, -1, contacts, math.nan, tries
             continue
-        # a step cut short at the end says little about the next one
+        # a step cut short at the end must not reduce the next one
         h = max(h, length * min(factor, 5.0)) if length < h else length * min(factor, 5.0)
         if locate and ahead(p, side, after) < 0.0:
             length, after, repeated = located(p, side, t, length, state, tolerance)
@@ -153,26 +161,65 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
 
 @kernel
 def run_merson(p, start, t, tolerance, locate, strobes, largest):
-    """Run over forcing periods from a state in flight; as `fixed_step.run_fixed`.
+    """Run over forcing periods from a state in flight, and return the periods run and the steps.
 
-    Returns the periods run and the steps taken.
+    Arguments as of `fixed_step.run_fixed`.
     """
     y = start.copy()
     none = np.empty((0, 5))
     period = 2.0 * math.pi / p[FREQUENCY]
-    side, h, total = wall_at(p, y[2]), 1e-3 * period, 0
+    side, h, total = wall_at(p, y[2]), FIRST * period, 0
     strobes[:] = np.nan
     largest[:] = np.nan
     for k in range(len(strobes)):
-        # every period begins at the same time, where rounding of the phase stays small
+        # every period begins at the same time, so that rounding of the phase stays small
         side, h, steps, _, most, _ = advance_merson(
             p, y, side, t, t + period, h, tolerance, locate, none
         )
         if steps < 0:
             return k, total
         total += steps
-        # one by one: to assign arrays compiles the message for unlike shapes too, for 2 s
+        # one by one: an array assignment takes 2 s more to compile
         for i in range(4):
             strobes[k, i] = y[i]
         largest[k] = most
     return len(strobes), total
+
+
+class Merson(FixedStep):
+    """Runge-Kutta-Merson: with step control, and with equal steps as `FixedStep`."""
+
+    def __init__(self):
+        super().__init__("merson")
+
+    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None):
+        """Return the run; its work is that of the steps tried, those of locating included."""
+        y, period = start.copy(), 2 * math.pi / p[FREQUENCY]
+        side, h, tries = side_of(p, y), FIRST * period, 0
+        times, states = [np.array([begin])], [start[None]]
+        ends = np.empty((MOST_ENDS, 5))
+        each = operations(estimated_step)
+        for k in range(periods):
+            side, h, steps, _, _, more = advance_merson(
+                p, y, side, begin, begin + period, h, tolerance, locate, ends
+            )
+            tries += more
+            if not 0 <= steps <= MOST_ENDS:
+                return stopped("failed", tries * each)
+            times.append(ends[:steps, 0] + k * period)
+            states.append(ends[:steps, 1:].copy())
+        return read_off(p, tries * each, np.concatenate(times), np.concatenate(states))
+
+    def strobes(self, p, start, begin, periods, resolution, locate):
+        strobes, largest = np.empty((periods, 4)), np.empty(periods)
+        run_merson(p, start, begin, resolution, locate, strobes, largest)
+        return strobes
+
+    def flight(self, p, state, end, resolution, time):
+        ends = np.empty((MOST_FLIGHT_ENDS, 5))
+        _, _, steps, _, _, _ = advance_merson(
+            p, state.copy(), 0, 0.0, end, FIRST * end, resolution, False, ends
+        )
+        if not 0 <= steps <= MOST_FLIGHT_ENDS:
+            return None
+        return self._seen(p, np.concatenate([[[0.0, *state]], ends[:steps]]), time)

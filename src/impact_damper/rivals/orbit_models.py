@@ -21,16 +21,26 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rebound, rigid_map
 from impact_damper.contact.rigid_orbits import mended, mended_orbit, rigid_orbit
+from impact_damper.kernel.single import step, workspace
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.rivals.runs import rigid
-from impact_damper.rivals.taylor_runs import FLIGHT, all_steps, counted, step_work, steps_work
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
+from impact_damper.rivals.runs import Run, stopped
+from impact_damper.rivals.taylor_runs import (
+    FLIGHT,
+    MEETING,
+    all_steps,
+    counted,
+    step_work,
+    steps_work,
+)
+from impact_damper.stages import harmonic_convergence
+from impact_damper.system.packed import CLEARANCE, DASHPOT, FREQUENCY
 from impact_damper.system.parameters import pack
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
+from impact_damper.theory.many_harmonics import Balance, Solution, solve
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
 START_HARMONICS = 15
@@ -61,6 +71,36 @@ class Model(NamedTuple):
     displacement: float
 
 
+def rigid(p, restitution, start, t, periods, tolerance):
+    """Return the run of the rigid-impact model, from the strobe on.
+
+    Flights take the steps of the Taylor series. A peak is the largest |Z1| of a period, and its
+    time the middle of the period.
+    """
+    p = p.copy()
+    p[DASHPOT] = 0.0
+    y, none, work = start.copy(), np.empty((0, 4)), workspace()
+    period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
+    began, peaks = [], []
+    for k in range(periods):
+        _, _, impacts, _, _, largest = rigid_map(p, restitution, y, tolerance)
+        peaks.append(largest)
+        if impacts == MOST_IMPACTS:
+            return stopped("failed", steps_work(counts))
+        now, end = t, t + period
+        while now < end:
+            length, side = step(p, y, none, 0, now, end - now, tolerance, work)
+            now = end if length >= end - now else now + length
+            counts[FLIGHT if side == 0 else MEETING] += 1
+            if side != 0:
+                began.append(now + k * period)
+                rebound(p, restitution, y, none, now)
+    middles = t + period * (np.arange(periods) + 0.5)
+    peaks = np.array(peaks)
+    done = steps_work(counts), y, np.array(began), middles, peaks, float(np.max(peaks))
+    return Run("ended", *done)
+
+
 def without(status, work=0.0):
     """A model that gives no motion."""
     return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
@@ -68,7 +108,7 @@ def without(status, work=0.0):
 
 def of_coefficients(balance, coefficients, work):
     """The model that Fourier coefficients of a balance are."""
-    state = state_of(Solution(balance, coefficients, "", 0, 0.0))
+    state = harmonic_convergence.state_of(Solution(balance, coefficients, "", 0, 0.0))
     rows = balance.contacts(coefficients)
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
     largest = fourier.largest(coefficients[0], balance.harmonics)

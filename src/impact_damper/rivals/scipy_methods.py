@@ -8,135 +8,182 @@ from scipy.integrate import solve_ivp
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
 from impact_damper.rivals.equations import rate, wall_at
+from impact_damper.rivals.operations import operations
+from impact_damper.rivals.runs import Integrator, read_off, stopped
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-METHODS = ("RK45", "DOP853", "LSODA", "Radau")
+SIZE = 4
+# Operations, beside those of the rate, for each evaluation. A stage of DOP853 adds on average 6
+# products to each of the 4 components, and a twelfth of its 12 new values and 2 estimates 4 more.
+# LSODA updates and predicts an array of about 6 derivatives, 21 additions a component, and a
+# solution by the factors, 2 n^2. An iteration of Radau has 3 evaluations, 9 products a
+# component to transform them and back each, and solutions of a real and a complex system.
+COMBINING = {
+    "DOP853": SIZE * 2 * (6 + 4),
+    "LSODA": SIZE * 2 * 21 + 2 * SIZE**2,
+    "Radau": SIZE * 2 * 6 + (2 + 8) * SIZE**2 // 3,
+}
+# Operations of a factorisation, 2/3 n^3; of Radau the mean of a real and a complex one.
+FACTORISING = {"DOP853": 0, "LSODA": 2 * SIZE**3 // 3, "Radau": (2 + 8) * SIZE**3 // 3 // 2}
+# Side that has the position choose the wall.
 BY_POSITION = 2
+# Evaluations of the rate after which a run over some forcing periods is given up, a period.
+EVALUATIONS = 2000
+UNLIMITED = 2**62
 
 
 @kernel
-def derivative(t, y, p, side):
-    """Rate of the state while a wall acts; BY_POSITION chooses the wall by the position."""
+def derivative(t, y, p, side, left):
+    """Return the rate of the state, and count `left` (1,) down by one.
+
+    `side` is the wall that acts, or BY_POSITION. Raises OverflowError if `left` is 0.
+    """
+    left[0] -= 1
+    if left[0] < 0:
+        raise OverflowError("too many evaluations")
     if side == BY_POSITION:
         side = wall_at(p, y[2])
     return np.array(rate(p, side, t, (y[0], y[1], y[2], y[3])))
 
 
-def flight_steps(method, p, y, t, end, tolerance):
-    """States (n, 4) at the ends of the steps in flight, SciPy's interpolant, and its success."""
-    with np.errstate(all="ignore"):
-        run = solve_ivp(
-            derivative,
-            (t, end),
-            y,
-            method,
-            args=(p, 0),
-            rtol=tolerance,
-            atol=tolerance,
-            dense_output=True,
-        )
-    return run.y.T, run.sol, run.success
+@kernel
+def ahead(t, y, p, side, left):
+    """Return the distance from the next event: the gap in flight, the penetration in contact."""
+    return p[CLEARANCE] - abs(y[2]) if side == 0 else side * y[2] - p[CLEARANCE]
 
 
-class TooManyEvaluations(Exception):
-    """A run has used up the evaluations it may make."""
+def _event(*arguments):
+    return ahead(*arguments)
 
 
-class Counted:
-    """The rate, which counts how often it is asked for.
-
-    Attributes
-    ----------
-    evaluations, jacobians, factorisations : int
-        Of the rate so far; the others of implicit methods, as SciPy reports them.
-    """
-
-    def __init__(self, most):
-        self.most = most
-        self.evaluations, self.jacobians, self.factorisations = 0, 0, 0
-
-    def __call__(self, t, y, p, side):
-        self.evaluations += 1
-        if self.evaluations > self.most:
-            raise TooManyEvaluations
-        return derivative(t, y, p, side)
+_event.terminal, _event.direction = True, -1
 
 
-def pieces(method, p, start, t, end, tolerance, locate, counted, times=None):
-    """Runs of SciPy's `solve_ivp`, from contact to contact if these are located.
+def pieces(method, p, start, t, end, tolerance, locate, left, times=None):
+    """Yield results of `solve_ivp` that follow each other, one if contacts are not located.
 
-    The gap is then an event that ends a run, from which the next one starts with the wall that
-    acts fixed; otherwise the wall is chosen by the position, and there is one run.
+    A located contact is an event, which ends a result. The next one begins there with the wall
+    that acts fixed. Otherwise each evaluation of the rate chooses the wall by its position.
 
     Parameters
     ----------
     method : str
-        One of `METHODS`.
+        Of SciPy.
     p, start : array
         Packed parameters and a state.
     t, end, tolerance : float
-        Time of the start and of the end; both relative and absolute tolerance.
+        Times of start and end; relative and absolute tolerance.
     locate : bool
-    counted : Counted
+    left : array of int, shape (1,)
+        Evaluations of the rate that may follow; counted down.
     times : array or None
-        Where states are asked for, instead of at the ends of steps.
+        Where states are returned, instead of at the ends of steps.
 
     Raises
     ------
-    TooManyEvaluations
-        Started at a wall and with a loose tolerance, a method can step over the end of a contact.
+    OverflowError
+        After more evaluations. Started at a wall and with a loose tolerance, a method can step over
+        the end of a contact.
     """
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
-
-    def gap(_, y, p, side):
-        return p[CLEARANCE] - abs(y[2]) if side == 0 else side * y[2] - p[CLEARANCE]
-
-    gap.terminal, gap.direction = True, -1
     status = 1
     while status == 1:
         with np.errstate(all="ignore"):
-            run = solve_ivp(
-                counted,
+            found = solve_ivp(
+                derivative,
                 (t, end),
                 y,
                 method,
                 t_eval=None if times is None else times[times > t],
-                events=gap if locate else None,
-                args=(p, side),
+                events=_event if locate else None,
+                args=(p, side, left),
                 rtol=tolerance,
                 atol=tolerance,
             )
-        counted.jacobians += run.njev
-        counted.factorisations += run.nlu
-        status = run.status
-        yield run
+        status = found.status
+        yield found
         if status == 1:
-            t, y = run.t_events[0][0], run.y_events[0][0].copy()
+            t, y = found.t_events[0][0], found.y_events[0][0].copy()
             contact = 1 if y[2] > 0 else -1
             y[2] = contact * p[CLEARANCE]
             side = contact if side == 0 else 0
 
 
-def run_scipy(method, p, start, t, tolerance, locate, periods, most_evaluations=10**6):
-    """States (periods, 4) after each forcing period, NaN from a failure on.
+class SciPy(Integrator):
+    """One of SciPy's methods.
 
     Parameters
     ----------
-    method, p, start, t, tolerance, locate
-        As of `pieces`.
-    periods : int
-    most_evaluations : int
-        Of the rate, in all; a run that needs more is given up as a failure.
+    method : str
+        "RK45", "DOP853", "LSODA" or "Radau".
     """
-    times = t + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
-    strobes = np.full((periods, 4), np.nan)
-    done = 0
-    counted = Counted(most_evaluations)
-    try:
-        for run in pieces(method, p, start, t, times[-1], tolerance, locate, counted, times):
-            if len(run.t) > 0:
-                strobes[done : done + len(run.t)] = run.y.T
-                done += len(run.t)
-    except TooManyEvaluations:
-        pass
-    return strobes
+
+    def __init__(self, method):
+        self.method = method
+
+    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations):
+        """Return the run.
+
+        Its work is that of evaluations of the rate, Jacobians by differences included, with their
+        share of combining them (`COMBINING`), and of factorisations (`FACTORISING`).
+        """
+        left, factorisations = np.array([most_evaluations]), 0
+        times, ends, status = [np.array([begin])], [start[None]], "failed"
+        end = begin + periods * 2 * math.pi / p[FREQUENCY]
+        try:
+            for found in pieces(self.method, p, start, begin, end, tolerance, locate, left):
+                factorisations += found.nlu
+                status = "failed" if found.status < 0 else "ended"
+                later, states = found.t[1:].copy(), found.y.T[1:].copy()
+                if found.status == 1:
+                    states[-1, 2] = math.copysign(p[CLEARANCE], states[-1, 2])
+                times.append(later)
+                ends.append(states)
+        except OverflowError:
+            status = "capped"
+        evaluations = most_evaluations - int(left[0])
+        each = operations(rate) + COMBINING[self.method]
+        work = float(evaluations * each + factorisations * FACTORISING[self.method])
+        if status != "ended":
+            return stopped(status, work)
+        return read_off(p, work, np.concatenate(times), np.concatenate(ends))
+
+    def strobes(self, p, start, begin, periods, resolution, locate, most_evaluations=None):
+        """As of the base class; `most_evaluations` is EVALUATIONS a period by default."""
+        times = begin + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
+        strobes, done = np.full((periods, 4), np.nan), 0
+        left = np.array([most_evaluations or EVALUATIONS * periods])
+        given = self.method, p, start, begin, times[-1], resolution, locate, left, times
+        try:
+            for found in pieces(*given):
+                if len(found.t) > 0:
+                    strobes[done : done + len(found.t)] = found.y.T
+                    done += len(found.t)
+        except OverflowError:
+            pass
+        return strobes
+
+    def flight(self, p, state, end, resolution, time):
+        """As of the base class; |Z2| at the time by SciPy's interpolant."""
+        with np.errstate(all="ignore"):
+            found = solve_ivp(
+                derivative,
+                (0.0, end),
+                state,
+                self.method,
+                args=(p, 0, np.array([UNLIMITED])),
+                rtol=resolution,
+                atol=resolution,
+                dense_output=True,
+            )
+        return (np.abs(found.y[2]), abs(found.sol(time)[2])) if found.success else None
+
+    def end(self, p, start, begin, periods, tolerance, locate):
+        """As of the base class, without the states after each period, which take time."""
+        left, end = np.array([EVALUATIONS * periods]), begin + periods * 2 * math.pi / p[FREQUENCY]
+        locate = locate and p[CLEARANCE] < math.inf
+        try:
+            *_, last = pieces(self.method, p, start, begin, end, tolerance, locate, left)
+        except OverflowError:
+            return np.full(4, np.nan)
+        return last.y[:, -1] if last.status == 0 else np.full(4, np.nan)

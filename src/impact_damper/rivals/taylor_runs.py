@@ -1,14 +1,13 @@
 """Runs by the event-driven Taylor series, with series of any orders, and their counted work.
 
-The work is that of the steps in flight, of those that end in a contact, and of those in contact,
-times the operations of one (`work.operations`), the generated series included. The search for a
-contact that is met where it is not expected, and the loops of searches, do not count: hardly any
-step enters them.
+The work of a run is the number of its steps of each kind (in flight, in flight until a contact, in
+contact) times the operations of such a step, the generated series included
+(`operations.operations`). The search for an unexpected contact and the loops of searches are left
+out, since few steps need them.
 """
 
 import math
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -28,59 +27,27 @@ from impact_damper.kernel.single import (
     place,
     side_of,
 )
+from impact_damper.motions import records
 from impact_damper.rivals.operations import operations
+from impact_damper.rivals.runs import Integrator, Run, root, stopped
 from impact_damper.system.packed import FREQUENCY
 
 # Kinds of steps: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# Rows that are kept at once, and what stands in them: time at the beginning, length, wall in
-# contact before and after, and from SERIES on the coefficients of Z1.
+# Steps computed by one call, a row each: time at the beginning, length, wall in contact before and
+# after, and from column SERIES on the coefficients of Z1.
 ROWS, SERIES = 4096, 4
-# Parts of a step, in each of which Z1' vanishes once at most, and halvings to find where.
-PARTS, HALVINGS = 8, 54
-
-
-class Run(NamedTuple):
-    """A motion by some method.
-
-    Attributes
-    ----------
-    status : str
-        "ended", "failed" or "capped".
-    operations : float
-        Counted work.
-    state : numpy.ndarray, shape (4,)
-        At the end.
-    contact_times : numpy.ndarray
-        When contacts begin.
-    peak_times, peaks : numpy.ndarray
-        When |Z1| is largest, and the values there; those at the ends of the run count.
-    displacement : float
-        Largest |Z1|.
-    """
-
-    status: str
-    operations: float
-    state: np.ndarray
-    contact_times: np.ndarray
-    peak_times: np.ndarray
-    peaks: np.ndarray
-    displacement: float
-
-
-def stopped(status, work):
-    """A run that did not come to its end."""
-    none = np.empty(0)
-    return Run(status, work, np.full(4, np.nan), none, none, none, np.nan)
+# Parts of a step, in each of which Z1' is taken to vanish once at most.
+PARTS = 8
 
 
 @kernel
 def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Steps from t to end, or as many as there are rows. Returns how many, the time and the wall.
+    """Fill `rows` with steps from t on, up to `end`. Return their number, the time and the wall.
 
-    `made` are the addresses of a step in flight, of one in contact and of what fills the kept
-    series, and the size of a workspace; y is replaced. Rows may lack the coefficients.
+    `made` is an array of `steps_of`; y is replaced by the state after the steps. Rows may lack the
+    coefficients.
     """
     work = aligned(made[3])
     a, count = pointer(work), 0
@@ -105,7 +72,11 @@ def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order,
 
 @cache
 def steps_of(orders):
-    """What `take_steps` takes of the steps with series of these orders."""
+    """Return the first argument of `take_steps` for series of these orders.
+
+    An array: the addresses of a step in flight, of a step in contact and of the function that fills
+    the kept series, and the size of a workspace.
+    """
     module = instance(1, *orders)
     flight, contact, _, _ = steps(module)
     called = flight, contact, by_address(module.kept_series)
@@ -113,14 +84,14 @@ def steps_of(orders):
 
 
 def name_of(orders):
-    """Name of the method with series of further orders in flight and in contact."""
+    """Return the label of the Taylor series with further orders, in flight and in contact."""
     return "taylor_{}_{}".format(*orders)
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Steps over forcing periods from a state at t, as rows (`ROWS`), and the state at the end.
+    """Return the steps over forcing periods from a state at t, as rows (`ROWS`), and the end state.
 
-    The state is NaN where steps become too short to get on.
+    The state is NaN if steps become too short for the time to advance.
     """
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * math.pi / p[FREQUENCY], []
@@ -134,7 +105,7 @@ def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def taylor(p, start, t, periods, tolerance, orders=ORDERS):
-    """The run from a state at t, with series of these orders in flight and in contact."""
+    """Return the run from a state at t, with series of these orders in flight and in contact."""
     rows, end = all_steps(p, start, t, periods, tolerance, orders)
     work = steps_work(counted(rows), orders=orders)
     if not np.isfinite(end).all():
@@ -150,7 +121,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows):
-    """When Z1' vanishes within steps, and |Z1| there."""
+    """Return when Z1' vanishes within steps, and |Z1| there."""
     c = rows[:, SERIES:].T
     slopes = c[1:] * np.arange(1, len(c))[:, None]
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
@@ -162,31 +133,21 @@ def turning_points(rows):
     return times[order], np.abs(polyval(within, c[:, step], tensor=False))[order]
 
 
-def root(coefficients, low, high):
-    """A root between low and high of each polynomial (columns), whose signs there differ."""
-    sign = np.sign(polyval(low, coefficients, tensor=False))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        before = polyval(middle, coefficients, tensor=False) * sign > 0
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return low
-
-
 def counted(rows):
-    """Numbers of steps of each kind."""
+    """Return the numbers of steps of each kind."""
     before, after = rows[:, 2] != 0, rows[:, 3] != 0
     kinds = np.where(before, CONTACT, np.where(after, MEETING, FLIGHT))
     return tuple(int(np.count_nonzero(kinds == kind)) for kind in (FLIGHT, MEETING, CONTACT))
 
 
 def steps_work(counts, tangents=0, orders=ORDERS):
-    """Operations of so many steps of each kind."""
+    """Return the operations of steps, given their number of each kind."""
     return sum(count * step_work(kind, tangents, orders) for kind, count in enumerate(counts))
 
 
 @cache
 def step_work(kind, tangents=0, orders=ORDERS):
-    """Operations of one step of the Taylor series with so many tangents."""
+    """Return the operations of one step of a kind with some number of tangents."""
     made = instance(1, *orders)
     unexpected = made.search_contact, made.guess_contact, made.meet_expected
     if kind == CONTACT:
@@ -195,3 +156,16 @@ def step_work(kind, tangents=0, orders=ORDERS):
         without = unexpected if kind == FLIGHT else unexpected[:1]
         state, each = operations(made.flight_step, 0, without), made.flight_tangents
     return state + tangents * operations(each) // COLUMNS
+
+
+class Taylor(Integrator):
+    """The event-driven Taylor series of this package."""
+
+    def run(self, p, start, begin, periods, tolerance, locate=True, most_evaluations=None):
+        return taylor(p, start, begin, periods, tolerance)
+
+    def strobes(self, p, start, begin, periods, resolution, locate=True):
+        times = begin + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
+        states = np.empty((periods, 4))
+        records.trace(p, start.copy(), begin, times, resolution, states, np.empty((0, 5)))
+        return states

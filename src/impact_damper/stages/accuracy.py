@@ -1,128 +1,50 @@
 """Error against counted work: every method and model on a scene, at several settings.
 
-The reference of a scene is a run in 80-bit arithmetic, by another program than any of those
-compared. A chaotic motion has none that could be followed; there averages are compared, with their
-standard errors, and those of the Taylor series over LONGER times as many periods at its tightest
-setting are the reference; contacts count as missed or invented if their rate is off by
-CONTACTS_OFF of it and SURE standard errors more.
+The reference of a scene is a run in 80-bit arithmetic, by another program than those compared. No
+method can follow a chaotic motion to its end. There averages with their standard errors are
+compared; the reference is the Taylor series at its tightest tolerance over LONGER times as many
+periods. Contacts of a chaotic motion count as missed or invented if their rate deviates by a share
+CONTACTS_OFF of the reference's and by SURE standard errors more.
 """
-
-from typing import NamedTuple
 
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.simulate import COMPONENTS, check_state
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.rivals import averages, orbit_models, runs
-from impact_damper.rivals.cheapest import SCIPY
+from impact_damper.rivals import averages, orbit_models
+from impact_damper.rivals.comparison_scenes import check_accuracy, reference_of
+from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
 from impact_damper.rivals.taylor_runs import name_of, taylor
 from impact_damper.system.bounds import check_count
 from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import describe, pack
+from impact_damper.system.parameters import describe
 
-ERRORS = ("amplitude", "state", "contact_time", "contacts")
-AVERAGES = averages.STATISTICS
-LONGER, SHORT = 4, 1
+LONGER = 4
+# Tolerances, the loosest ones, with which slow integrators run a chaotic motion.
+SHORT = 1
 CONTACTS_OFF, SURE = 0.1, 2
 
 
-class Scene(NamedTuple):
-    """A motion on which methods are compared.
-
-    Attributes
-    ----------
-    name : str
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float
-    state : sequence of float
-        Z1, Z1', Z2, Z2' at W T = pi/2.
-    periods : int
-        Forcing periods of a run.
-    motion : str
-        "steady", an orbit as long as the forcing's period, which models of orbits are asked for as
-        well; "transient"; or "chaotic".
-    accuracy : dict
-        `quantity`, of `ERRORS` or, chaotic, of `AVERAGES`, and `within` what error it is wanted.
-    tolerance : float or None
-        That of the Taylor series with which stages run motions like it, if any do.
-    """
-
-    name: str
-    oscillator: object
-    damper: object
-    frequency: float
-    state: object
-    periods: int
-    motion: str
-    accuracy: dict
-    tolerance: object = None
-
-    @property
-    def p(self):
-        """Packed parameters."""
-        return pack(self.oscillator, self.damper, self.frequency)
-
-
-def check_accuracy(motion, accuracy):
-    """Raise ValueError unless an accuracy is of quantities that a kind of motion has."""
-    allowed = AVERAGES if motion == "chaotic" else ERRORS
-    if accuracy["quantity"] not in allowed:
-        raise ValueError(
-            f"accuracy: quantity = {accuracy['quantity']!r}: must be one of {', '.join(allowed)} "
-            f"for a {motion} motion"
-        )
-
-
-class Reference(NamedTuple):
-    """What a run comes to in truth: as of `runs.Run`."""
-
-    state: np.ndarray
-    contact_times: np.ndarray
-    displacement: float
-
-
-def reference_of(scene, stored):
-    """The reference of a scene from what is stored of it (`workflow/resources/references.json`).
-
-    Raises
-    ------
-    ValueError
-        If that belongs to another scene.
-    """
-    p, begin = scene.p, strobe_time(scene.p)
-    end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
-    given = [value if value is not None else np.inf for value in stored["parameters"]]
-    same = np.array_equal(given, p) and stored["first"] == list(scene.state)
-    if not same or abs(stored["end"] - end) > 1e-9:
-        raise ValueError(
-            "reference: belongs to other parameters, another start or another number of periods "
-            "than the scene; it must be made anew (tests/extended/scenes.py)"
-        )
-    times = np.array([contact[1] for contact in stored["contacts"]])
-    return Reference(np.array(stored["state"]), times, stored["amplitude"])
-
-
 def error_against_work(scene, settings, stored=None):
-    """Errors and counted work of each method on a scene.
+    """Return errors and counted work of each method on a scene.
 
     Parameters
     ----------
-    scene : Scene
+    scene : ComparisonScene
     settings : dict
-        `taylor`, `merson`, `scipy`: decreasing tolerances; `orders`: further pairs of orders of the
-        Taylor series, in flight and in contact; `evaluations`: those of the rate a
-        forcing period at which a run of SciPy's methods is given up, by method; `harmonics`: the
-        highest one; `batch`: forcing periods of a batch of a chaotic motion; `scipy_periods`:
-        periods of a chaotic motion by SciPy's methods, which are slow.
+        Decreasing tolerances by `methods.TOLERANCES`; `orders`: further pairs of orders of the
+        Taylor series, in flight and in contact; `evaluations`: evaluations of the rate in a
+        forcing period after which a slow integrator gives up, by `methods.LIMITED`; `harmonics`:
+        highest harmonic of a balance; `batch`: forcing periods of a batch of a chaotic motion;
+        `scipy_periods`: forcing periods of a chaotic motion by slow integrators.
     stored : dict or None
-        The reference, which a chaotic scene does not need.
+        Entry of the reference (`reference_of`), not needed if the scene is chaotic.
 
     Returns
     -------
     xarray.Dataset
-        Over `run`: method, setting, status, work, and errors; or averages, if it is chaotic.
+        Over `run`: method, setting, status, work, and errors, or averages of a chaotic motion.
 
     Raises
     ------
@@ -150,45 +72,51 @@ def error_against_work(scene, settings, stored=None):
     return dataset(data, coordinates, made, "Error of methods against counted work")
 
 
-def integrations(scene, settings, periods, scipy_periods):
-    """Runs of all integrators: method, setting and run.
+def integrations(scene, settings, slow_periods):
+    """Yield label, setting, run and forcing periods of all integrators and settings.
 
-    Of a method that was capped, runs with tighter tolerances are left out; of a chaotic motion
-    those of SciPy are run at the SHORT loosest ones.
+    Slow integrators run `slow_periods`, of chaotic motions with the SHORT loosest tolerances. After
+    one has given up, its tighter tolerances are left out.
     """
     p, start = scene.p, np.array(scene.state, float)
-    begin = strobe_time(p)
+    given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
-        yield "taylor", tolerance, taylor(p, start, begin, periods, tolerance)
+        yield "taylor", tolerance, taylor(*given, tolerance), scene.periods
         for orders in settings["orders"]:
-            run = taylor(p, start, begin, periods, tolerance, tuple(orders))
-            yield name_of(orders), tolerance, run
+            run = taylor(*given, tolerance, tuple(orders))
+            yield name_of(orders), tolerance, run, scene.periods
     if scene.motion != "steady" and scene.damper is not None:
-        tolerance = min(settings["taylor"])
-        restitution = scene.damper.restitution
-        yield "rigid", tolerance, runs.rigid(p, restitution, start, begin, periods, tolerance)
-    # without walls both are the same
-    modes = {"kink": False, "located": True} if scene.damper is not None else {"kink": False}
-    for name, locate in modes.items():
-        for tolerance in settings["merson"]:
-            run = runs.runge_kutta_merson(p, start, begin, periods, tolerance, locate)
-            yield f"merson_{name}", tolerance, run
-        for method in SCIPY:
-            most = settings["evaluations"][method] * scipy_periods
-            for tolerance in settings["scipy"][: SHORT if scene.motion == "chaotic" else None]:
-                run = runs.scipy_run(
-                    method, p, start, begin, scipy_periods, tolerance, locate, most
-                )
-                yield f"{method}_{name}", tolerance, run
-                if run.status == "capped":
-                    break
+        tolerance, restitution = min(settings["taylor"]), scene.damper.restitution
+        run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
+        yield "rigid", tolerance, run, scene.periods
+    rivals = [(label, *name_and_mode(label)) for label in COMPARED["accuracy"] if label != "taylor"]
+    # without walls both modes are the same
+    for mode in (False, True) if scene.damper is not None else (False,):
+        for label, name, locate in rivals:
+            if locate == mode:
+                yield from _at_tolerances(label, name, locate, scene, settings, slow_periods)
+
+
+def _at_tolerances(label, name, locate, scene, settings, slow_periods):
+    """Yield what `integrations` does of one integrator, in one mode, over its tolerances."""
+    method, integrator = METHODS[name], integrators()[name]
+    tolerances, periods, most = settings[method.tolerances], scene.periods, None
+    if method.slow:
+        periods, most = slow_periods, settings["evaluations"][name] * slow_periods
+        tolerances = tolerances[: SHORT if scene.motion == "chaotic" else None]
+    given = scene.p, np.array(scene.state, float), strobe_time(scene.p), periods
+    for tolerance in tolerances:
+        run = integrator.run(*given, tolerance, locate, most)
+        yield label, tolerance, run, periods
+        if run.status == "capped":
+            break
 
 
 def _errors(scene, settings, reference):
-    """Data of a scene that has a reference."""
+    """Return the data of a scene that has a reference."""
     rows = [
-        (method, setting, run, run.contact_times)
-        for method, setting, run in integrations(scene, settings, scene.periods, scene.periods)
+        (label, setting, run, run.contact_times)
+        for label, setting, run, _ in integrations(scene, settings, scene.periods)
     ]
     orbits = _orbits(scene, settings) if scene.motion == "steady" else []
     rows += [
@@ -237,12 +165,12 @@ def _named(rows, status, met):
 
 
 def _met(accuracy, errors):
-    """Whether the accuracy is met; NaN is not."""
+    """Return whether the accuracy is met; NaN does not meet it."""
     return np.abs(errors[accuracy["quantity"]]) <= accuracy["within"]
 
 
 def _orbits(scene, settings):
-    """Models of the orbit of a steady scene: method, setting and model."""
+    """Yield label, setting and model of the orbit of a steady scene."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)
@@ -258,12 +186,16 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """When contacts of an orbit begin in the run, those of the reference's beginning included."""
+    """Return when contacts of an orbit begin in a run over the reference's periods.
+
+    Each contact of the orbit is compared with the nearest one of the reference's last period, and
+    this difference is taken in all periods. The times are NaN if two contacts have the same
+    nearest one.
+    """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
     if len(model.contact_phases) != count or count == 0:
         return np.empty(len(model.contact_phases) * scene.periods)
-    # each contact is set beside the nearest one of the reference's last period
     last = reference.contact_times[-count:]
     found = model.contact_phases / p[FREQUENCY]
     turns = np.round((last[:, None] - found) / period)
@@ -276,7 +208,7 @@ def _times(scene, model, reference):
 
 
 def _exponent(scene, method, tolerance, batch):
-    """Batches of the exponent by the methods that have variational equations."""
+    """Return batches of the exponent, if the method has variational equations."""
     given = scene.p, np.array(scene.state, float), tolerance, scene.periods, batch
     if method == "taylor":
         return {"exponent": averages.exponents(*given)}
@@ -286,19 +218,18 @@ def _exponent(scene, method, tolerance, batch):
 
 
 def _averages(scene, settings):
-    """Data of a chaotic scene."""
+    """Return the data of a chaotic scene."""
     p, start = scene.p, np.array(scene.state, float)
     batch, begin = settings["batch"], strobe_time(scene.p)
     rows, found = [], []
     short = min(settings["scipy_periods"], scene.periods)
-    for method, setting, run in integrations(scene, settings, scene.periods, short):
-        periods = short if method.split("_")[0] in SCIPY else scene.periods
+    for label, setting, run, periods in integrations(scene, settings, short):
         measured = {}
         if run.status == "ended":
             measured = averages.of_run(p, run, begin, periods, batch)
-            measured |= _exponent(scene, method, setting, batch)
+            measured |= _exponent(scene, label, setting, batch)
         run = run._replace(operations=run.operations * scene.periods / periods)
-        rows.append((method, setting, run))
+        rows.append((label, setting, run))
         found.append(averages.estimates(measured))
     tightest, long = min(settings["taylor"]), LONGER * scene.periods
     run = taylor(p, start, begin, long, tightest)
@@ -307,9 +238,8 @@ def _averages(scene, settings):
     truth, truth_error = averages.estimates(measured)
     average, error = np.array(found).transpose(1, 0, 2)
     relative = dict(zip(averages.STATISTICS, (average / truth - 1).T, strict=True))
-    # contacts are missed or invented beyond doubt alone
-    borne = CONTACTS_OFF + SURE * error[:, 0] / truth[0]
-    excess = np.where(np.abs(relative["contact_rate"]) > borne, relative["contact_rate"], 0)
+    allowed = CONTACTS_OFF + SURE * error[:, 0] / truth[0]
+    excess = np.where(np.abs(relative["contact_rate"]) > allowed, relative["contact_rate"], 0)
     status = [_status(row[2].status, wrong) for row, wrong in zip(rows, excess, strict=True)]
     return _named(rows, status, _met(scene.accuracy, relative)) | {
         "average": average,

@@ -1,8 +1,8 @@
-"""Verdicts of each method by its tolerance: does a motion stay on an orbit, of which period?
+"""Verdicts of each method by its tolerance: does the motion stay on an orbit, and of which period?
 
-The truth of a scene is exact: whether the orbit exists at the frequency, and its Floquet
-multipliers, from Newton's method on the event-driven flow; and where the start leads, from the
-same flow at a tolerance of 1e-13. All methods are judged by one rule from strobed states alone.
+The truth of a scene comes from the event-driven Taylor series: the orbit, if there is one at the
+frequency, and its Floquet multipliers by Newton's method, and the motion that the start leads to
+at a tolerance of 1e-13. One rule judges all methods, from strobed states alone.
 """
 
 from typing import NamedTuple
@@ -10,29 +10,24 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.motions import records, strobe_map
-from impact_damper.rivals import fixed_step, merson, scipy_methods
-from impact_damper.system.bounds import check_count, check_number
-from impact_damper.system.checks import check_frequency, check_increasing
+from impact_damper.motions import strobe_map
+from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
+from impact_damper.rivals.runs import check_resolutions
+from impact_damper.system.bounds import check_count
+from impact_damper.system.checks import check_frequency
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import pack
 
-FIXED = ("heun", "verlet", "runge_kutta_4")
-# Through the kink, and with contacts located.
-ADAPTIVE = ("merson", "merson_located")
-SCIPY = {"LSODA": False, "DOP853_located": True}
-METHODS = ("taylor", *FIXED, *ADAPTIVE, *SCIPY)
+LABELS = COMPARED["method_verdicts"]
 EXACT = 1e-13
-# SciPy's methods may evaluate the rate so often in a forcing period, on average.
-EVALUATIONS = 2000
-# The rule: a motion has settled if its last states repeat this closely, and it is on an orbit if
-# the primary mass is this near to it.
+# A motion has settled if its last states repeat within REPEATS, and is on an orbit if the primary
+# mass comes within NEAR of it.
 REPEATS, NEAR = 1e-3, 5e-3
 LAST, LONGEST_PERIOD = 6, 6
 
 
-class Scene(NamedTuple):
-    """A start near an orbit, and what becomes of it.
+class VerdictScene(NamedTuple):
+    """A start near an orbit, and the motion that it leads to.
 
     Attributes
     ----------
@@ -46,9 +41,10 @@ class Scene(NamedTuple):
     landing : numpy.ndarray, shape (n, 2)
         Strobed Z1, Z1' of the orbit that the motion settles on, none if it does not settle.
     stays : bool
-        Whether that is the orbit.
+        Whether the motion settles on the orbit near which it starts.
     scipy_every : int
-        SciPy's methods, a hundred times slower, are run at every so many tolerances, or never: 0.
+        SciPy's methods, a hundred times slower, are run at every `scipy_every`-th tolerance; at
+        none if 0.
     """
 
     parameters: np.ndarray
@@ -63,7 +59,7 @@ class Scene(NamedTuple):
 
 
 def settled_period(states):
-    """Smallest period with which the last strobed states repeat, 0 if none does."""
+    """Return the smallest period with which the last strobed states repeat, 0 if there is none."""
     for n in range(1, LONGEST_PERIOD + 1):
         last = states[-LAST:, :2]
         if np.abs(last - states[-LAST - n : -n, :2]).max() < REPEATS:
@@ -72,7 +68,7 @@ def settled_period(states):
 
 
 def is_on(states, points, period):
-    """Whether a motion has settled with a period and passes near one of some points (n, 2)."""
+    """Return whether a motion has settled with a period and passes near one of points (n, 2)."""
     if settled_period(states) != period:
         return False
     away = np.abs(states[-period:, None, :2] - points).max(axis=2)
@@ -82,7 +78,7 @@ def is_on(states, points, period):
 def make_scene(
     oscillator, damper, frequency, *, near, period, offset, periods, orbit_frequency, scipy_every
 ):
-    """A scene with its truth.
+    """Return a scene with its truth.
 
     Parameters
     ----------
@@ -100,12 +96,12 @@ def make_scene(
     orbit_frequency : float
         Where the orbit of reference is found; it may have ended at the scene's frequency.
     scipy_every : int
-        As in `Scene`.
+        As in `VerdictScene`.
 
     Raises
     ------
     ValueError
-        If there is no such orbit, or the rule cannot tell in so many periods.
+        If there is no such orbit, or `periods` are too few for the rule.
     """
     check_count("scipy_every", scipy_every, least=0)
     check_count("periods", periods, least=LAST + LONGEST_PERIOD, most=10**6)
@@ -119,7 +115,7 @@ def make_scene(
     if found:
         orbit = here
     start = orbit + np.array(offset, float)
-    exact = _taylor(p, start, periods, EXACT)
+    exact = integrators()["taylor"].strobes(p, start, strobe_map.strobe_time(p), periods, EXACT)
     stays = is_on(exact, orbit[None, :2], period)
     landed = settled_period(exact)
     landing = exact[len(exact) - landed :, :2].copy()
@@ -129,48 +125,11 @@ def make_scene(
             f"periods = {periods}: at W = {frequency:g} the motion must leave the orbit, whose "
             f"multiplier is {modulus:g}, and has not done so by the rule: more periods are needed"
         )
-    return Scene(p, orbit, start, period, periods, modulus, landing, stays, scipy_every)
-
-
-def _taylor(p, start, periods, tolerance):
-    """Strobed states by the event-driven Taylor series."""
-    begin = strobe_map.strobe_time(p)
-    times = begin + 2 * np.pi / p[FREQUENCY] * np.arange(1, periods + 1)
-    states = np.empty((periods, 4))
-    records.trace(p, start.copy(), begin, times, tolerance, states, np.empty((0, 5)))
-    return states
-
-
-def _strobes(method, scene, resolution):
-    """Strobed states by a method, NaN from a failure on."""
-    p, start = scene.parameters, scene.start
-    begin = strobe_map.strobe_time(p)
-    if method == "taylor":
-        return _taylor(p, start, scene.periods, resolution)
-    if method in SCIPY:
-        name = method.removesuffix("_located")
-        return scipy_methods.run_scipy(
-            name,
-            p,
-            start,
-            begin,
-            resolution,
-            SCIPY[method],
-            scene.periods,
-            EVALUATIONS * scene.periods,
-        )
-    strobes, largest = np.empty((scene.periods, 4)), np.empty(scene.periods)
-    if method in FIXED:
-        number = fixed_step.METHODS.index(method)
-        fixed_step.run_fixed(number, p, start, begin, resolution, strobes, largest)
-    else:
-        located = method == "merson_located"
-        merson.run_merson(p, start, begin, resolution, located, strobes, largest)
-    return strobes
+    return VerdictScene(p, orbit, start, period, periods, modulus, landing, stays, scipy_every)
 
 
 def judge(states, scene):
-    """What the rule makes of strobed states, against the truth of the scene."""
+    """Return the verdict on strobed states against the truth of the scene (flag `verdict`)."""
     if not np.isfinite(states).all():
         return "failed"
     found, landed = settled_period(states), len(scene.landing)
@@ -186,17 +145,36 @@ def judge(states, scene):
 
 
 def right_from(right):
-    """Index from which on a row of verdicts is right to its end, its length if it ends wrong."""
+    """Return the index from which on all of a row are right, its length if the last is wrong."""
     wrong = np.flatnonzero(~right)
     return wrong[-1] + 1 if len(wrong) else 0
 
 
+def _by_resolution(label, scene, tolerances, steps):
+    """Return a method's verdict at each tolerance, or steps, and `right_from` of `verdicts`."""
+    name, locate = name_and_mode(label)
+    method, integrator = METHODS[name], integrators()[name]
+    resolutions = steps if method.fixed else tolerances
+    found = np.full(len(resolutions), flag("verdict", "not_run"))
+    every = scene.scipy_every if method.slow else 1
+    if every == 0:
+        return found, np.nan
+    run = np.arange(0, len(resolutions), every)
+    p, begin = scene.parameters, strobe_map.strobe_time(scene.parameters)
+    for j in run:
+        given = p, scene.start, begin, scene.periods, resolutions[j], locate
+        found[j] = flag("verdict", judge(integrator.strobes(*given), scene))
+    loosest_first = run[::-1]
+    k = right_from(found[loosest_first] == flag("verdict", "right"))
+    return found, resolutions[loosest_first[k]] if k < len(run) else np.nan
+
+
 def verdicts(scenes, tolerances, steps):
-    """The verdict of each method on each scene, by tolerance or steps a forcing period.
+    """Return the verdict of each method on each scene, by tolerance or steps a forcing period.
 
     Parameters
     ----------
-    scenes : dict of Scene
+    scenes : dict of VerdictScene
         By name.
     tolerances : sequence of float
         Increasing.
@@ -208,43 +186,25 @@ def verdicts(scenes, tolerances, steps):
     -------
     xarray.Dataset
         `verdict` over (scene, verdict_method, method_tolerance), and over (scene, verdict_method)
-        `right_from`: the largest tolerance, or number of steps, from which on all are right; NaN
-        where the last is not.
+        `right_from`: the largest tolerance, or smallest number of steps, from which on all are
+        right; NaN if the strictest is not.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is not of its kind or out of range.
     """
-    tolerances = check_increasing(
-        "tolerances", [check_number("tolerance", value, least=1e-14) for value in tolerances]
-    )
-    steps = [check_count("steps", value, most=10**7) for value in steps]
-    check_increasing("steps", steps)
-    if len(steps) != len(tolerances):
-        raise ValueError(f"steps: must be as many as tolerances, {len(tolerances)}; {steps} given")
-    steps = np.array(steps[::-1])
-    shape = (len(scenes), len(METHODS), len(tolerances))
+    tolerances, steps = check_resolutions(tolerances, steps, 1e-14, 10**7)
+    shape = (len(scenes), len(LABELS), len(tolerances))
     found = np.full(shape, flag("verdict", "not_run"))
-    resolution = np.full(shape[:2], np.nan)
+    limits = np.full(shape[:2], np.nan)
     for i, scene in enumerate(scenes.values()):
-        for m, method in enumerate(METHODS):
-            resolutions = [int(n) for n in steps] if method in FIXED else tolerances
-            every = scene.scipy_every if method in SCIPY else 1
-            if every == 0:
-                continue
-            run = np.arange(0, len(tolerances), every)
-            for j in run:
-                name = judge(_strobes(method, scene, resolutions[j]), scene)
-                found[i, m, j] = flag("verdict", name)
-            loosest_first = run[::-1]
-            k = right_from(found[i, m, loosest_first] == flag("verdict", "right"))
-            if k < len(run):
-                resolution[i, m] = resolutions[loosest_first[k]]
+        for m, label in enumerate(LABELS):
+            found[i, m], limits[i, m] = _by_resolution(label, scene, tolerances, steps)
     data = {
         "verdict": found,
-        "right_from": resolution,
-        "verdict_steps": steps,
+        "right_from": limits,
+        "verdict_steps": np.array(steps),
         "scene_multiplier": np.array([scene.multiplier for scene in scenes.values()]),
         "scene_period": np.array([scene.period for scene in scenes.values()]),
         "scene_periods": np.array([scene.periods for scene in scenes.values()]),
@@ -256,7 +216,7 @@ def verdicts(scenes, tolerances, steps):
     }
     coordinates = {
         "scene": list(scenes),
-        "verdict_method": list(METHODS),
+        "verdict_method": list(LABELS),
         "method_tolerance": tolerances,
     }
     return dataset(data, coordinates, {}, "Verdicts of each method by tolerance")

@@ -1,10 +1,10 @@
 """Contacts that integrators miss near grazing, counted over random passages.
 
-A passage is a free flight whose largest |Z2| is known. With the wall a depth nearer, a contact
-begins for certain; with it as much further away, none does. A method that looks at the gap where
-its steps end notices the contact if a step ends beyond the wall: SciPy's events and integration
-through the kink do so alike. What it does until then does not depend on the wall, so that one run
-serves all depths.
+A passage is a free flight whose largest |Z2| is known. If the wall is nearer than that by some
+depth, a contact begins; if it is as much further away, none does. Integrators other than the
+Taylor series find the contact if a step ends beyond the wall, whether they integrate through the
+kink or have events as SciPy's. Their steps up to there do not depend on the wall, so one run gives
+the outcome at all depths.
 """
 
 import math
@@ -13,65 +13,37 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset
 from impact_damper.motions.records import first_collisions, trace
-from impact_damper.rivals import fixed_step, merson, scipy_methods
+from impact_damper.rivals.methods import COMPARED, METHODS, integrators
 from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
+from impact_damper.rivals.runs import check_resolutions
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 from impact_damper.system.parameters import describe, pack
 
-METHODS = ("taylor", "runge_kutta_4", "merson", *scipy_methods.METHODS)
+LABELS = COMPARED["missed_contacts"]
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
-MOST_ENDS = 10**5
+MOST_STEPS = 10**5
 
 
-def _ends(method, p, state, end, resolution):
-    """Times and states at the ends of a method's steps in flight over [0, end], the start first.
+def _counts(integrator, p, passages, depths, resolution):
+    """Return what an integrator makes of passages, at each depth.
 
-    None if the run fails, or takes more than `MOST_ENDS` steps.
+    Returns
+    -------
+    touching : array of int, shape (depth, outcome)
+        Outcomes with the wall nearer.
+    spurious : array of int, shape (depth,)
+        Contacts reported with the wall further away.
+    error, steps : float
+        Median error of the largest |Z2| and mean number of steps, NaN if all runs failed.
     """
-    first = np.array([[0.0, *state]])
-    if method == "runge_kutta_4":
-        rows = np.empty((resolution, 5))
-        fixed_step.fixed_ends(fixed_step.RUNGE_KUTTA_4, p, state, 0.0, end / resolution, rows)
-        if not np.abs(rows[:, 1:]).max() < fixed_step.BEYOND:
-            return None
-        return np.concatenate([first, rows])
-    rows = np.empty((MOST_ENDS, 5))
-    start = 1e-3 * end
-    _, _, steps, _, _, _ = merson.advance_merson(
-        p, state.copy(), 0, 0.0, end, start, resolution, False, rows
-    )
-    if not 0 <= steps <= MOST_ENDS:
-        return None
-    return np.concatenate([first, rows[:steps]])
-
-
-def _own_largest(method, p, passage, end, resolution):
-    """A method's |Z2| at the ends of its steps, and at the time of the true extremum, or None."""
-    if method in scipy_methods.METHODS:
-        states, interpolant, success = scipy_methods.flight_steps(
-            method, p, passage.state, 0.0, end, resolution
-        )
-        return (np.abs(states[:, 2]), abs(interpolant(passage.time)[2])) if success else None
-    rows = _ends(method, p, passage.state, end, resolution)
-    if rows is None:
-        return None
-    last = rows[rows[:, 0] <= passage.time][-1]
-    part = np.empty((1, 5))
-    number = fixed_step.RUNGE_KUTTA_4 if method == "runge_kutta_4" else fixed_step.MERSON
-    fixed_step.fixed_ends(number, p, last[1:].copy(), last[0], passage.time - last[0], part)
-    return np.abs(rows[:, 3]), abs(part[0, 3])
-
-
-def _rival_counts(method, p, passages, depths, resolution):
-    """Counts (depth, outcome) of the wall touched, (depth,) of it not, error and mean steps."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
     steps, errors = 0, []
     for passage in passages:
-        run = _own_largest(method, p, passage, end, resolution)
+        run = integrator.flight(p, passage.state, end, resolution, passage.time)
         if run is None:
             touching[:, 3] += 1
             continue
@@ -90,7 +62,10 @@ def _rival_counts(method, p, passages, depths, resolution):
 
 
 def _taylor_counts(p, passages, depths, tolerance):
-    """The same for the event-driven Taylor series, which is asked for its first contact."""
+    """Return `touching`, `spurious` and `error` of `_counts` for the event-driven Taylor series.
+
+    It runs with the wall at every depth until its first contact.
+    """
     states = np.array([passage.state for passage in passages])
     extrema = np.array([passage.extremum for passage in passages])
     own = np.array([_taylor_largest(p, passage, tolerance) for passage in passages])
@@ -107,7 +82,7 @@ def _taylor_counts(p, passages, depths, tolerance):
 
 
 def _taylor_seen(p, states, clearances, tolerance):
-    """Whether each motion comes to a contact within a forcing period."""
+    """Return whether each motion has a contact within a forcing period."""
     parameters = np.repeat(p[None], len(states), axis=0)
     parameters[:, CLEARANCE] = clearances
     periods = np.empty(len(states))
@@ -116,7 +91,7 @@ def _taylor_seen(p, states, clearances, tolerance):
 
 
 def _taylor_largest(p, passage, tolerance):
-    """|Z2| of the Taylor series, in the steps of free flight, at the time of the true extremum."""
+    """Return |Z2| of the Taylor series, without walls, at the time of the true extremum."""
     times = np.array([passage.time, 2 * math.pi / p[FREQUENCY]])
     states = np.empty((2, 4))
     trace(free_flight(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
@@ -147,27 +122,26 @@ def missed_contacts(
     radius : float
         Of the ball from which their states at T = 0 are drawn.
     depths : sequence of float
-        Increasing; by how much the wall is nearer than the largest |Z2|, or further away.
+        Increasing distances by which the wall is nearer than the largest |Z2|, or further away.
     tolerances : sequence of float
-        Increasing; relative and absolute, of methods with step control.
+        Increasing relative and absolute tolerances of methods with step control.
     steps : sequence of int
-        Increasing, as many as there are tolerances: steps a forcing period of the fixed-step
-        method, the fewest in the place of the largest tolerance.
+        Increasing, as many as there are tolerances: steps in a forcing period of fixed-step
+        methods, the fewest in the place of the largest tolerance.
     implicit_passages : int
-        The first passages, which the implicit Radau method is run over alone, for it is slow.
+        Number of passages, the first ones, for implicit methods, which are slow.
     seed : int
 
     Returns
     -------
     xarray.Dataset
-        `passage_count` over (integrator, method_tolerance, depth, contact_outcome): contacts found;
-        unseen, where the method's own motion passes the wall between two steps; and not reached,
-        where the error of its motion exceeds the depth; and failed, where the run did not come to
-        its end. `spurious_count`: contacts reported where there is none. `motion_error`: the
-        median of the error of the largest |Z2|; this and `mean_steps` are over the passages that
-        did not fail, NaN if all did. `expected_unseen`, for fixed steps, of steps h that
-        fall at random on a time beyond the wall of 2 sqrt(2 depth/|Z2''|): the mean of
-        max(0, 1 - that time/h).
+        `passage_count` over (integrator, method_tolerance, depth, contact_outcome). Outcomes:
+        found; unseen (the method's own motion passes the wall between two ends of steps); not
+        reached (the error of its motion exceeds the depth); failed (the run did not reach its
+        end). `spurious_count`: contacts reported where there is none. `motion_error`: the median
+        error of the largest |Z2|; like `mean_steps` over the passages that did not fail, NaN if
+        all did. `expected_unseen`, for fixed steps h that end at random times: the mean of
+        max(0, 1 - b/h) with the time beyond the wall b = 2 sqrt(2 depth/|Z2''|).
 
     Raises
     ------
@@ -178,44 +152,36 @@ def missed_contacts(
     check_count("implicit_passages", implicit_passages, most=passages, why="of the passages")
     check_number("radius", radius, above=0.0, most=1e3)
     depths = check_increasing("depths", [check_number("depth", d, above=0.0) for d in depths])
-    tolerances = check_increasing(
-        "tolerances", [check_number("tolerance", value, least=1e-13) for value in tolerances]
-    )
-    steps = [check_count("steps", value, most=MOST_ENDS) for value in steps]
-    check_increasing("steps", steps)
-    if len(steps) != len(tolerances):
-        raise ValueError(f"steps: must be as many as tolerances, {len(tolerances)}; {steps} given")
+    tolerances, steps = check_resolutions(tolerances, steps, 1e-13, MOST_STEPS)
     p = pack(oscillator, None, frequency)
     drawn_passages, drawn = draw_passages(p, passages, radius, depths[-1], seed)
     free = free_flight(p)
-    shape = (len(METHODS), len(tolerances), len(depths))
-    counts = np.zeros((*shape, len(OUTCOMES)), int)
-    spurious = np.zeros(shape, int)
-    mean_steps, error = np.full(shape[:2], np.nan), np.empty(shape[:2])
-    totals = np.full(len(METHODS), passages)
-    totals[METHODS.index("Radau")] = implicit_passages
-    for m, method in enumerate(METHODS):
-        for i, tolerance in enumerate(tolerances):
-            given = drawn_passages[: totals[m]]
-            if method == "taylor":
-                found = _taylor_counts(p, given, depths, tolerance)
-                counts[m, i], spurious[m, i], error[m, i] = found
+    methods, found = integrators(), []
+    totals = [implicit_passages if METHODS[name].implicit else passages for name in LABELS]
+    for name, total in zip(LABELS, totals, strict=True):
+        resolutions = steps if METHODS[name].fixed else tolerances
+        for resolution in resolutions:
+            given = drawn_passages[:total], depths, resolution
+            if name == "taylor":
+                found.append((*_taylor_counts(p, *given), np.nan))
             else:
-                resolution = steps[-1 - i] if method == "runge_kutta_4" else tolerance
-                found = _rival_counts(method, free, given, depths, resolution)
-                counts[m, i], spurious[m, i], error[m, i], mean_steps[m, i] = found
+                found.append(_counts(methods[name], free, *given))
+    counts, spurious, error, mean_steps = (
+        np.reshape(each, (len(LABELS), len(tolerances), *np.shape(each[0])))
+        for each in zip(*found, strict=True)
+    )
     curvatures = np.array([passage.curvature for passage in drawn_passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
     period = 2 * math.pi / p[FREQUENCY]
-    expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in reversed(steps)]
+    expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps]
     data = {
         "passage_count": counts,
         "spurious_count": spurious,
         "mean_steps": mean_steps,
         "motion_error": error,
-        "passages": totals,
+        "passages": np.array(totals),
         "expected_unseen": np.array(expected),
-        "fixed_steps": np.array(steps[::-1]),
+        "fixed_steps": np.array(steps),
         "passages_drawn": drawn,
         "extremum_time": np.array([passage.time for passage in drawn_passages]),
         "extremum": np.array([passage.extremum for passage in drawn_passages]),
@@ -230,7 +196,7 @@ def missed_contacts(
         "reference_tolerance": TOLERANCE,
     }
     coordinates = {
-        "integrator": list(METHODS),
+        "integrator": list(LABELS),
         "method_tolerance": tolerances,
         "depth": depths,
         "contact_outcome": list(OUTCOMES),

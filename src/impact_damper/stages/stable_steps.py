@@ -1,7 +1,7 @@
-"""The largest steps with which fixed-step methods keep the quiet motion, against the stiffness r1.
+"""The largest steps with which fixed-step methods keep the quiet motion, over the stiffness r1.
 
-Every run starts on the exact quiet orbit and goes through the kinks with equal steps, a whole
-number of them in a forcing period. The linear stability of a method bounds h omega_c, where
+Every run starts on the exact quiet orbit and integrates through the kinks with equal steps, a whole
+number of them in a forcing period. The linear stability of a method limits h omega_c, where
 omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an undamped contact.
 """
 
@@ -14,20 +14,21 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.ensemble import Settling
-from impact_damper.rivals.fixed_step import METHODS, STABILITY_LIMIT, run_fixed
+from impact_damper.rivals.methods import COMPARED, integrators
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 from impact_damper.system.parameters import check_damper, describe, pack
 from impact_damper.theory.free_oscillator import free_solutions
 
+LABELS = COMPARED["stable_steps"]
 ACCURACIES = (0.01, 0.1)
-# Following in r1: steps by this factor, and how far an orbit may move in one.
+# Following in r1: factor of r1 in one step, and how far an orbit may move in one.
 FACTOR = 10.0**0.0625
 REACH = 0.2
-# Steps tested must hold this often in a row, down to the smallest, for the largest to count.
+# A stable step is reported only if this many tested steps, down to the smallest, hold.
 CONFIRMED = 4
-# The slope in r1 is fitted where contacts are short against the forcing period.
+# The slope in r1 is fitted from here on, where contacts are short against the forcing period.
 STIFF = 1e3
 
 
@@ -51,9 +52,9 @@ class Orbit(NamedTuple):
 
 
 def quiet_state(p):
-    """State at W T = pi/2 of the quiet motion, or None if the motion from near it is another.
+    """Return the state at W T = pi/2 of the quiet motion, or None if none is reached.
 
-    It is settled from rest with the loose mass in straight flight from wall to wall.
+    The start has the primary mass at rest and the loose mass in straight flight between the walls.
     """
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
     record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]
@@ -100,7 +101,7 @@ def quiet_orbits(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _verdict(largest, exact, bound):
-    """Deviation of the largest |Z1| of any period from the exact one, and what it amounts to."""
+    """Return the largest deviation of the largest |Z1| of a period, and the name of a verdict."""
     if not np.isfinite(largest).all():
         return np.inf, "diverged"
     deviation = np.abs(largest / exact - 1).max()
@@ -113,7 +114,7 @@ def _verdict(largest, exact, bound):
 
 
 def _largest_step(held, tested, steps):
-    """The largest step from which on all smaller ones hold, NaN unless CONFIRMED of them do."""
+    """Return the largest step from which on all smaller ones hold, NaN if fewer than CONFIRMED."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -121,7 +122,10 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Slope of log(1/step) over log r1 and its standard error, NaN with fewer than three points."""
+    """Return the slope of log(1/step) over log r1 and its standard error.
+
+    NaN with fewer than three points.
+    """
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -132,13 +136,13 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """How fixed-step methods keep the quiet motion, over stiffness and step.
+    """Return how fixed-step methods keep the quiet motion, over stiffness and step.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
-        From whose quiet motion the exact orbits at other stiffnesses are followed.
+        The exact orbits at other stiffnesses are followed from the quiet motion with this damper.
     frequency : float
         W.
     stiffnesses : sequence of float
@@ -146,21 +150,21 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     scaled_steps : sequence of float
         Increasing values of h omega_c; the number of steps in a forcing period is rounded up.
     most_steps : int
-        Most steps a forcing period: cells that would take more are not run.
+        Cells that take more steps than this in a forcing period are not run.
     periods : int
         Forcing periods of a run.
 
     Returns
     -------
     xarray.Dataset
-        Over (fixed_method, contact_stiffness, scaled_step) the `step_verdict`, and the
-        `step_deviation`, the largest relative deviation in any period of max |Z1| from the exact
-        one, NaN where none was run. A run has escaped if |Z1| exceeds half the largest free
-        amplitude of harmonic balance at W. `stable_step` over (fixed_method, contact_stiffness,
-        accuracy): h of the largest step from which on all smaller ones hold, if these are
-        CONFIRMED or more; `largest_holding_step`: of the largest that holds at all, with others
-        below it that do not. `step_slope` and its error: of log(1/h) over log r1 from r1 = 1000
-        on.
+        Over (fixed_method, contact_stiffness, scaled_step): `step_verdict`, and `step_deviation`,
+        the largest relative deviation of max |Z1| in a period from the exact one, NaN if the cell
+        was not run. A run has escaped if |Z1| exceeds half the largest free amplitude of harmonic
+        balance at W. Over (fixed_method, contact_stiffness, accuracy): `stable_step`, the largest
+        step h such that it and all smaller ones keep the accuracy, if these are at least
+        CONFIRMED; `largest_holding_step`, the largest h that keeps the accuracy, whether or not
+        all smaller ones do. `step_slope` and its error: slope of log(1/h) over log r1 for
+        r1 >= 1000.
 
     Raises
     ------
@@ -179,58 +183,28 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
         "scaled_steps", [check_number("scaled_step", h, above=0.0) for h in scaled_steps]
     )
     scaled = scaled[::-1]
-    bound = 0.5 * np.max(np.abs(free_solutions(oscillator, frequency).amplitude))
-    found = quiet_orbits(oscillator, damper, frequency, stiffnesses)
-    shape = (len(METHODS), len(stiffnesses), len(scaled))
-    verdicts = np.full(shape, flag("step_verdict", "not_run"))
-    deviations = np.full(shape, np.nan)
+    orbits = quiet_orbits(oscillator, damper, frequency, stiffnesses)
     contact = np.sqrt(stiffnesses * (1 + 1 / damper.mass_ratio))
     period = 2 * math.pi / frequency
     counts = np.ceil(period * contact[:, None] / scaled).astype(int)
-    strobes, largest = np.empty((periods, 4)), np.empty(periods)
-    for i, orbit in enumerate(found):
-        if orbit is None:
-            verdicts[:, i] = flag("step_verdict", "no_orbit")
-            continue
-        begin = strobe_map.strobe_time(orbit.parameters)
-        for m in range(len(METHODS)):
-            for j, steps in enumerate(counts[i]):
-                if steps > most_steps:
-                    continue
-                run_fixed(m, orbit.parameters, orbit.state, begin, steps, strobes, largest)
-                deviations[m, i, j], name = _verdict(largest, orbit.displacement, bound)
-                verdicts[m, i, j] = flag("step_verdict", name)
-    sizes, tested = period / counts, counts <= most_steps
-    held = np.stack([deviations <= accuracy for accuracy in ACCURACIES], axis=-1)
-    stable = np.array(
-        [
-            [
-                [_largest_step(each, tested[i], sizes[i]) for each in held[m, i].T]
-                for i in range(len(stiffnesses))
-            ]
-            for m in range(len(METHODS))
-        ]
-    )
-    holding = np.where(held, sizes[:, :, None], -np.inf).max(axis=2)
-    slopes = np.array([[_slope(stiffnesses, row) for row in each.T] for each in stable])
-    limits = np.array([STABILITY_LIMIT[name] for name in METHODS])
+    tested = counts <= most_steps
+    bound = 0.5 * np.max(np.abs(free_solutions(oscillator, frequency).amplitude))
+    methods = [integrators()[name] for name in LABELS]
+    verdicts, deviations = _cells(methods, orbits, counts, tested, bound, periods)
     data = {
         "step_verdict": verdicts,
         "step_deviation": deviations,
         "steps_per_period": counts,
-        "stable_step": stable,
-        "largest_holding_step": np.where(np.isfinite(holding), holding, np.nan),
-        "step_slope": slopes[..., 0],
-        "step_slope_error": slopes[..., 1],
-        "linear_limit": limits,
+        "linear_limit": np.array([method.stability_limit for method in methods]),
         "contact_frequency": contact,
-        "reference_displacement": _of(found, "displacement"),
-        "orbit_multiplier": _of(found, "multiplier"),
+        "reference_displacement": _of(orbits, "displacement"),
+        "orbit_multiplier": _of(orbits, "multiplier"),
         "free_bound": bound,
     }
+    data |= _step_data(deviations, tested, period / counts, stiffnesses)
     made = describe(oscillator, damper) | {"frequency": frequency, "periods": periods}
     coordinates = {
-        "fixed_method": list(METHODS),
+        "fixed_method": list(LABELS),
         "contact_stiffness": stiffnesses,
         "scaled_step": scaled,
         "accuracy": list(ACCURACIES),
@@ -238,6 +212,46 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     return dataset(data, coordinates, made, "Largest steps that keep the quiet motion")
 
 
+def _cells(methods, orbits, counts, tested, bound, periods):
+    """Return the verdict and the deviation of each method, orbit and number of steps."""
+    shape = (len(methods), *counts.shape)
+    verdicts = np.full(shape, flag("step_verdict", "not_run"))
+    deviations = np.full(shape, np.nan)
+    for i, orbit in enumerate(orbits):
+        if orbit is None:
+            verdicts[:, i] = flag("step_verdict", "no_orbit")
+            continue
+        given = orbit.parameters, orbit.state, strobe_map.strobe_time(orbit.parameters), periods
+        for m, method in enumerate(methods):
+            for j in np.flatnonzero(tested[i]):
+                largest = method.largest_displacements(*given, counts[i, j])
+                deviations[m, i, j], name = _verdict(largest, orbit.displacement, bound)
+                verdicts[m, i, j] = flag("step_verdict", name)
+    return verdicts, deviations
+
+
+def _step_data(deviations, tested, sizes, stiffnesses):
+    """Return the largest steps that hold, by accuracy, and their slope over the stiffness."""
+    held = np.stack([deviations <= accuracy for accuracy in ACCURACIES], axis=-1)
+    stable = np.array(
+        [
+            [
+                [_largest_step(each, tested[i], sizes[i]) for each in of_method[i].T]
+                for i in range(len(stiffnesses))
+            ]
+            for of_method in held
+        ]
+    )
+    holding = np.where(held, sizes[:, :, None], -np.inf).max(axis=2)
+    slopes = np.array([[_slope(stiffnesses, row) for row in each.T] for each in stable])
+    return {
+        "stable_step": stable,
+        "largest_holding_step": np.where(np.isfinite(holding), holding, np.nan),
+        "step_slope": slopes[..., 0],
+        "step_slope_error": slopes[..., 1],
+    }
+
+
 def _of(found, name):
-    """An attribute of each orbit, NaN where there is none."""
+    """Return an attribute of each orbit, NaN where there is no orbit."""
     return np.array([np.nan if orbit is None else getattr(orbit, name) for orbit in found])

@@ -7,21 +7,22 @@ Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)).
 import math
 from dataclasses import dataclass, fields
 
+import numpy as np
+
 from impact_damper.system import packed
 from impact_damper.system.bounds import (
     CLEARANCE_RANGE,
     DAMPING_RANGE,
-    FREQUENCY_RANGE,
     LINEAR_FREQUENCY_RANGE,
     MASS_RATIO_RANGE,
     MOST_STIFF,
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
-    check_number,
     check_parameters,
     parameter,
     shown,
 )
+from impact_damper.system.checks import check_frequency
 
 
 def check_oscillator(oscillator):
@@ -105,7 +106,7 @@ class Damper:
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
-def pack(oscillator, damper, frequency):
+def pack(oscillator, damper, frequency) -> np.ndarray:
     """Return the parameters as the array that kernels read; `damper=None` for no damper.
 
     Returns
@@ -121,11 +122,8 @@ def pack(oscillator, damper, frequency):
     ValueError
         If the frequency is out of range, or the contact too fast for it.
     """
-    # Here alone, since Snakemake imports this module at every dry run.
-    import numpy as np
-
     p = np.zeros(packed.COUNT)
-    p[packed.FREQUENCY] = frequency = check_number("frequency", frequency, **FREQUENCY_RANGE)
+    p[packed.FREQUENCY] = frequency = check_frequency(frequency)
     check_oscillator(oscillator)
     p[packed.DAMPING] = oscillator.damping
     p[packed.STIFFNESS] = oscillator.linear_frequency**2

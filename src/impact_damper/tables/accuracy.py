@@ -1,15 +1,15 @@
-"""Scenes by model: error, work and the cheapest that is good enough; and what a user reads off."""
+"""Methods and models on each scene with error, work and the cheapest; and errors of readings."""
 
 import numpy as np
 import pandas as pd
 
 from impact_damper.claims import extract
-from impact_damper.data.datasets import parameters_of
-from impact_damper.rivals.cheapest import METHODS, choice
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.rivals.methods import COMPARED, ORBIT_MODELS
 from impact_damper.tables import clearance, responses
 
-ORBITS = ("rigid", "rigid_mended", "rigid_balance", "full_balance", "many_harmonics", "shooting")
-INTEGRATORS = tuple(name for name in METHODS if name not in ORBITS)
+INTEGRATORS = COMPARED["accuracy"]
+LABELS = INTEGRATORS + ORBIT_MODELS
 WORDS = {
     "amplitude": "max |Z1| to {:g} of it",
     "state": "state to {:g}",
@@ -22,20 +22,20 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Each method on each scene, at the setting with the least work that meets the accuracy.
+    """Return each method on each scene, at the setting with the least work that meets the accuracy.
 
-    Where none does, the setting with the least error. The choice is the one with the least work
-    of all, and the cheapest that runs from any state where it is a model of orbits. Series of
-    further orders stand beside it: the package runs those it is compiled for.
+    Without such a setting, the one with the least error. The column `choice` marks the method with
+    the least work; if that is a model of orbits, also the integrator with the least work. Taylor
+    series of further orders are listed, but not chosen.
     """
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         made = parameters_of(data)
         asked = WORDS[made["accuracy"]["quantity"]].format(made["accuracy"]["within"])
-        best, integrator = choice(data), choice(data, INTEGRATORS)
-        others = sorted(set(data["method"].values) - set(METHODS))
-        for method in [*METHODS, *others]:
-            k = choice(data, (method,))
+        best, integrator = cheapest(data, LABELS), cheapest(data, INTEGRATORS)
+        others = sorted(set(data["method"].values) - set(LABELS))
+        for method in [*LABELS, *others]:
+            k = cheapest(data, (method,))
             if k is None:
                 k = _most_accurate(data, method)
             if k is None:
@@ -60,8 +60,27 @@ def models(datasets) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def cheapest(data, labels):
+    """Return the number of the run with the least work that meets the accuracy, None if none does.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of `stages.accuracy.error_against_work`.
+    labels : sequence of str
+        Methods to choose from.
+    """
+    meets = data["meets_accuracy"].values == flag("meets_accuracy", "yes")
+    meets &= np.isin(data["method"].values, labels)
+    work = np.where(meets, data["operations"].values, np.inf)
+    return int(np.argmin(work)) if meets.any() else None
+
+
 def _most_accurate(data, method):
-    """Number of the run of a method with the least error, the first if none has one."""
+    """Return the number of the run of a method with the least error.
+
+    The first run if no error is known, None if the method was not run.
+    """
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None
@@ -92,9 +111,9 @@ def _averages(data, of):
 
 
 def readings(datasets) -> pd.DataFrame:
-    """Optimum clearances and edges of suppression bands by models, against the motions that exist.
+    """Return optimum clearances and edges of suppression bands, by models and by the true motions.
 
-    An edge by simulation lies between two frequencies; no error is given within them.
+    Simulation brackets an edge by two frequencies; the error is the distance from that interval.
     """
     rows = []
     for sweep in clearance.optimum(datasets).to_dict("records"):

@@ -1,4 +1,4 @@
-"""Tables of where integrators fail: contacts missed, stable steps, verdicts."""
+"""Tables of the failures of integrators: contacts missed, stable steps, verdicts."""
 
 import numpy as np
 import pandas as pd
@@ -6,10 +6,11 @@ import pandas as pd
 from impact_damper.claims import extract
 from impact_damper.data.datasets import flag
 from impact_damper.data.shares import missed_share
+from impact_damper.rivals.methods import METHODS
 
 
 def grazing(datasets) -> pd.DataFrame:
-    """Contacts that each method finds and misses near grazing, by tolerance, over all depths."""
+    """Return the contacts that each method finds and misses near grazing, summed over depths."""
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = data.passages * data.sizes["depth"]
@@ -19,7 +20,7 @@ def grazing(datasets) -> pd.DataFrame:
                 counts = of.passage_count.sum("depth")
                 missed = missed_share(of)
                 deep = data.depth.values[missed.values >= 0.5]
-                fixed = method == "runge_kutta_4"
+                fixed = METHODS[method].fixed
                 rows.append(
                     {
                         "data": name,
@@ -41,7 +42,7 @@ def grazing(datasets) -> pd.DataFrame:
 
 
 def steps(datasets) -> pd.DataFrame:
-    """Largest stable steps of fixed-step methods against the stiffness."""
+    """Return the largest stable steps of fixed-step methods by stiffness."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         for method in data.fixed_method.values:
@@ -74,10 +75,10 @@ def steps(datasets) -> pd.DataFrame:
 
 
 def verdicts(datasets) -> pd.DataFrame:
-    """The loosest tolerance, or fewest steps, from which on each method's verdict is right.
+    """Return the loosest tolerance, or fewest steps, from which on each method's verdict is right.
 
-    In words where there is none: the method was not run on the scene, was never right, or was
-    right somewhere but not at the strictest tolerance.
+    Where there is none, words: the method was not run on the scene, was never right, or was right,
+    but not at the strictest tolerance.
     """
     rows = []
     for data in datasets.get("verdicts", {}).values():
@@ -102,7 +103,7 @@ def verdicts(datasets) -> pd.DataFrame:
 
 
 def _right_from(data):
-    """Where a method's verdicts on a scene begin to be right, or why there is no such place."""
+    """Return an entry of `verdicts` for one method on one scene."""
     if np.isfinite(data.right_from):
         return float(data.right_from)
     if (data.verdict == flag("verdict", "not_run")).all():

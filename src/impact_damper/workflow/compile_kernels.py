@@ -9,8 +9,9 @@ from impact_damper.motions.ensemble import Settling
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import simulate
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.rivals import fixed_step, merson, runs
-from impact_damper.rivals.passages import draw_passages
+from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
+from impact_damper.rivals.orbit_models import rigid
+from impact_damper.rivals.passages import draw_passages, free_flight
 from impact_damper.rivals.taylor_runs import ORDERS, taylor
 from impact_damper.stages.response import collisions, frequency_response
 from impact_damper.system.packed import CLEARANCE
@@ -56,21 +57,30 @@ def warm_up_settling() -> None:
 
 
 def warm_up_rivals(orders=()) -> None:
-    """The same for the methods that the package is compared with, and series of further orders.
+    """Compile the kernels of all integrators that are compared, by a short run for each stage.
 
-    Code that is loaded from the cache can differ in the last digit from code that was compiled in
-    the same process, which shows where a method goes through a jump: all jobs are to load it.
+    `orders` are further pairs of orders of the Taylor series. Kernels loaded from the cache can
+    differ in the last digit from those compiled in the same process, which shows where a method
+    integrates through a jump. So this compiles them all before the jobs load them.
     """
     p = pack(OSCILLATOR, DAMPER, 2.0)
     start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
     for each in (ORDERS, *map(tuple, orders)):
         taylor(p, start, begin, 1, 1e-3, each)
-    runs.rigid(p, 0.75, start, begin, 1, 1e-3)
-    for locate in (False, True):
-        runs.runge_kutta_merson(p, start, begin, 1, 1e-3, locate)
-        runs.scipy_run("DOP853", p, start, begin, 1, 1e-3, locate, 1000)
-    strobes, largest = np.empty((1, 4)), np.empty(1)
-    merson.run_merson(p, start, begin, 1e-3, False, strobes, largest)
-    fixed_step.run_fixed(fixed_step.HEUN, p, start, begin, 100, strobes, largest)
-    fixed_step.fixed_ends(fixed_step.HEUN, p, start, begin, 0.01, np.empty((1, 5)))
+    rigid(p, 0.75, start, begin, 1, 1e-3)
+    rivals = integrators()
+    for label in COMPARED["accuracy"]:
+        name, locate = name_and_mode(label)
+        rivals[name].run(p, start, begin, 1, 1e-3, locate, 1000)
+    for label in COMPARED["method_verdicts"]:
+        name, locate = name_and_mode(label)
+        rivals[name].strobes(p, start, begin, 1, _resolution(name), locate)
+    for name in COMPARED["missed_contacts"][1:]:
+        rivals[name].flight(free_flight(p), start, 1.0, _resolution(name), 0.5)
+    for name in COMPARED["stable_steps"]:
+        rivals[name].largest_displacements(p, start, begin, 1, 100)
     draw_passages(p, 1, 2.0, 0.1, 1995)
+
+
+def _resolution(name):
+    return 100 if METHODS[name].fixed else 1e-3

@@ -43,15 +43,16 @@ ROOT = Path(__file__).resolve().parents[3]
 FILE = ROOT / "workflow" / "resources" / "references.json"
 
 
-def scenes():
-    """The scenes of the configuration that can be followed to their end, by name."""
+def configured_scenes():
+    """Yield name, packed parameters, state and periods of each scene that is not chaotic."""
     config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
     for name, scene in config["scenes"].items():
         if scene["motion"] == "chaotic":
             continue
         damper = None
         if "mass_ratio" in scene:
-            damper = Damper(scene["mass_ratio"], scene["clearance"], scene["restitution"])
+            given = (scene[key] for key in ("mass_ratio", "clearance", "restitution"))
+            damper = Damper(*given, config["contact_stiffness"])
         free = config["oscillators"][scene["oscillator"]]
         oscillator = Oscillator(free["damping"], free["linear_frequency"])
         p = pack(oscillator, damper, scene["frequency"])
@@ -106,5 +107,5 @@ def as_text(references):
 
 
 if __name__ == "__main__":
-    found = {name: reference(*scene) for name, *scene in scenes()}
+    found = {name: reference(*scene) for name, *scene in configured_scenes()}
     print(as_text(found), end="")

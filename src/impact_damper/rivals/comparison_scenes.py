@@ -1,0 +1,92 @@
+"""Motions on which methods are compared, and their references."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.rivals.averages import STATISTICS
+from impact_damper.system.packed import FREQUENCY
+from impact_damper.system.parameters import pack
+
+# Quantities of which an accuracy is asked: of a motion that can be followed, and of a chaotic one.
+ERRORS = ("amplitude", "state", "contact_time", "contacts")
+AVERAGES = STATISTICS
+
+
+class ComparisonScene(NamedTuple):
+    """A motion on which methods are compared.
+
+    Attributes
+    ----------
+    name : str
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+    state : sequence of float
+        Z1, Z1', Z2, Z2' at W T = pi/2.
+    periods : int
+        Forcing periods of a run.
+    motion : str
+        "steady" (an orbit of the forcing's period, which models of orbits compute as well),
+        "transient" or "chaotic".
+    accuracy : dict
+        `quantity` of `ERRORS`, or of `AVERAGES` if the motion is chaotic, and the largest error
+        `within` which a user wants it.
+    tolerance : float or None
+        Tolerance with which stages run motions like this one, if any do.
+    """
+
+    name: str
+    oscillator: object
+    damper: object
+    frequency: float
+    state: object
+    periods: int
+    motion: str
+    accuracy: dict
+    tolerance: object = None
+
+    @property
+    def p(self):
+        """Packed parameters."""
+        return pack(self.oscillator, self.damper, self.frequency)
+
+
+def check_accuracy(motion, accuracy):
+    """Raise ValueError if the quantity of an accuracy does not belong to a kind of motion."""
+    allowed = AVERAGES if motion == "chaotic" else ERRORS
+    if accuracy["quantity"] not in allowed:
+        raise ValueError(
+            f"accuracy: quantity = {accuracy['quantity']!r}: must be one of {', '.join(allowed)} "
+            f"for a {motion} motion"
+        )
+
+
+class Reference(NamedTuple):
+    """The exact values of a run; attributes as of `runs.Run`."""
+
+    state: np.ndarray
+    contact_times: np.ndarray
+    displacement: float
+
+
+def reference_of(scene, stored):
+    """Return the reference of a scene from its entry in `workflow/resources/references.json`.
+
+    Raises
+    ------
+    ValueError
+        If the entry belongs to another scene.
+    """
+    p, begin = scene.p, strobe_time(scene.p)
+    end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
+    given = [value if value is not None else np.inf for value in stored["parameters"]]
+    same = np.array_equal(given, p) and stored["first"] == list(scene.state)
+    if not same or abs(stored["end"] - end) > 1e-9:
+        raise ValueError(
+            "reference: belongs to other parameters, another start or another number of periods "
+            "than the scene; it must be made anew (tests/references/extended/scenes.py)"
+        )
+    times = np.array([contact[1] for contact in stored["contacts"]])
+    return Reference(np.array(stored["state"]), times, stored["amplitude"])

@@ -1,0 +1,132 @@
+"""The integrators that are compared: what they are called, and which stage compares which.
+
+Figures, tables and the check of the configuration read this module, so its top imports no kernels;
+`integrators` does. To add an integrator, write it in a module of this room (a subclass of
+`runs.Integrator`), describe it in `METHODS`, make it in `integrators`, and name it in `COMPARED`.
+"""
+
+from typing import NamedTuple
+
+
+class Method(NamedTuple):
+    """An integrator as figures, tables and settings refer to it.
+
+    Attributes
+    ----------
+    title : str
+    colour : str
+        Of matplotlib's colour cycle, where the stage `accuracy` compares the integrator.
+    tolerances : str
+        Key, in the section `comparison` of the configuration, of the tolerances with which the
+        stage `accuracy` runs the integrator.
+    fixed : bool
+        Whether the stages set the number of steps in a forcing period in place of a tolerance.
+    slow : bool
+        Whether stages give up a run after a number of evaluations of the rate, and run fewer
+        tolerances and, of chaotic motions, fewer periods.
+    implicit : bool
+        Whether the stage `missed_contacts` runs only the first `implicit_passages` passages.
+    """
+
+    title: str
+    colour: str = ""
+    tolerances: str = ""
+    fixed: bool = False
+    slow: bool = False
+    implicit: bool = False
+
+
+METHODS = {
+    "taylor": Method("Taylor series", "C0", "taylor"),
+    "heun": Method("Heun", fixed=True),
+    "verlet": Method("velocity Verlet", fixed=True),
+    "runge_kutta_4": Method("Runge-Kutta 4", fixed=True),
+    "merson": Method("Merson", "C1", "merson"),
+    "RK45": Method("RK45", slow=True),
+    "DOP853": Method("DOP853", "C2", "scipy", slow=True),
+    "LSODA": Method("LSODA", "C3", "scipy", slow=True),
+    "Radau": Method("Radau", "C4", "scipy", slow=True, implicit=True),
+}
+
+# Labels of the datasets of each stage, in their order (see `name_and_mode`). All integrators in
+# `stable_steps` take fixed steps.
+COMPARED = {
+    "accuracy": (
+        "taylor",
+        "merson_kink",
+        "merson_located",
+        "DOP853_kink",
+        "DOP853_located",
+        "LSODA_kink",
+        "LSODA_located",
+        "Radau_kink",
+        "Radau_located",
+    ),
+    "missed_contacts": ("taylor", "runge_kutta_4", "merson", "RK45", "DOP853", "LSODA", "Radau"),
+    "stable_steps": ("heun", "verlet", "runge_kutta_4", "merson"),
+    "method_verdicts": (
+        "taylor",
+        "heun",
+        "verlet",
+        "runge_kutta_4",
+        "merson",
+        "merson_located",
+        "LSODA",
+        "DOP853_located",
+    ),
+}
+
+# Models of a steady motion, which the stage `accuracy` compares with the integrators.
+ORBIT_MODELS = (
+    "rigid",
+    "rigid_mended",
+    "rigid_balance",
+    "full_balance",
+    "many_harmonics",
+    "shooting",
+)
+
+# Keys of the section `comparison` of the configuration: of lists of tolerances, and of
+# `evaluations`, at which runs of slow integrators are given up.
+TOLERANCES = tuple(dict.fromkeys(each.tolerances for each in METHODS.values() if each.tolerances))
+LIMITED = tuple(name for name, each in METHODS.items() if each.tolerances and each.slow)
+
+
+def name_and_mode(label):
+    """Return the name in `METHODS` of a label, and whether contacts are located.
+
+    A label is a name, and "_located" after it if the integrator locates the beginnings and ends of
+    contacts. Otherwise it integrates through the kink of the force there, which "_kink" may say.
+    The Taylor series always locates contacts.
+    """
+    name = label.removesuffix("_located").removesuffix("_kink")
+    return name, label.endswith("_located") or name == "taylor"
+
+
+def title_with_mode(label):
+    """Return the title of a label with what is done at contacts: "Merson, located"."""
+    name, located = name_and_mode(label)
+    method = METHODS[name]
+    if method.fixed or name == "taylor":
+        return method.title
+    return f"{method.title}, {'located' if located else 'kink'}"
+
+
+def integrators():
+    """Return the integrators, instances of `runs.Integrator`, by their names in `METHODS`."""
+    from impact_damper.rivals.fixed_step import FixedStep
+    from impact_damper.rivals.merson import Merson
+    from impact_damper.rivals.scipy_methods import SciPy
+    from impact_damper.rivals.taylor_runs import Taylor
+
+    return {
+        "taylor": Taylor(),
+        "heun": FixedStep("heun"),
+        "verlet": FixedStep("verlet"),
+        "runge_kutta_4": FixedStep("runge_kutta_4"),
+        "merson": Merson(),
+        "RK45": SciPy("RK45"),
+        "DOP853": SciPy("DOP853"),
+        "LSODA": SciPy("LSODA"),
+        "Radau": SciPy("Radau"),
+    }
