@@ -12,8 +12,8 @@ from impact_damper.figures.style import curve, figure, legend, letter_panels, po
 from impact_damper.kernel.single import advance, side_of, workspace
 from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import random_states
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)

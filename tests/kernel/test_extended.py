@@ -9,7 +9,8 @@ from helpers.scenes import DESIGN, INELASTIC, PAPER, STARTS
 from references import extended
 from references.extended import scenes
 
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
 

@@ -12,7 +12,8 @@ from scipy.optimize import brentq
 from impact_damper.kernel.single import side_of
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.strobe_map import period_map
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 TOLERANCES = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12]
 DAMPERS = pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])

@@ -10,7 +10,8 @@ from numpy.testing import assert_allclose
 
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.strobe_map import period_map
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 WITH_LINEAR_SPRING = Oscillator(0.15, 1.2)
 

@@ -12,7 +12,8 @@ from numpy.testing import assert_allclose
 
 from impact_damper.kernel import recurrence
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 ANGLE = 0.7
 LANE = 5

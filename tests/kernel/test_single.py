@@ -17,7 +17,8 @@ from impact_damper.kernel import single
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
 from impact_damper.kernel.series import SERIES, SINGLE
 from impact_damper.motions.strobe_map import period_map
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 # Beyond this much the wall counts as passed: rounding of the polynomials below.
 HAIR = Fraction(1, 10**12)

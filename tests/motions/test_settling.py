@@ -10,7 +10,8 @@ from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
 from impact_damper.motions import ensemble, records, strobe_map
-from impact_damper.system.parameters import Damper, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper
 
 NONE = np.empty((0, 4))
 

@@ -18,7 +18,8 @@ from impact_damper.motions.simulate import (
     steady_orbit,
     tabulate,
 )
-from impact_damper.system.parameters import Damper, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper
 
 ON_ORBIT = (0.00572, 0.187394, 0.001944, -2.407912)
 

@@ -12,8 +12,8 @@ from impact_damper.motions import ensemble, strobe_map
 from impact_damper.motions.records import MOTION, trace
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.sweep import Catalogue, _end_event, sweep
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
-from impact_damper.system.parameters import Damper, pack
+from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.system.parameters import Damper
 
 FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 

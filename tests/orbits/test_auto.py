@@ -13,7 +13,8 @@ from references.auto import folds
 
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.system.parameters import Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Oscillator
 
 STORED = json.loads((Path(folds.__file__).parent / "folds.json").read_text())["points"]
 BRANCHES = {"response": (folds.RESPONSE, (0.6, 4.0)), "subharmonic": (folds.SUBHARMONIC, (1, 4))}

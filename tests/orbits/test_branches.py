@@ -15,7 +15,8 @@ from impact_damper.orbits.continuation import Problem
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.stages.branches import complete_branches, orbit_branch, periodic_orbit
 from impact_damper.stages.response import frequency_response
-from impact_damper.system.parameters import Damper, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper
 
 SETTLING = Settling(tolerance=1e-10, patience=300, limit=3000)
 

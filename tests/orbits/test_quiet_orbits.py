@@ -17,7 +17,8 @@ from impact_damper.orbits.quiet_orbits import (
     straight_flight_end,
 )
 from impact_damper.orbits.shooting import STROBE, shoot
-from impact_damper.system.parameters import Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Oscillator
 
 LEFT, RIGHT = 0, 1
 SETTLING = ensemble.Settling(patience=300, limit=3000)

@@ -9,7 +9,8 @@ from numpy.testing import assert_allclose
 
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import STROBE, TURN, find_orbit, shoot
-from impact_damper.system.parameters import Damper, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper
 
 
 @pytest.fixture(scope="module", params=list(STARTS))

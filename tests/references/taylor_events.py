@@ -1,6 +1,6 @@
 """Motions by heyoka.py with terminal events: the same equations, another program.
 
-State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `parameters.pack`.
+State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `packed.pack`.
 """
 
 import math

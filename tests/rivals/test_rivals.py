@@ -12,8 +12,8 @@ from impact_damper.motions import strobe_map
 from impact_damper.rivals import fixed_step, merson
 from impact_damper.rivals.methods import integrators
 from impact_damper.rivals.scipy_methods import SciPy
-from impact_damper.system.packed import CLEARANCE
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import CLEARANCE, pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 ORDERS = {"heun": 2, "verlet": 2, "runge_kutta_4": 4, "merson": 4}
 START = np.array([0.7, -0.3, 0.5, 0.2])

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from impact_damper.motions import records
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals import taylor_runs
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import pack
 
 PERIODS = 20
 START = np.array([0.9, -0.4, 0.3, 1.1])

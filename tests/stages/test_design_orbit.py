@@ -7,7 +7,8 @@ from numpy.testing import assert_allclose
 from impact_damper.data.datasets import flag
 from impact_damper.motions import ensemble
 from impact_damper.stages.design_orbit import design_orbit
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.theory.design_rule import peak_frequency
 
 LINEAR = Oscillator(0.215, 1.5)

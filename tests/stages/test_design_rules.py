@@ -17,7 +17,8 @@ from impact_damper.stages.design_rules import (
     first_harmonic,
 )
 from impact_damper.stages.optimum import clearance_sweep
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.tables.clearance import RULE_NAMES, SWEEPS
 from impact_damper.tables.clearance import design_rules as table_of
 

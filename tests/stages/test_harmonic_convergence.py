@@ -8,7 +8,8 @@ from scipy.special import ellipk
 from impact_damper.data.datasets import flag
 from impact_damper.figures.harmonic_convergence import draw_harmonics
 from impact_damper.stages import harmonic_convergence
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.tables.design import harmonic_convergence as table
 from impact_damper.theory import convergence
 

@@ -16,7 +16,7 @@ from impact_damper.rivals.methods import integrators
 from impact_damper.rivals.passages import draw_passages, free_flight
 from impact_damper.rivals.scipy_methods import UNLIMITED, derivative
 from impact_damper.stages import missed_contacts as missed
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import pack
 from impact_damper.tables.integrators import grazing
 
 PERIOD = math.pi

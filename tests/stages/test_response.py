@@ -12,7 +12,8 @@ from scipy import stats
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.motions.simulate import random_states
 from impact_damper.stages.response import collisions, frequency_response
-from impact_damper.system.parameters import Damper, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper
 
 FREQUENCIES = np.array([1.95, 2.0, 2.05])
 

@@ -8,7 +8,8 @@ from impact_damper.data.datasets import flag, load, save
 from impact_damper.motions.free_subharmonic import free_subharmonic, switched_on
 from impact_damper.motions.simulate import simulate, steady_motion
 from impact_damper.stages.subharmonic import SWITCHED_MOTIONS, _suppression, subharmonic_suppression
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 PAPER = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)

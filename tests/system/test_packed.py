@@ -7,7 +7,8 @@ import numpy as np
 
 import impact_damper
 from impact_damper.system import packed
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 SOURCES = sorted(Path(impact_damper.__file__).parent.rglob("*.py"))
 # `p[3]`, `parameters[:, 3]`, `orbit.p[0]`, `here.on[0]`, and the width, as in `shape (7,)`.

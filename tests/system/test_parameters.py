@@ -8,7 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from impact_damper.system.bounds import check_count, check_number
-from impact_damper.system.parameters import Damper, Oscillator, describe, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator, describe, pick
 
 
 @pytest.mark.parametrize(
@@ -91,3 +92,10 @@ def test_describe():
         "damping": 0.1, "linear_frequency": 0.0, "mass_ratio": 0.2, "clearance": 1.0,
         "restitution": 1.0, "contact_stiffness": 2000.0,
     }  # fmt: skip
+
+
+def test_pick_takes_all_fields_of_a_dataclass_and_nothing_else():
+    oscillator, damper = Oscillator(0.1, 0.5), Damper(0.12, 2.0, 0.8, 1500.0)
+    values = describe(oscillator, damper) | {"frequency": 2.0}
+    assert Oscillator(**pick(Oscillator, values)) == oscillator
+    assert Damper(**pick(Damper, values)) == damper

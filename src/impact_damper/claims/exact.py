@@ -5,7 +5,7 @@ import pandas as pd
 
 from impact_damper.claims import extract
 from impact_damper.claims.claim import Missing
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import flag, oscillator_of
 
 SYMMETRIC = 1e-6
 HALF = 0.5  # an orbit is high if it exceeds this share of the free resonance branch
@@ -14,11 +14,11 @@ ALONG = ("frequency", "size", "amplitude", "loose")
 
 def free_of(datasets, data):
     """Branches of the free oscillator that a damper of `data` is attached to, or raise Missing."""
-    wanted = [extract.parameter(data, name) for name in ("damping", "linear_frequency")]
+    wanted = oscillator_of(data)
     for free in datasets.get("free_branches", {}).values():
-        if [extract.parameter(free, name) for name in ("damping", "linear_frequency")] == wanted:
+        if oscillator_of(free) == wanted:
             return free
-    raise Missing(f"There is no dataset of the stage free_branches with h = {wanted[0]:g}")
+    raise Missing(f"There is no dataset of the stage free_branches with h = {wanted.damping:g}")
 
 
 def of_curve(datasets, name):

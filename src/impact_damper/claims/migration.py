@@ -4,7 +4,7 @@ import numpy as np
 
 from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import damper_of, flag, oscillator_of
 
 
 def lead(case, kind, free_motion):
@@ -46,11 +46,11 @@ def both_outcomes(case, kind):
 
 def scanned(datasets, case):
     """Releases at each frequency of the scans of a case's oscillator and damper, in order."""
-    names = ("damping", "linear_frequency", "mass_ratio", "clearance", "restitution")
+    wanted = oscillator_of(case), damper_of(case)
     found = [
         scan.isel(frequency=k)
         for scan in datasets.get("release_scan", {}).values()
-        if all(extract.parameter(scan, name) == extract.parameter(case, name) for name in names)
+        if (oscillator_of(scan), damper_of(scan)) == wanted
         for k in range(scan.sizes["frequency"])
     ]
     return sorted(found, key=lambda here: float(here.frequency))

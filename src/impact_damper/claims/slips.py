@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.claims import exact, extract
 from impact_damper.claims.claim import Claim, Missing, Number
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import flag, oscillator_of
 from impact_damper.system.parameters import Oscillator
 from impact_damper.theory.design_rule import peak_frequency
 
@@ -18,9 +18,7 @@ SHALLOW = 0.02
 
 def formula_peak(data):
     """Peak frequency of the oscillator of a dataset, W^2 = wl^2 + 3/(4 h^2 W^2)."""
-    return peak_frequency(
-        Oscillator(extract.parameter(data, "damping"), extract.parameter(data, "linear_frequency"))
-    )
+    return peak_frequency(oscillator_of(data))
 
 
 def penetration(datasets):
@@ -86,8 +84,8 @@ def peaks(datasets):
     """Numbers of S5: peak frequencies by the formula and by the orbits."""
     numbers = {}
     for free in datasets.get("free_branches", {}).values():
-        damping = extract.parameter(free, "damping")
-        if extract.parameter(free, "linear_frequency") == 0 and damping in PRINTED_PEAKS:
+        damping = oscillator_of(free).damping
+        if oscillator_of(free) == Oscillator(damping) and damping in PRINTED_PEAKS:
             name = f"{damping:g}"
             numbers[f"formula_{name}"] = formula_peak(free)
             numbers[f"end_{name}"] = exact.resonance_fold(free)[0]

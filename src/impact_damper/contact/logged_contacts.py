@@ -13,8 +13,7 @@ from impact_damper.data.datasets import flag, is_settled
 from impact_damper.kernel.equation import acceleration
 from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.simulate import random_states
-from impact_damper.system.packed import DASHPOT, FREQUENCY
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import DASHPOT, FREQUENCY, pack
 
 CLOSE, FAIR = 0.01, 0.05
 SIZES = ("smallest", "largest")

@@ -54,7 +54,7 @@ def rigid_map(p, restitution, y, tolerance):
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
-        Packed parameters (`parameters.pack`) with dashpot 0; the stiffness does not count.
+        Packed parameters (`packed.pack`) with dashpot 0; the stiffness does not count.
     restitution : float
         e.
     y : array, shape (4,)

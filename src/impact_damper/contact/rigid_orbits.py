@@ -15,8 +15,7 @@ from impact_damper.contact.contact_law import damping_ratio, natural_frequency
 from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rigid_map
 from impact_damper.data.datasets import flag
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE
-from impact_damper.system.packed import CLEARANCE, DASHPOT
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import CLEARANCE, DASHPOT, pack
 
 IMPACTS = 2
 ITERATIONS = 12

@@ -9,6 +9,7 @@ import xarray as xr
 
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.whole_files import DELETE, BrokenFileError, check_length, whole_netcdf
+from impact_damper.system.parameters import Damper, Oscillator, pick
 
 SOURCE = "impact-damper"
 
@@ -92,6 +93,20 @@ def is_settled(motions):
 def parameters_of(data) -> dict:
     """The parameters that made a dataset."""
     return json.loads(data.attrs["parameters"])
+
+
+def oscillator_of(data) -> Oscillator:
+    """Return the oscillator that a dataset was computed for."""
+    return Oscillator(**pick(Oscillator, parameters_of(data)))
+
+
+def damper_of(data, **others) -> Damper:
+    """Return the damper that a dataset was computed for.
+
+    `others` gives the fields that are not among the parameters of the dataset because they vary in
+    it, as the clearance does in a sweep.
+    """
+    return Damper(**pick(Damper, parameters_of(data)), **others)
 
 
 def save(data, path) -> None:

@@ -199,7 +199,7 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts):
     Parameters
     ----------
     parameters : array, shape (m, packed.COUNT)
-        Packed parameters (`parameters.pack`).
+        Packed parameters (`packed.pack`).
     states : array, shape (m, 4)
         Z1, Z1', Z2, Z2'; replaced.
     sides : array of int, shape (m,)

@@ -108,7 +108,7 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
-        Packed parameters (`parameters.pack`).
+        Packed parameters (`packed.pack`).
     y : array, shape (4,)
         Z1, Z1', Z2, Z2'; replaced.
     tangents : array, shape (m, 4)

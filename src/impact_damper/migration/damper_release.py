@@ -20,8 +20,7 @@ from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.sweep import Catalogue, record_at
 from impact_damper.system.bounds import FREQUENCY_RANGE
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.single_harmonic import impacting_solutions
 

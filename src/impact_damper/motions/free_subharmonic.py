@@ -9,8 +9,7 @@ from impact_damper.motions import records, strobe_map
 from impact_damper.motions.simulate import check_settling, random_states
 from impact_damper.motions.sweep import SAME, record_at, sweep
 from impact_damper.system import packed
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import FREQUENCY, pack
 
 SEARCHED = 81
 

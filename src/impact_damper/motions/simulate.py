@@ -6,8 +6,8 @@ from impact_damper.data.datasets import dataset, is_settled
 from impact_damper.motions import ensemble, records
 from impact_damper.system.bounds import check_count, check_number, shown
 from impact_damper.system.checks import check_numbers
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import describe, pack
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import describe
 
 # Below this share of the first harmonic of Z1 another one is rounding and has no phase.
 PHASELESS = 1e-9

@@ -6,8 +6,7 @@ import numpy as np
 
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals.averages import STATISTICS
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import FREQUENCY, pack
 
 # Quantities of which an accuracy is asked: of a motion that can be followed, and of a chaotic one.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")

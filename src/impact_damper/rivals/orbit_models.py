@@ -36,8 +36,7 @@ from impact_damper.rivals.taylor_runs import (
     steps_work,
 )
 from impact_damper.stages import harmonic_convergence
-from impact_damper.system.packed import CLEARANCE, DASHPOT, FREQUENCY
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import CLEARANCE, DASHPOT, FREQUENCY, pack
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, Solution, solve

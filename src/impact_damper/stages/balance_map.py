@@ -20,8 +20,8 @@ from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system import packed
 from impact_damper.system.bounds import check_number
 from impact_damper.system.checks import check_increasing
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import Damper, Oscillator, pick
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, balance_cells
 
@@ -158,8 +158,9 @@ def _rows(parameter, values, ratios, fixed):
     rows = []
     for value in values:
         given = fixed | {parameter: float(value)}
-        linear = given.pop("linear_frequency", 0.0)
-        oscillator = Oscillator(given.pop("damping"), linear)
+        own = pick(Oscillator, given)
+        oscillator = Oscillator(**own)
+        given = {name: number for name, number in given.items() if name not in own}
         if "clearance" not in given:
             given["clearance"] = optimum_clearance(oscillator, given["mass_ratio"])
         rows.append(_Row(oscillator, Damper(**given), ratios * peak_frequency(oscillator)))

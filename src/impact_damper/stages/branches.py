@@ -17,7 +17,8 @@ from impact_damper.orbits.shooting import STROBE, find_orbit
 from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown
 from impact_damper.system.checks import check_span
 from impact_damper.system.families import LINEAR, family_of
-from impact_damper.system.parameters import describe, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import describe
 
 # At a slower contact the 3/2-power term of the map at grazing is felt.
 SLOW = 0.01

@@ -16,7 +16,8 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.stages.branches import branches_dataset
 from impact_damper.system.families import family_of
-from impact_damper.system.parameters import check_damper, describe, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import check_damper, describe
 from impact_damper.theory.design_rule import peak_frequency
 
 HEAVY = 2.0

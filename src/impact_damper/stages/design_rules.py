@@ -14,8 +14,8 @@ from tqdm import tqdm
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions import records, strobe_map
 from impact_damper.system.checks import check_frequencies, check_increasing
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
-from impact_damper.system.parameters import Damper, describe, pack
+from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.system.parameters import Damper, describe
 from impact_damper.theory.optimum_clearance import FIRST_HARMONIC_RATIO
 from impact_damper.theory.straight_flight import (
     Flight,

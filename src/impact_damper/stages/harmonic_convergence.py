@@ -10,8 +10,8 @@ from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.bounds import check_count, shown
 from impact_damper.system.checks import check_counts, check_increasing
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import describe, pack
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import describe
 from impact_damper.theory import convergence, fourier, hill, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, solve

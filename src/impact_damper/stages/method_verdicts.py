@@ -15,8 +15,7 @@ from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_an
 from impact_damper.rivals.runs import check_resolutions
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_frequency
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import FREQUENCY, pack
 
 LABELS = COMPARED["method_verdicts"]
 EXACT = 1e-13

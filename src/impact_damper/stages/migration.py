@@ -25,7 +25,8 @@ from impact_damper.migration.damper_release import (
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import MOST_SEED, check_settling
 from impact_damper.system.bounds import check_count
-from impact_damper.system.parameters import check_damper, describe, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import check_damper, describe
 
 PAPER_CYCLES = 350
 

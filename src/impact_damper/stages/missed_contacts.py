@@ -18,8 +18,8 @@ from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
 from impact_damper.rivals.runs import check_resolutions
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_increasing
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
-from impact_damper.system.parameters import describe, pack
+from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.system.parameters import describe
 
 LABELS = COMPARED["missed_contacts"]
 OUTCOMES = ("found", "unseen", "not_reached", "failed")

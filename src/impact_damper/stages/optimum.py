@@ -22,8 +22,8 @@ from impact_damper.system.checks import (
     check_numbers,
     check_starts,
 )
-from impact_damper.system.packed import CLEARANCE
-from impact_damper.system.parameters import Damper, describe, pack
+from impact_damper.system.packed import CLEARANCE, pack
+from impact_damper.system.parameters import Damper, describe
 from impact_damper.theory.optimum_clearance import analytical_table, excess_table
 
 NEAR_MINIMUM = 1.1

@@ -8,8 +8,8 @@ from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling
 from impact_damper.motions.sweep import sweep
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_frequencies, check_starts
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import describe, pack
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import describe
 
 
 def frequency_response(

@@ -18,7 +18,8 @@ from impact_damper.motions.simulate import check_settling
 from impact_damper.orbits.grid_following import flood, march, point_of
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_frequencies, check_frequency, check_increasing
-from impact_damper.system.parameters import check_damper, describe, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import check_damper, describe
 
 THRESHOLDS = (0.01, 0.1)
 REACH = 0.1

@@ -17,8 +17,8 @@ from impact_damper.motions.ensemble import Settling
 from impact_damper.rivals.methods import COMPARED, integrators
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_increasing
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
-from impact_damper.system.parameters import check_damper, describe, pack
+from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.system.parameters import check_damper, describe
 from impact_damper.theory.free_oscillator import free_solutions
 
 LABELS = COMPARED["stable_steps"]

@@ -16,7 +16,8 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_increasing
-from impact_damper.system.parameters import Damper, describe, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, describe
 
 CELL = np.dtype(
     [

@@ -18,8 +18,8 @@ from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling
 from impact_damper.motions.sweep import SAME, sweep
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_frequencies, check_starts
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.parameters import check_damper, describe, pack
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import check_damper, describe
 
 BEYOND = 0.1
 REDUCED = 0.95

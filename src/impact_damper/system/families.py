@@ -6,8 +6,8 @@ import numpy as np
 
 from impact_damper.system.bounds import shown
 from impact_damper.system.checks import check_span
-from impact_damper.system.packed import DASHPOT
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import DASHPOT, pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 # Parameters in which a branch can be followed, and the dataclass that each belongs to. The
 # coordinate of continuation is the parameter's logarithm, or for LINEAR ones the parameter.

@@ -1,9 +1,17 @@
-"""Indices of the parameters in the array that `parameters.pack` makes and kernels read.
+"""Parameters packed into the array that kernels read.
 
-Kernels take the parameters as an array `p` of COUNT numbers and read each by the name of its
-index, as `p[FREQUENCY]`. In this order: W, h, omega_l^2, d0, r1, 1/rm, and the dashpot's
+Kernels take the parameters as an array `p` of COUNT numbers, made by `pack`, and read each by the
+name of its index, as `p[FREQUENCY]`. They are W, h, omega_l^2, d0, r1, 1/rm and the dashpot's
 coefficient 2 zeta_c sqrt(r1 rm).
 """
+
+import math
+
+import numpy as np
+
+from impact_damper.system.bounds import MOST_STIFF
+from impact_damper.system.checks import check_frequency
+from impact_damper.system.parameters import check_damper, check_oscillator
 
 NAMES = (
     "FREQUENCY",
@@ -24,3 +32,42 @@ COUNT = len(NAMES)
     INVERSE_MASS_RATIO,
     DASHPOT,
 ) = range(COUNT)
+
+
+def pack(oscillator, damper, frequency) -> np.ndarray:
+    """Return the parameters as the array that kernels read; `damper=None` for no damper.
+
+    Returns
+    -------
+    numpy.ndarray, shape (COUNT,)
+        Each parameter at the index of its name. Without a damper the clearance is infinite and the
+        contact's parameters are 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not of its type.
+    ValueError
+        If the frequency is out of range, or the contact too fast for it.
+    """
+    p = np.zeros(COUNT)
+    p[FREQUENCY] = frequency = check_frequency(frequency)
+    check_oscillator(oscillator)
+    p[DAMPING] = oscillator.damping
+    p[STIFFNESS] = oscillator.linear_frequency**2
+    if damper is None:
+        p[CLEARANCE] = np.inf
+        return p
+    check_damper(damper)
+    natural = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
+    if natural > MOST_STIFF * frequency:
+        raise ValueError(
+            f"contact_stiffness = {damper.contact_stiffness:g}: with mass_ratio = "
+            f"{damper.mass_ratio:g} and frequency = {frequency:g}: must be so small that the "
+            f"contact is at most {MOST_STIFF:g} times as fast as the forcing (steps of a contact)"
+        )
+    p[CLEARANCE] = damper.clearance
+    p[CONTACT_STIFFNESS] = damper.contact_stiffness
+    p[INVERSE_MASS_RATIO] = 1 / damper.mass_ratio
+    p[DASHPOT] = damper.dashpot
+    return p

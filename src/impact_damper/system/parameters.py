@@ -1,28 +1,24 @@
-"""Dataclasses of the oscillator and of the damper, and their parameters packed for kernels.
+"""Dataclasses of the oscillator and of the damper.
 
 Everything is dimensionless, scaled as in section 2.1 of Chatterjee, Mallik and
 Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)).
+This module imports no NumPy, since Snakemake reads it at every dry run.
 """
 
 import math
 from dataclasses import dataclass, fields
 
-import numpy as np
-
-from impact_damper.system import packed
 from impact_damper.system.bounds import (
     CLEARANCE_RANGE,
     DAMPING_RANGE,
     LINEAR_FREQUENCY_RANGE,
     MASS_RATIO_RANGE,
-    MOST_STIFF,
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
     check_parameters,
     parameter,
     shown,
 )
-from impact_damper.system.checks import check_frequency
 
 
 def check_oscillator(oscillator):
@@ -106,45 +102,6 @@ class Damper:
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
-def pack(oscillator, damper, frequency) -> np.ndarray:
-    """Return the parameters as the array that kernels read; `damper=None` for no damper.
-
-    Returns
-    -------
-    numpy.ndarray, shape (packed.COUNT,)
-        In the places that `packed` names. Without a damper the clearance is infinite and the
-        contact's parameters are 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not of its type.
-    ValueError
-        If the frequency is out of range, or the contact too fast for it.
-    """
-    p = np.zeros(packed.COUNT)
-    p[packed.FREQUENCY] = frequency = check_frequency(frequency)
-    check_oscillator(oscillator)
-    p[packed.DAMPING] = oscillator.damping
-    p[packed.STIFFNESS] = oscillator.linear_frequency**2
-    if damper is None:
-        p[packed.CLEARANCE] = np.inf
-        return p
-    check_damper(damper)
-    natural = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
-    if natural > MOST_STIFF * frequency:
-        raise ValueError(
-            f"contact_stiffness = {damper.contact_stiffness:g}: with mass_ratio = "
-            f"{damper.mass_ratio:g} and frequency = {frequency:g}: must be so small that the "
-            f"contact is at most {MOST_STIFF:g} times as fast as the forcing (steps of a contact)"
-        )
-    p[packed.CLEARANCE] = damper.clearance
-    p[packed.CONTACT_STIFFNESS] = damper.contact_stiffness
-    p[packed.INVERSE_MASS_RATIO] = 1 / damper.mass_ratio
-    p[packed.DASHPOT] = damper.dashpot
-    return p
-
-
 def describe(*parts) -> dict:
     """Return the fields of dataclasses as one dictionary of numbers; None has no fields."""
     return {
@@ -153,3 +110,8 @@ def describe(*parts) -> dict:
         if part is not None
         for field in fields(part)
     }
+
+
+def pick(kind, values) -> dict:
+    """Return the entries of a dictionary whose keys are fields of a dataclass."""
+    return {field.name: values[field.name] for field in fields(kind) if field.name in values}

@@ -4,9 +4,8 @@ import numpy as np
 import pandas as pd
 
 from impact_damper.claims import extract
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import damper_of, flag, oscillator_of, parameters_of
 from impact_damper.stages.design_rules import RULES, rule_ratios
-from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.tables.columns import parameter_columns
 
 WITHIN = (1, 2, 5, 10)  # errors counted, in per cent
@@ -79,9 +78,7 @@ def _sweeps(datasets):
     """Frames as in `_grids` for the clearance sweeps; simulated, so their optima are stable."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
-        oscillator = Oscillator(parameters["damping"], parameters["linear_frequency"])
-        names = "mass_ratio", "restitution", "contact_stiffness"
-        damper = Damper(clearance=1.0, **{name: parameters[name] for name in names})
+        oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)
         best = float(data.optimum_ratio)
         yield pd.DataFrame(
             {

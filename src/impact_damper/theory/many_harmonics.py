@@ -22,7 +22,7 @@ import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from impact_damper.system.bounds import check_count
-from impact_damper.system.parameters import pack
+from impact_damper.system.packed import pack
 from impact_damper.theory import fourier
 
 # Newton's method: largest relative change of a coefficient on convergence, steps allowed, and

@@ -14,8 +14,8 @@ from impact_damper.rivals.orbit_models import rigid
 from impact_damper.rivals.passages import draw_passages, free_flight
 from impact_damper.rivals.taylor_runs import ORDERS, taylor
 from impact_damper.stages.response import collisions, frequency_response
-from impact_damper.system.packed import CLEARANCE
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import CLEARANCE, pack
+from impact_damper.system.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
 # With it every motion settles soon at this frequency, so that orbits are followed too.

@@ -1,6 +1,6 @@
 """Motions in 80-bit arithmetic by a C program that shares no code with the package.
 
-State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `parameters.pack`, whose
+State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `packed.pack`, whose
 doubles are taken as they are. Taylor series of order 32 with a local error of 1e-20; events are
 isolated by the signs of Bernstein coefficients (see motion.c). The compiler `cc` makes the
 program on first use, in about half a second.

@@ -36,7 +36,8 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator, pick
 from references import extended
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -51,10 +52,8 @@ def configured_scenes():
             continue
         damper = None
         if "mass_ratio" in scene:
-            given = (scene[key] for key in ("mass_ratio", "clearance", "restitution"))
-            damper = Damper(*given, config["contact_stiffness"])
-        free = config["oscillators"][scene["oscillator"]]
-        oscillator = Oscillator(free["damping"], free["linear_frequency"])
+            damper = Damper(**pick(Damper, config | scene))
+        oscillator = Oscillator(**pick(Oscillator, config["oscillators"][scene["oscillator"]]))
         p = pack(oscillator, damper, scene["frequency"])
         yield name, p, np.array(scene["state"], float), scene["periods"]
 

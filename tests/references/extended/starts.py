@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.system.parameters import Damper, Oscillator, pack
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
 from references import extended
 
 PERIODS = 3
