@@ -7,7 +7,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: reproduce smoke slurm test same-bytes benchmark faults lint format lock clean
+.PHONY: reproduce smoke slurm kernels test quick same-bytes benchmark faults lint format lock \
+	lowest clean
 
 reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
@@ -19,8 +20,21 @@ smoke: $(READY)
 slurm: $(READY)
 	profiles/slurm/try.sh $(abspath $(BIN))/snakemake
 
-test: $(READY)
-	$(BIN)/python -m pytest
+# Compiled before the tests, so that their processes load the kernels and do not all compile them.
+COMPILE := from impact_damper.workflow import compile_kernels as all; \
+	all.warm_up(); all.warm_up_rivals()
+kernels: $(READY)
+	$(BIN)/python -c "$(COMPILE)"
+
+# On all cores; PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".
+PYTEST ?=
+TESTS := $(BIN)/python -m pytest --numprocesses auto --dist worksteal
+test: kernels
+	$(TESTS) $(PYTEST)
+
+# The tests that start neither Snakemake nor a job of the workflow.
+quick: kernels
+	$(TESTS) -m "not workflow" $(PYTEST)
 
 # Two runs, on one core and two, are compared; the whole paper with CONFIG= and nothing after it.
 CONFIG ?= config/smoke.yaml
@@ -57,6 +71,17 @@ $(READY): requirements.lock pyproject.toml
 lock:
 	uv pip compile pyproject.toml --all-extras --group build --universal --python-version 3.11 \
 		--generate-hashes --no-emit-index-url --no-header --output-file requirements.lock
+
+# For developers, after a change of the lower bounds in pyproject.toml; needs uv. Installs the oldest
+# versions that these bounds allow and runs the tests of the library with them.
+LOWEST := .venv-lowest
+lowest:
+	$(PYTHON) -m venv --clear $(LOWEST)
+	uv pip compile pyproject.toml --extra test --resolution lowest-direct --python-version 3.11 \
+		--no-header --no-emit-index-url --output-file $(LOWEST)/requirements.txt
+	$(LOWEST)/bin/pip install --requirement $(LOWEST)/requirements.txt
+	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist worksteal \
+		--ignore tests/workflow $(PYTEST)
 
 clean:
 	rm -rf results-smoke .snakemake

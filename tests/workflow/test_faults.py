@@ -8,6 +8,8 @@ import time
 import pytest
 from faults.project import DELETE, Project
 
+pytestmark = pytest.mark.workflow
+
 FILE = "results/design/figure_05a.nc"
 YEAR = 365 * 86400
 

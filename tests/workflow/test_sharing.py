@@ -11,6 +11,8 @@ import yaml
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
+pytestmark = pytest.mark.workflow
+
 STUB = """
 from pathlib import Path
 from netCDF4 import Dataset

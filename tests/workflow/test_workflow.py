@@ -7,6 +7,8 @@ from helpers.running import ROOT, snakemake
 
 from impact_damper.workflow.contradictions import SECTIONS
 
+pytestmark = pytest.mark.workflow
+
 
 def jobs(result):
     """Number of jobs by rule, from the table that Snakemake prints first."""
