@@ -7,12 +7,11 @@ import pytest
 from helpers.scenes import DESIGN, INELASTIC, PAPER
 
 from impact_damper.motions import strobe_map
-from impact_damper.stages.harmonic_convergence import refine, single_term, state_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.many_harmonics import Balance, solve
+from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 BALANCES = {
     "free": Balance(Oscillator(0.3, 0.7), None, 1.3, 5),

@@ -35,11 +35,10 @@ from impact_damper.rivals.taylor_runs import (
     step_work,
     steps_work,
 )
-from impact_damper.stages import harmonic_convergence
 from impact_damper.system.packed import CLEARANCE, DASHPOT, FREQUENCY, pack
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.many_harmonics import Balance, Solution, solve
+from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
 START_HARMONICS = 15
@@ -107,7 +106,7 @@ def without(status, work=0.0):
 
 def of_coefficients(balance, coefficients, work):
     """The model that Fourier coefficients of a balance are."""
-    state = harmonic_convergence.state_of(Solution(balance, coefficients, "", 0, 0.0))
+    state = state_of(Solution(balance, coefficients, "", 0, 0.0))
     rows = balance.contacts(coefficients)
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
     largest = fourier.largest(coefficients[0], balance.harmonics)

@@ -1,7 +1,5 @@
 """Harmonic balance with more and more harmonics, against the exact orbit of the true system."""
 
-from dataclasses import replace
-
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
@@ -12,9 +10,8 @@ from impact_damper.system.bounds import check_count, shown
 from impact_damper.system.checks import check_counts, check_increasing
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
-from impact_damper.theory import convergence, fourier, hill, single_harmonic
-from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.many_harmonics import Balance, solve
+from impact_damper.theory import convergence, fourier, hill
+from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 SAMPLES = 2**14
 HIGHEST = 2**14
@@ -105,51 +102,6 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
         made,
         "Harmonic balance with many harmonics against the exact orbit",
     )
-
-
-def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Coefficients (1 or 2, 1) of the single-term solution to begin from.
-
-    Raises
-    ------
-    ArithmeticError
-        If there is none with contacts.
-    """
-    if damper is None:
-        found = free_solutions(oscillator, frequency)
-        sizes = found.amplitude[-1:]
-        phase = found.phase[-1]
-    else:
-        found = single_harmonic.impacting_solutions(
-            oscillator, replace(damper, restitution=1.0), frequency
-        )
-        if not len(found.amplitude):
-            raise ArithmeticError(f"frequency = {frequency:g}: (7) has no solution with contacts")
-        least = np.argmin(np.abs(found.amplitude))
-        sizes = np.array([found.amplitude[least], found.relative_amplitude[least]])
-        phase = found.phase[least]
-    return sizes[:, None] * np.exp(1j * phase) / 2
-
-
-def refine(balances, start) -> list:
-    """Solutions of balances with more and more harmonics, each from the last that converged."""
-    solutions = []
-    for balance in balances:
-        solutions.append(solve(balance, start))
-        if solutions[-1].status == "converged":
-            start = solutions[-1].coefficients
-    return solutions
-
-
-def state_of(solution) -> np.ndarray:
-    """Z1, Z1', Z2, Z2' at W T = pi/2; without a damper Z2 = Z1."""
-    balance = solution.balance
-    state = [
-        fourier.value(each, balance.harmonics, np.pi / 2, order) * balance.frequency**order
-        for each in solution.coefficients
-        for order in (0, 1)
-    ]
-    return np.array(state if len(state) == 4 else 2 * state)
 
 
 def cold_status(warm, first) -> int:

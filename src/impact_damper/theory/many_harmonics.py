@@ -15,7 +15,7 @@ points to be exact.
 Compare the alternating frequency-time method: Cameron and Griffin, J. Appl. Mech. 56, 149 (1989).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +23,8 @@ from scipy.linalg import lu_factor, lu_solve
 
 from impact_damper.system.bounds import check_count
 from impact_damper.system.packed import pack
-from impact_damper.theory import fourier
+from impact_damper.theory import fourier, single_harmonic
+from impact_damper.theory.free_oscillator import free_solutions
 
 # Newton's method: largest relative change of a coefficient on convergence, steps allowed, and
 # smallest factor by which a step is shortened.
@@ -263,3 +264,71 @@ def _real(by_value, by_conjugate):
     """Real matrix of dz -> by_value dz + by_conjugate conj(dz), with real parts first."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
+
+
+def single_term(oscillator, damper, frequency) -> np.ndarray:
+    """Return the coefficients of a single-term solution, from which balances begin.
+
+    With a damper this is the solution of equation (7) with the least |a|, the damper taken as
+    elastic; without one the solution with the greatest |a|.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        W, dimensionless.
+
+    Returns
+    -------
+    numpy.ndarray, shape (2, 1) with a damper, else (1, 1)
+        Complex Fourier coefficients of the first harmonic of Z1 and Z2.
+
+    Raises
+    ------
+    ArithmeticError
+        If (7) has no solution with contacts.
+    """
+    if damper is None:
+        found = free_solutions(oscillator, frequency)
+        sizes = found.amplitude[-1:]
+        phase = found.phase[-1]
+    else:
+        found = single_harmonic.impacting_solutions(
+            oscillator, replace(damper, restitution=1.0), frequency
+        )
+        if not len(found.amplitude):
+            raise ArithmeticError(f"frequency = {frequency:g}: (7) has no solution with contacts")
+        least = np.argmin(np.abs(found.amplitude))
+        sizes = np.array([found.amplitude[least], found.relative_amplitude[least]])
+        phase = found.phase[least]
+    return sizes[:, None] * np.exp(1j * phase) / 2
+
+
+def refine(balances, start) -> list:
+    """Return a `Solution` of each balance, begun from the last solution that converged.
+
+    Parameters
+    ----------
+    balances : list of Balance
+        With more and more harmonics.
+    start : numpy.ndarray
+        Coefficients from which the first balance begins, as from `single_term`.
+    """
+    solutions = []
+    for balance in balances:
+        solutions.append(solve(balance, start))
+        if solutions[-1].status == "converged":
+            start = solutions[-1].coefficients
+    return solutions
+
+
+def state_of(solution) -> np.ndarray:
+    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2, shape (4,); free: Z2 = Z1."""
+    balance = solution.balance
+    state = [
+        fourier.value(each, balance.harmonics, np.pi / 2, order) * balance.frequency**order
+        for each in solution.coefficients
+        for order in (0, 1)
+    ]
+    return np.array(state if len(state) == 4 else 2 * state)
