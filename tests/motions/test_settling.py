@@ -10,7 +10,8 @@ from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
 from impact_damper.motions import ensemble, records, strobe_map
-from impact_damper.system.packed import pack
+from impact_damper.motions.following import follow_stable
+from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper
 
 NONE = np.empty((0, 4))
@@ -177,7 +178,7 @@ def test_polish_finds_no_orbit_where_none_is_near(design):
 def test_follow_ends_at_the_folds_of_the_free_response(start, target):
     """On one side of the end the motion goes on, on the other it leaves for the other branch."""
     p, y = pack(PAPER, None, 2.0), np.tile(start, 2)
-    multiplier = strobe_map.follow(p, y, 1, 0, target, 1e-8, 1e-12)
+    p, (y, multiplier) = follow_stable(p, y, 1, FREQUENCY, target)
     end = p[0]
     assert 1.25 < end < 2.1
     assert_allclose(end, 2.0144439 if target > 2 else 1.3001, atol=5e-5)
@@ -197,8 +198,8 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
 def test_follow_arrives(design):
     """At a target within the branch; the orbit there is the one that simulation comes to."""
     p, y = design.parameters.copy(), design.state.copy()
-    multiplier = strobe_map.follow(p, y, 1, 3, 1.9, 1e-8, 1e-12)
-    assert p[3] == 1.9
+    p, (y, multiplier) = follow_stable(p, y, 1, CLEARANCE, 1.9)
+    assert p[CLEARANCE] == 1.9
     record = settled(p, design.state)
     assert record["outcome"] == records.SETTLED and record["contacts"] == 2
     assert_allclose(y, record["state"], atol=1e-8)

@@ -9,7 +9,8 @@ from numpy.testing import assert_allclose
 from scipy import stats
 
 from impact_damper.data.datasets import flag, parameters_of
-from impact_damper.motions import ensemble, records, strobe_map
+from impact_damper.motions import ensemble, records
+from impact_damper.motions.following import follow_stable
 from impact_damper.motions.simulate import (
     COMPONENTS,
     random_states,
@@ -18,7 +19,7 @@ from impact_damper.motions.simulate import (
     steady_orbit,
     tabulate,
 )
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper
 
 ON_ORBIT = (0.00572, 0.187394, 0.001944, -2.407912)
@@ -150,8 +151,8 @@ def test_phases_of_a_steady_motion():
     """Of Z1 to Z2 and to Z1 - Z2, by Fourier transform of a simulation."""
     for frequency in (1.8, 2.2):
         p, y = pack(PAPER, DESIGN, 2.0), np.array(ON_ORBIT)
-        strobe_map.follow(p, y, 1, 0, frequency, 1e-8, 1e-12)
-        assert p[0] == frequency
+        p, (y, _) = follow_stable(p, y, 1, FREQUENCY, frequency)
+        assert p[FREQUENCY] == frequency
         record = records.measured(p, y, 1, 1e-12)
         data = simulate(
             PAPER, DESIGN, frequency, y, start=np.pi / 2 / frequency, periods=1, samples=512

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag
 from impact_damper.motions import ensemble, strobe_map
+from impact_damper.motions.following import follow_stable
 from impact_damper.motions.records import MOTION, trace
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.sweep import Catalogue, _end_event, sweep
@@ -78,7 +79,7 @@ def test_motions_change_at_an_end(free):
         column = np.nanargmin(np.abs(free["maximum_displacement"][1][row] - size))
         state, period = free["state"][1][row, column].copy(), free["period"][1][row, column]
         p[0] = FREQUENCIES[row]
-        strobe_map.follow(p, state, int(period), FREQUENCY, value - 1e-4 * direction, 1e-8, 1e-12)
+        p, (state, _) = follow_stable(p, state, period, FREQUENCY, value - 1e-4 * direction)
         assert_allclose(p[0], value - 1e-4 * direction, rtol=1e-15)
         sizes = []
         for beyond in (-1e-4, 1e-3):

@@ -8,14 +8,14 @@ import pytest
 from helpers.scenes import DESIGN, PAPER, scene_of
 from numpy.testing import assert_allclose
 
-from impact_damper.motions import strobe_map
 from impact_damper.motions.ensemble import Settling, settle
+from impact_damper.motions.following import follow_stable
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.continuation import Problem
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.stages.branches import complete_branches, orbit_branch, periodic_orbit
 from impact_damper.stages.response import frequency_response
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper
 
 SETTLING = Settling(tolerance=1e-10, patience=300, limit=3000)
@@ -76,8 +76,8 @@ def test_fold_by_simulation_on_both_sides(resonance):
     below = [point for point in resonance.points if point.orbit.stable and point.value < fold.value]
     nearest = max(below, key=lambda point: point.value)
     y, at = nearest.orbit.strobe_states[0].copy(), nearest.orbit.p.copy()
-    strobe_map.follow(at, y, 1, 0, p[0], 1e-10, 1e-12)
-    assert at[0] == p[0]
+    at, (y, _) = follow_stable(at, y, 1, FREQUENCY, p[FREQUENCY])
+    assert at[FREQUENCY] == p[FREQUENCY]
     record = settle(p[None], y[None] + 1e-6, SETTLING, from_strobe=True)[0]
     assert record["maximum_displacement"] > 2.3
     beyond = settle(free(fold.value + 1e-4)[None], y[None], SETTLING, from_strobe=True)[0]

@@ -12,6 +12,7 @@ from impact_damper.contact.contact_law import contact, natural_frequency
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.kernel.equation import acceleration
 from impact_damper.motions import ensemble, records, strobe_map
+from impact_damper.motions.following import follow_stable
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.packed import DASHPOT, FREQUENCY, pack
 
@@ -146,14 +147,14 @@ def without_pull(oscillator, damper, frequency, motion):
         return np.nan, flag("scene_without_pull_status", "not_settled")
     returned = contact(damper.restitution, 0.0, "no_tension").departure
     goal = replace(damper, restitution=min(returned, 1.0)).dashpot
-    p, y = pack(oscillator, damper, frequency), motion["state"].copy()
+    p = pack(oscillator, damper, frequency)
     if p[DASHPOT] == goal:
         return motion["maximum_displacement"], flag("scene_without_pull_status", "found")
     period = int(motion["period"])
-    strobe_map.follow(p, y, period, DASHPOT, goal, RESOLUTION, strobe_map.POLISH_TOLERANCE)
+    p, orbit = follow_stable(p, motion["state"], period, DASHPOT, goal, RESOLUTION)
     if p[DASHPOT] != goal:
         return np.nan, flag("scene_without_pull_status", "not_followed")
-    record = records.measured(p, y, period, strobe_map.POLISH_TOLERANCE)
+    record = records.measured(p, orbit.state, period, strobe_map.POLISH_TOLERANCE)
     if record["contacts"] != motion["contacts"]:
         return np.nan, flag("scene_without_pull_status", "other_contacts")
     return record["maximum_displacement"], flag("scene_without_pull_status", "found")

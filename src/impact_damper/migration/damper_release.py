@@ -16,9 +16,10 @@ from impact_damper.data.shares import LEAD, escape_rate, survival, wilson
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
 from impact_damper.migration import legs
 from impact_damper.motions import ensemble
+from impact_damper.motions.following import record_at
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import random_states
-from impact_damper.motions.sweep import Catalogue, record_at
+from impact_damper.motions.sweep import Catalogue
 from impact_damper.system.bounds import FREQUENCY_RANGE
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import free_solutions
@@ -59,8 +60,7 @@ def _free_motion(oscillator, frequency, start, which, settling):
     record = ensemble.settle(p[None], np.tile(primary, (1, 2)), settling, from_strobe=True)[0]
     if record["period"] != 1:
         return None
-    y = record["state"].copy()
-    return record_at(p, y, 1, FREQUENCY, frequency, settling.tolerance)
+    return record_at(p, record["state"], 1, FREQUENCY, frequency, settling.tolerance)
 
 
 def scene(oscillator, damper, frequency, settling) -> Scene:

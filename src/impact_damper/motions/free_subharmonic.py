@@ -6,8 +6,9 @@ import numpy as np
 
 from impact_damper.data.datasets import flag
 from impact_damper.motions import records, strobe_map
+from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import check_settling, random_states
-from impact_damper.motions.sweep import SAME, record_at, sweep
+from impact_damper.motions.sweep import SAME, sweep
 from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
 
@@ -41,8 +42,7 @@ class FreeSubharmonic(NamedTuple):
         if not self.ends[0] <= frequency <= self.ends[1]:
             return None
         k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))
-        p, y = self.parameters[k].copy(), self.states[k].copy()
-        return record_at(p, y, 3, FREQUENCY, frequency)
+        return record_at(self.parameters[k], self.states[k], 3, FREQUENCY, frequency)
 
 
 def free_subharmonic(

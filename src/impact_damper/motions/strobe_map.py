@@ -14,8 +14,6 @@ from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MA
 
 CONVERGED = 1e-9
 POLISH_TOLERANCE = 1e-12
-# A step of following that moves an orbit further may have jumped to another one.
-REACH = 0.03
 SAME_STATE = 1e-4
 
 
@@ -170,39 +168,3 @@ def repeats_sooner(p, y, periods, tolerance):
         if periods % n == 0 and distance(state, y, 0.0) < SAME_STATE:
             return True
     return False
-
-
-@kernel
-def follow(p, y, periods, index, target, resolution, tolerance):
-    """Follow a stable orbit while parameter `index` moves to a target, as far as it goes.
-
-    Steps are halved until the next one that fails is shorter than the resolution. Both p
-    and y are left at the last orbit. Returns the dominant multiplier there.
-    """
-    before = y.copy()
-    last_step = 0.0
-    step_now = target - p[index]
-    _, _, multiplier = polish(p, y, periods, 1e-3, tolerance)
-    trial = p.copy()
-    while p[index] != target:
-        left = target - p[index]
-        if abs(step_now) > abs(left):
-            step_now = left
-        guess = y.copy()
-        if last_step != 0.0:
-            guess += (y - before) * (step_now / last_step)
-        trial[index] = target if step_now == left else p[index] + step_now
-        found, _, next_multiplier = polish(trial, guess, periods, REACH, tolerance)
-        near = found and abs(next_multiplier) < 1.0 and distance(guess, y, 0.0) < 2.0 * REACH
-        if near and not repeats_sooner(trial, guess, periods, tolerance):
-            assign(before, y)
-            assign(y, guess)
-            p[index] = trial[index]
-            last_step = step_now
-            multiplier = next_multiplier
-            step_now *= 1.5
-        else:
-            step_now *= 0.5
-            if abs(step_now) < resolution:
-                break
-    return multiplier

@@ -12,13 +12,13 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from impact_damper.data.datasets import flag, is_settled
-from impact_damper.motions import ensemble, strobe_map
+from impact_damper.motions import ensemble
+from impact_damper.motions.following import StrobeOrbit, follow_stable
 from impact_damper.motions.records import MOTION, measured
 from impact_damper.motions.simulate import tabulate
 
 SAME = 1e-6
 CHAOTIC_GAP = 1.5
-RESOLUTION = 1e-8
 
 
 class Catalogue:
@@ -91,12 +91,17 @@ def _end_event(record, multiplier, beyond):
 
 def _follow(here, there, index, settling, links, ends):
     """Follow every motion of one catalogue to the next value, noting links and ends."""
-    followed = [_carried(record, here.p, there.p[index], index) for record in here.records]
-    states = np.array([y for _, y, _ in followed]).reshape(-1, 4)
+    followed = [
+        follow_stable(here.p, record["state"], record["period"], index, there.p[index])
+        if is_settled(record)
+        else (here.p, StrobeOrbit(record["state"], complex(np.nan)))
+        for record in here.records
+    ]
+    states = np.array([orbit.state for _, orbit in followed]).reshape(-1, 4)
     rows = np.tile(there.p, (len(states), 1))
     settled = ensemble.settle(rows, states, settling, from_strobe=True)
     for i, (record, beyond) in enumerate(zip(list(here.records), settled, strict=True)):
-        p, y, multiplier = followed[i]
+        p, (state, multiplier) = followed[i]
         j = there.add(beyond, "followed")
         if not is_settled(record):
             continue
@@ -104,7 +109,7 @@ def _follow(here, there, index, settling, links, ends):
         if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
             links.append((here.numbers[i], there.numbers[j]))
             continue
-        last = measured(p, y, int(record["period"]), settling.tolerance)
+        last = measured(p, state, int(record["period"]), settling.tolerance)
         ends.append(
             {
                 "end_value": p[index],
@@ -118,29 +123,6 @@ def _follow(here, there, index, settling, links, ends):
                 "end_multiplier_imaginary": multiplier.imag,
             }
         )
-
-
-def record_at(p, y, periods, index, value, tolerance=strobe_map.POLISH_TOLERANCE):
-    """Record and state of a stable orbit followed to a value of parameter `index`.
-
-    None where it ends before. The parameters and the state given move with it.
-    """
-    strobe_map.follow(p, y, periods, index, value, RESOLUTION, strobe_map.POLISH_TOLERANCE)
-    if p[index] != value:
-        return None
-    return measured(p, y, periods, tolerance)
-
-
-def _carried(record, p, target, index):
-    """Parameters, state and multiplier of a motion followed as far as its orbit goes."""
-    p, y, multiplier = p.copy(), record["state"].copy(), complex(np.nan)
-    if is_settled(record):
-        # As every other caller gives it: kernels are compiled anew for an integer of two bytes.
-        period = int(record["period"])
-        multiplier = strobe_map.follow(
-            p, y, period, index, target, RESOLUTION, strobe_map.POLISH_TOLERANCE
-        )
-    return p, y, multiplier
 
 
 def _branches(catalogues, links):

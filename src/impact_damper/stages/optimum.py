@@ -11,9 +11,11 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.motions import records, strobe_map
+from impact_damper.motions.following import RESOLUTION, follow_stable
+from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
-from impact_damper.motions.sweep import RESOLUTION, SAME, sweep
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.motions.sweep import SAME, sweep
 from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system.bounds import CLEARANCE_RANGE, check_count, shown
 from impact_damper.system.checks import (
@@ -138,19 +140,17 @@ class _Branch(NamedTuple):
     displacements: np.ndarray
 
     def follow(self, start, clearance):
-        """Parameters and state where following from the point nearest to `start` arrives."""
+        """Parameters and orbit at which following from the point nearest to `start` ends."""
         away = np.abs(self.parameters[:, CLEARANCE] - start)
         k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
-        p, y = self.parameters[k].copy(), self.states[k].copy()
-        strobe_map.follow(p, y, 1, CLEARANCE, clearance, RESOLUTION, strobe_map.POLISH_TOLERANCE)
-        return p, y
+        return follow_stable(self.parameters[k], self.states[k], 1, CLEARANCE, clearance)
 
     def displacement(self, clearance):
         """max |Z1| at a clearance, infinite where the branch has ended."""
-        p, y = self.follow(clearance, clearance)
+        p, orbit = self.follow(clearance, clearance)
         if p[CLEARANCE] != clearance:
             return np.inf
-        return records.measured(p, y, 1, strobe_map.POLISH_TOLERANCE)["maximum_displacement"]
+        return measured(p, orbit.state, 1, POLISH_TOLERANCE)["maximum_displacement"]
 
     def limit(self, clearance, step):
         """The next point of the sweep, or the end of branch or sweep if that comes first."""

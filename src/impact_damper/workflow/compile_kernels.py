@@ -4,7 +4,7 @@ import numpy as np
 
 from impact_damper.kernel import batch, single
 from impact_damper.migration import legs
-from impact_damper.motions import strobe_map
+from impact_damper.motions import following, strobe_map
 from impact_damper.motions.ensemble import Settling
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import simulate
@@ -14,7 +14,7 @@ from impact_damper.rivals.orbit_models import rigid
 from impact_damper.rivals.passages import draw_passages, free_flight
 from impact_damper.rivals.taylor_runs import ORDERS, taylor
 from impact_damper.stages.response import collisions, frequency_response
-from impact_damper.system.packed import CLEARANCE, pack
+from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
@@ -34,7 +34,9 @@ def warm_up_orbits() -> None:
     for each in single.STEPS:
         each.compile()
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
-    strobe_map.follow(on.copy(), np.zeros(4), 1, CLEARANCE, on[CLEARANCE], 1e-3, 1e-9)
+    strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
+    strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
+    following.extrapolate(np.zeros(4), np.zeros(4), 1.0)
     strobe_map.flow_map(on, np.zeros(4), strobe_time(on), 1, False, 1e-9)
     path, records = np.zeros((4, 5)), np.zeros(1, MOTION)
     legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, records)

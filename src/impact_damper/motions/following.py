@@ -1,0 +1,182 @@
+"""Follow an orbit from one value of a parameter to another, by prediction and correction.
+
+This is the only following over given values; `orbits.continuation` follows a branch by its
+arclength, past folds. A prediction extrapolates the last two orbits. The correction, by Newton's
+method, is the caller's. A step that fails is halved.
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.kernel.compiling import kernel
+from impact_damper.motions.records import measured
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_sooner
+
+GROWTH = 1.5
+# Stable orbits: largest correction of a predicted state, and correction of the first state.
+REACH, NUDGE = 0.03, 1e-3
+# The end of a branch of stable orbits is located to this, in units of the parameter.
+RESOLUTION = 1e-8
+
+
+class Followed(NamedTuple):
+    """The last two orbits on the way to a value of the parameter.
+
+    Attributes
+    ----------
+    values : (float, float)
+        Parameter of the last orbit but one and of the last. Both are the start if no step
+        succeeded.
+    orbits : tuple of two
+        These orbits.
+    status : str
+        Status that the correction returned for the last step tried.
+    arrived : bool
+        Whether the last orbit is at the target.
+    """
+
+    values: tuple[float, float]
+    orbits: tuple
+    status: str
+    arrived: bool
+
+    @property
+    def value(self):
+        """Parameter of the last orbit."""
+        return self.values[1]
+
+    @property
+    def orbit(self):
+        """The last orbit."""
+        return self.orbits[1]
+
+
+class StrobeOrbit(NamedTuple):
+    """An orbit by its state at the strobe.
+
+    Attributes
+    ----------
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at W T = pi/2.
+    multiplier : complex
+        Dominant Floquet multiplier, its imaginary part not negative.
+    """
+
+    state: np.ndarray
+    multiplier: complex
+
+
+def follow(
+    correct: Callable, start, target, orbit, *, shortest, growth=GROWTH, reach=math.inf, behind=None
+) -> Followed:
+    """Follow an orbit from one value of a parameter to another, or as far as it goes.
+
+    Parameters
+    ----------
+    correct : callable
+        Maps a value and a predicted state, shape (4,), to an orbit with the attribute `state`, or
+        None, and a status.
+    start, target : float
+        Values of the parameter. The first step tried leads to the target.
+    orbit
+        Orbit at the start.
+    shortest : float
+        Following ends when a step fails whose half is shorter.
+    growth : float
+        Factor by which a step grows after success.
+    reach : float
+        A step also fails if Z1, Z1' or Z2 changes by as much: it may lead to another orbit.
+    behind : optional
+        Orbit at 2 start - target, from which the first prediction extrapolates. Without it the
+        first prediction is the state at the start.
+
+    Returns
+    -------
+    Followed
+    """
+    value, step, status = start, target - start, ""
+    before, last_step = (start, orbit), target - start
+    while value != target:
+        if abs(step) > abs(target - value):
+            step = target - value
+        ahead = target if step == target - value else value + step
+        state = orbit.state.copy()
+        if behind is not None:
+            extrapolate(state, behind.state, step / last_step)
+        found, status = correct(ahead, state)
+        if found is not None and np.max(np.abs(found.state - orbit.state)[:3]) < reach:
+            before, behind, last_step = (value, orbit), orbit, step
+            value, orbit = ahead, found
+            step *= growth
+        else:
+            step /= 2
+            if abs(step) < shortest:
+                break
+    return Followed((before[0], value), (before[1], orbit), status, value == target)
+
+
+@kernel
+def extrapolate(state, before, ratio):
+    """Add to a state `ratio` times its change since the one before, in place."""
+    state += (state - before) * ratio
+
+
+def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -> tuple:
+    """Follow a stable orbit while one parameter moves to a target, as far as it goes.
+
+    An orbit that is no longer stable, or repeats after a divisor of its periods, is not followed.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    state : array, shape (4,)
+        State of the orbit at W T = pi/2.
+    periods : int
+        Its period in forcing periods.
+    parameter : int
+        Place in the packed parameters, as `packed.FREQUENCY`.
+    target : float
+    resolution : float
+        The value at which following ends is located to this, in units of the parameter.
+
+    Returns
+    -------
+    p : numpy.ndarray, shape (COUNT,)
+        Packed parameters of the last orbit; the parameter is exactly the target if it was reached.
+    orbit : StrobeOrbit
+        The last orbit. Its multiplier is NaN if no orbit was found at the given state.
+    """
+    # kernels would be compiled again for an integer of two bytes
+    periods = int(periods)
+    p, first = p.copy(), np.array(state, float)
+    _, _, multiplier = polish(p, first, periods, NUDGE, POLISH_TOLERANCE)
+
+    def correct(value, guess):
+        p[parameter] = value
+        found, _, multiplier = polish(p, guess, periods, REACH, POLISH_TOLERANCE)
+        if not found:
+            return None, "not_converged"
+        if not abs(multiplier) < 1:
+            return None, "unstable"
+        if repeats_sooner(p, guess, periods, POLISH_TOLERANCE):
+            return None, "repeats_sooner"
+        return StrobeOrbit(guess, multiplier), "found"
+
+    start = float(p[parameter])
+    orbit = StrobeOrbit(first, multiplier)
+    followed = follow(correct, start, target, orbit, shortest=resolution, reach=2 * REACH)
+    p[parameter] = followed.value
+    return p, followed.orbit
+
+
+def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
+    """Record of a stable orbit followed to a value of one parameter, or None if it ends before.
+
+    Arguments as of `follow_stable`; `tolerance` is the local error allowed in the measurement.
+    """
+    p, orbit = follow_stable(p, state, periods, parameter, value)
+    return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None
