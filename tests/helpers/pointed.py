@@ -4,7 +4,7 @@ from functools import cache
 
 import numba
 
-from impact_damper.kernel.compiling import pointer
+from impact_damper.kernel.memory import pointer
 
 
 @cache

@@ -1,21 +1,20 @@
-"""Lines of arithmetic against Python, and the forcing that is turned against the exact one."""
+"""Straight lines against Python, what they refuse, and the forcing against cosine and sine."""
 
+import linecache
 import math
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
+import re
+import textwrap
 
 import numpy as np
 import pytest
 from helpers.pointed import pointed
+from llvmlite import ir
 from numpy.testing import assert_allclose, assert_array_equal
 
-import impact_damper
-from impact_damper.kernel.compiling import aligned, kernel
+from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.instances import instance
-from impact_damper.kernel.straight_lines import straight
+from impact_damper.kernel.memory import aligned
+from impact_damper.kernel.straight_lines import NotStraightError, straight, write
 
 
 def one_lane(a):
@@ -175,29 +174,136 @@ def test_aligned_arrays_begin_at_cache_lines(count):
         assert_array_equal(array, np.zeros(count))
 
 
+def compiled_lines(source):
+    """Write the code of a function with a line, or with a loop, and return the file's name."""
+    loop = source if source.startswith("for i") else f"for i in range(1):\n  x = a[0]\n  {source}"
+    text = "def function(a):\n" + textwrap.indent(loop, "    ") + "\n"
+    file = f"<{source}>"
+    linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)
+    made = {}
+    exec(compile(text, file, "exec"), made)
+    kind = ir.FunctionType(ir.VoidType(), [ir.DoubleType().as_pointer()])
+    function = ir.Function(ir.Module(), kind, "function")
+    builder = ir.IRBuilder(function.append_basic_block())
+    write(made["function"], builder, function.args)
+    return file
+
+
 @pytest.mark.parametrize(
-    "name",
+    "line",
     [
-        "recurrence",
-        "series",
-        "evaluation",
-        "straight_lines",
-        "templates/forcing",
-        "templates/release",
-        "templates/step",
+        "a[1] = min(x, 2.0)",
+        "a[1] = math.sqrt(x)",
+        "a[1] = max(x, 1.0, 2.0)",
+        "a[1] = max(x)",
+        "a[1] = abs(x, 1.0)",
+        "a[1] = max(x, key=1.0)",
+        "a[1] = max(*x)",
+        "a[1] = +x",
+        "a[1] = not x",
+        "a[1] = ~x",
+        "a[1] = x ** 2",
+        "a[1] = x // 2.0",
+        "a[1] = x % 2.0",
+        "a[1] = x @ x",
+        "a[1] = x < 1.0",
+        "a[1] = x if x else 1.0",
+        "a[1] = x and 1.0",
+        "a[1] = (lambda: x)()",
+        "a[1] = [x, x]",
+        "a[1] = (y := x)",
+        "a[1] = True",
+        "a[1] = None",
+        "a[1] = 1j",
+        "a[1] = 'text'",
+        "a[1] = y",
+        "a[1] = a",
+        "a[1] = a[x]",
+        "a[1] = a[-1]",
+        "a[1] = a[1:2]",
+        "a[1] = a[1 * i]",
+        "a[1] = a[i + 1]",
+        "a[1] = a[1.5]",
+        "a[1] = b[1]",
+        "a[1] = a.size",
+        "a[1] = (1.0, x)[i]",
+        "a[1] = (1.0, 2.0)[0]",
+        "a[1] = (1.0, 2.0, 3.0)[i]",
+        "a[1] = i",
+        "a[1] = (x, x, x)",
+        "a[1] = ((x, x), x)",
+        "a[1] = (x, x)",
+        "a[1] = max((x, x), x)",
+        "a[1] = abs((x, x))",
+        "y, z = x",
+        "y, z, w = (x, x)",
+        "a[1], (y, z) = (x, x)",
+        "y = z = x",
+        "y: float = x",
+        "y: float",
+        "a = x",
+        "i = x",
+        "x **= 2.0",
+        "y += 1.0",
+        "x.real = 1.0",
+        "[y, z] = (x, x)",
+        "if x: a[1] = x",
+        "while x: a[1] = x",
+        "for j in range(2): a[1] = x",
+        "pass",
+        "return",
+        "del x",
+        "assert x",
+        "abs(x)",
+        "'text'",
+        "with x: a[1] = x",
+        "global y",
+        "import math",
+        "raise x",
+        "for i in a:\n  a[1] = 1.0",
+        "for i in range(2):\n  a[1] = 1.0",
+        "for i in range(2):\n  a[0 + i] = a[1 + i]",
+        "for i in range(2):\n  a[0 + i] = a[1]",
+        "for i in range(2):\n  a[0 + i] = 1.0\n  a[1 + i] = 2.0",
+        "for i in range(0):\n  a[1] = 1.0",
+        "for i in range(-1):\n  a[1] = 1.0",
+        "for i in range(12):\n  a[1 + i] = 1.0",
+        "for i in range(0, 1):\n  a[1] = 1.0",
+        "for i in range(1):\n  a[1] = 1.0\nelse:\n  a[2] = 1.0",
+        "for i in range(1):\n  a[1] = 1.0\na[2] = 1.0",
     ],
 )
-def test_kernels_are_compiled_anew_after_an_edit(name, tmp_path):
-    """Of what writes them, too: the folder of compiled kernels is another one."""
+def test_unknown_lines_are_refused_by_file_and_number(line):
+    with pytest.raises(NotStraightError) as caught:
+        compiled_lines(line)
+    number = 4 if not line.startswith("for i") else "[123456]"
+    assert re.match(rf"<{re.escape(line)}>, line {number}: ", str(caught.value))
 
-    def digest():
-        code = "from impact_damper.kernel.compiling import source_digest; print(source_digest())"
-        environment = os.environ | {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path)}
-        return subprocess.check_output([sys.executable, "-c", code], env=environment)
 
-    package = Path(impact_damper.__file__).parent
-    shutil.copytree(package, tmp_path / "impact_damper")
-    before = digest()
-    with (tmp_path / "impact_damper/kernel" / f"{name}.py").open("a") as file:
-        file.write("# edited\n")
-    assert digest() != before
+@pytest.mark.parametrize(
+    "line",
+    [
+        "a[1] = -x + 2 * max(x, abs(-1.5))",
+        "x, y = (x, 2.0) * x",
+        "x *= a[2]",
+        "a[1 + i] /= x",
+        "for i in range(24):\n  a[0 + i] = a[24 + i] + a[48]",
+        "for i in range(3):\n  a[0 + i] = (1, -2.0, 3.0)[i] * a[0 + i]",
+    ],
+)
+def test_known_lines_are_not_refused(line):
+    compiled_lines(line)
+
+
+def test_a_kernel_with_an_unknown_line_does_not_compile():
+    @straight
+    def unknown(a):
+        for _ in range(1):
+            a[0] = min(a[0], 1.0)
+
+    @kernel
+    def calls_unknown(a):
+        unknown(a)
+
+    with pytest.raises(Exception, match=r"test_straight_lines\.py, line \d+: neither abs nor max"):
+        pointed(calls_unknown)(np.zeros(1))

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.kernel import instances
-from impact_damper.kernel.compiling import aligned, kernel, pointer, within
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.system import packed
 
 LANES = 16
@@ -19,8 +20,7 @@ RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = instances.instance(LANES)
-STEPS = instances.steps(_MANY)
-flight_step, contact_step, flight_tangents, contact_tangents = STEPS
+flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_MANY)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # The numbers of a trajectory in a pool are the first rows of a step, in their order.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
@@ -96,7 +96,7 @@ def send(pool, m, t, end, with_tangent):
     enqueue(pool.queues, pool.waiting, m, phase + (FLIGHT_WITH_TANGENT if with_tangent else 0))
 
 
-@within
+@kernel_only
 def enqueue(queues, waiting, m, kind):
     """Let a trajectory wait for a step."""
     queues[kind, waiting[kind]] = m
@@ -118,7 +118,7 @@ def choose(pool, chosen):
     return count, kind
 
 
-@within
+@kernel_only
 def gather(pool, chosen, kind):
     """Fill the lanes; where fewer wait, the last trajectory stands in several."""
     for lane in range(LANES):
@@ -132,7 +132,7 @@ def gather(pool, chosen, kind):
                 pool.d[row * LANES + lane] = pool.tangents[m, row]
 
 
-@within
+@kernel_only
 def scatter(pool, chosen, count, kind, arrived):
     """Put the trajectories back. Returns how many are at their ends; `arrived` has their places."""
     ended = 0

@@ -8,17 +8,17 @@ where the cube is a product of series.
 
 import math
 
-from impact_damper.kernel.compiling import kernel, within
+from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.system.packed import DAMPING, FREQUENCY, STIFFNESS
 
 
-@within
+@kernel_only
 def external_force(p, t):
     """Return the forcing at a time, over the primary mass."""
     return math.cos(p[FREQUENCY] * t)
 
 
-@within
+@kernel_only
 def spring(p, x, lane=0, lanes=1):
     """Return the restoring force of the spring at Z1 = x, over the primary mass.
 
@@ -34,7 +34,7 @@ def spring(p, x, lane=0, lanes=1):
     return (p[STIFFNESS * lanes + lane] + x * x) * x
 
 
-@within
+@kernel_only
 def spring_slope(p, x, lane=0, lanes=1):
     """Return the derivative of `spring` with respect to x; parameters as of `spring`."""
     return p[STIFFNESS * lanes + lane] + 3.0 * x * x

@@ -40,7 +40,7 @@ class Source(Writer):
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         imports = [
-            "from impact_damper.kernel.compiling import within",
+            "from impact_damper.kernel.compiling import kernel_only",
             f"from {straight.__module__} import {straight.__name__}\n",
         ]
         return "\n".join(imports) + "\n\n" + "\n\n".join(functions)

@@ -4,7 +4,6 @@ import importlib.util
 import inspect
 import os
 import sys
-from functools import cache
 
 from impact_damper.kernel.by_address import by_address
 from impact_damper.kernel.compiling import CACHE_DIRECTORY
@@ -32,16 +31,26 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
         os.replace(part, path)
     specification = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(specification)
-    sys.modules[name] = module
     specification.loader.exec_module(module)
+    sys.modules[name] = module
     return module
 
 
-@cache
-def steps(made):
-    """Steps of an instance in flight, in contact and of their tangents, to be called by address."""
-    each = made.flight_step, made.contact_step, made.flight_tangents, made.contact_tangents
-    return list(map(by_address, each))
+def bound_steps(module):
+    """Compile the steps of an instance for other kernels to call (see `by_address`).
+
+    Returns
+    -------
+    list of numba.types.ExternalFunction
+        A step in flight, one in contact, and those that carry tangents through either.
+    """
+    steps = (
+        module.flight_step,
+        module.contact_step,
+        module.flight_tangents,
+        module.contact_tangents,
+    )
+    return list(map(by_address, steps))
 
 
 def _source(writer):

@@ -79,7 +79,7 @@ class Writer:
                 text += f"    for i in range({count}):\n"
                 text += "".join(f"        {line}\n" for line in body) + "\n\n"
                 calls += f"    {name}_{part}({arguments})\n"
-        return f"{text}@within\ndef {name}({arguments}):\n{calls}"
+        return f"{text}@kernel_only\ndef {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
         """The series of what moves in a phase: of Z1, and in contact of the penetration."""

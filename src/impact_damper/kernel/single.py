@@ -7,17 +7,17 @@ flight, +1). Tangents are carried along if there are any.
 import numpy as np
 
 from impact_damper.kernel import instances
-from impact_damper.kernel.compiling import LINE, aligned, kernel, pointer, within
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.memory import CACHE_LINE, aligned, pointer
 from impact_damper.system import packed
 from impact_damper.system.packed import CLEARANCE
 
 _ONE = instances.instance(1)
 kept_series = _ONE.kept_series
-STEPS = instances.steps(_ONE)
-flight_step, contact_step, flight_tangents, contact_tangents = STEPS
+flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_ONE)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 # Where the tangents' numbers begin in a workspace: at a cache line.
-BEHIND = -(-SIZE // LINE) * LINE
+BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
 SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.SIDE,
     _ONE.TIME,
@@ -52,7 +52,7 @@ def polynomial(c, order, t):
     return value, slope
 
 
-@within
+@kernel_only
 def place(p, y, side, tolerance, a):
     """Put a trajectory into a workspace, whose first rows are the same for series of any orders."""
     for i in range(packed.COUNT):
@@ -75,7 +75,7 @@ def load(p, y, tangents, side, tolerance, a, d):
                 d[COLUMNS * j + i] = tangents[i, j] if i < len(tangents) else 0.0
 
 
-@within
+@kernel_only
 def unload(y, tangents, a, d):
     """Take the state and the tangents out of the workspace."""
     for i in range(4):
@@ -85,7 +85,7 @@ def unload(y, tangents, a, d):
             tangents[i, j] = d[COLUMNS * j + i]
 
 
-@within
+@kernel_only
 def step_loaded(count, t, longest, a, d):
     """`step` of a trajectory that stays in the workspace, and of so many tangents."""
     a[TIME] = t

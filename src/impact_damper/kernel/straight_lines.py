@@ -1,8 +1,7 @@
-"""Straight lines of arithmetic, compiled without asking for their types.
+"""Compile straight lines of arithmetic without numba's type inference.
 
-All numbers are of one type here, or pairs of it, so that LLVM's code can be written at once.
-numba's inference of types takes a millisecond for an operation, and the series of a step have
-thousands of them.
+All values are floats, or pairs of floats, so the LLVM code can be written at once. numba's type
+inference takes a millisecond an operation, and the series of a step have thousands of them.
 """
 
 import ast
@@ -18,151 +17,262 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.compiling import CONTRACT
 
-# Lanes at once, in one register or, where they are narrower, in several.
+# Lanes in a vector: one register of 512 bits, or several where registers are narrower.
 WIDTH = 8
-NUMBER = ir.DoubleType()
-PAIR = ir.VectorType(NUMBER, 2)
-PLACE = ir.IntType(32)
+FLOAT = ir.DoubleType()
+PAIR = ir.VectorType(FLOAT, 2)
+INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
 
 
+class NotStraightError(SyntaxError):
+    """A line that `straight` cannot compile; the message names its file and number."""
+
+
 def straight(function):
-    """Compile a function that does lines of arithmetic for each lane.
+    """Compile a function that does the same lines of arithmetic for each lane.
 
     Parameters
     ----------
     function : callable
-        Of one argument or two, pointers to numbers. Its body is a loop `for i in range(lanes)`, of
-        a multiple of WIDTH or fewer, over assignments. Their left sides are names, or numbers
-        `a[1]` or `a[1 + i]` of an argument, and their right sides sums, differences, products and
-        quotients of such, of constants, of tuples of constants at `[i]`, and of `abs` and `max`.
-        Two numbers in brackets are a pair, for which each sum, difference, product and quotient is
-        made twice; a number beside it counts for both. A pair may be kept by a name, and assigned
-        to two of them. With one lane, it is one register.
+        Of one argument or two, pointers to float64. The body is a loop `for i in range(lanes)`,
+        with at most WIDTH lanes or a multiple of WIDTH, over assignments, also augmented ones.
+
+        - The left side is a name, `a[1 + i]`, or, with one lane, `a[1]`.
+        - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
+          `(1.0, 2.0)[i]` (a constant a lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`, which
+          is `x if x > y else y`.
+        - `(x, y)` is a pair. Operators act on both of its values; a float beside a pair counts
+          for both. A name can keep a pair, and `x, y = ...` takes it apart. With one lane, a pair
+          is one register.
 
     Returns
     -------
     intrinsic
-        To be called in a kernel. Its attribute `py_func` is the function.
+        To be called in a kernel, which raises NotStraightError when compiled if the function has
+        other lines. The attribute `py_func` is the function.
     """
-    tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
-    names = [argument.arg for argument in tree.args.args]
-    loop = tree.body[0]
-    lanes = loop.iter.args[0].value
-    width = min(lanes, WIDTH)
 
     def generate(context, builder, signature, arguments):
-        arrays = dict(zip(names, arguments, strict=True))
-        count, step = (context.get_constant(types.intp, n) for n in (lanes // width, width))
-        # A loop of one round would move stores behind its end.
-        with cgutils.for_range(builder, count) if lanes > width else nullcontext() as turn:
-            first = builder.mul(turn.index, step) if turn else None
-            lines = _Lines(builder, arrays, first, width)
-            for statement in loop.body:
-                lines.visit(statement)
+        write(function, builder, arguments)
         return context.get_dummy_value()
 
-    # Numba reads off the signature how many arguments there are.
+    # numba reads the number of arguments off the signature.
     def of_one(typing, a):
         return types.void(a), generate
 
     def of_two(typing, a, d):
         return types.void(a, d), generate
 
-    compiled = intrinsic(of_one if len(names) == 1 else of_two)
+    count = len(inspect.signature(function).parameters)
+    compiled = intrinsic(of_one if count == 1 else of_two)
     compiled.py_func = function
     return compiled
 
 
+def write(function, builder, pointers):
+    """Write the LLVM code of a function (see `straight`) that is called with pointers.
+
+    Raises
+    ------
+    NotStraightError
+        If a line is none of those that `straight` describes.
+    """
+    code = function.__code__
+    tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
+    ast.increment_lineno(tree, code.co_firstlineno - 1)
+    lines = _Lines(code.co_filename, builder)
+    loop, lanes = lines.loop_of(tree)
+    lines.arrays = dict(zip([each.arg for each in tree.args.args], pointers, strict=True))
+    lines.counter = loop.target.id
+    lines.lanes, lines.width = lanes, min(lanes, WIDTH)
+    lines.type = FLOAT if lanes == 1 else ir.VectorType(FLOAT, lines.width)
+    rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
+    # LLVM would move stores behind the end of a loop of one round.
+    with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
+        lines.first = builder.mul(turn.index, step) if turn else None
+        for statement in loop.body:
+            lines.visit(statement)
+    lines.check_lanes_apart(loop)
+
+
 def is_product(node):
-    """Whether an expression is a product."""
+    """Return whether an expression is a product."""
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)
 
 
-def repeated(builder, number, count):
-    """A vector of a number so many times."""
-    vector = ir.Constant(ir.VectorType(NUMBER, count), ir.Undefined)
-    vector = builder.insert_element(vector, number, ir.Constant(PLACE, 0))
-    zeros = ir.Constant(ir.VectorType(PLACE, count), [0] * count)
+def broadcast(builder, number, count):
+    """Return a vector that holds a number `count` times."""
+    vector = ir.Constant(ir.VectorType(FLOAT, count), ir.Undefined)
+    vector = builder.insert_element(vector, number, ir.Constant(INDEX, 0))
+    zeros = ir.Constant(ir.VectorType(INDEX, count), [0] * count)
     return builder.shuffle_vector(vector, vector, zeros)
 
 
 class _Lines(ast.NodeVisitor):
-    """Writes assignments for some lanes from the first on; with one lane of numbers and pairs."""
+    """Writes the code of assignments for `width` lanes, from lane `first` on.
 
-    def __init__(self, builder, arrays, first, width):
-        self.builder, self.arrays, self.first, self.width = builder, arrays, first, width
-        self.type = NUMBER if width == 1 else ir.VectorType(NUMBER, width)
+    With one lane a value is a double, and a pair a vector of two. With more lanes a value is a
+    vector, and a pair a tuple of two vectors.
+    """
+
+    def __init__(self, file, builder):
+        self.file, self.builder = file, builder
         self.values = {}
+        self.stored, self.loaded = set(), set()
 
-    def constant(self, number):
-        """A number in all lanes."""
-        return ir.Constant(self.type, number if self.width == 1 else [number] * self.width)
+    def refuse(self, node, what):
+        raise NotStraightError(f"{self.file}, line {node.lineno}: {what}: {ast.unparse(node)}")
 
-    def place(self, node):
-        """Pointer to a number of an array, and whether each lane has its own."""
-        index, own = node.slice, isinstance(node.slice, ast.BinOp)
-        number = ir.Constant(ir.IntType(64), (index.left if own else index).value)
-        if own and self.first is not None:
-            number = self.builder.add(number, self.first)
-        return self.builder.gep(self.arrays[node.value.id], [number], inbounds=True), own
+    def require(self, fits, node, what):
+        if not fits:
+            self.refuse(node, what)
+
+    def loop_of(self, tree):
+        """Return the loop that a function consists of, and the number of lanes."""
+        loop = tree.body[0]
+        match loop:
+            case ast.For(
+                target=ast.Name(),
+                iter=ast.Call(func=ast.Name("range"), args=[ast.Constant(int(lanes))], keywords=[]),
+                orelse=[],
+            ) if len(tree.body) == 1:
+                self.require(lanes > 0, loop, "no lanes")
+                whole = lanes <= WIDTH or lanes % WIDTH == 0
+                self.require(whole, loop, f"lanes are neither up to {WIDTH} nor a multiple of it")
+                return loop, lanes
+        self.refuse(tree, "the body is not one loop `for i in range(lanes)`")
+
+    def check_lanes_apart(self, loop):
+        """Refuse a lane that writes what another one reads or writes: lanes run side by side."""
+        for array, offset in self.stored:
+            for other, begin, count in self.loaded | {(*each, self.lanes) for each in self.stored}:
+                same = begin == offset and count == self.lanes
+                apart = other != array or begin + count <= offset or offset + self.lanes <= begin
+                self.require(same or apart, loop, f"lanes share a number of {array}")
+
+    def generic_visit(self, node):
+        self.refuse(node, "cannot be compiled as straight lines")
 
     def visit_Assign(self, node):
+        self.require(len(node.targets) == 1, node, "more than one target")
         self.store(node.targets[0], self.visit(node.value))
 
     def visit_AugAssign(self, node):
-        self.store(node.target, self.visit(ast.BinOp(node.target, node.op, node.value)))
+        value = ast.copy_location(ast.BinOp(node.target, node.op, node.value), node)
+        self.store(node.target, self.visit(value))
 
     def store(self, target, value):
-        if isinstance(target, ast.Tuple):
-            for place, each in enumerate(target.elts):
-                self.store(each, self.part(value, place))
-            return
-        if isinstance(target, ast.Name):
-            self.values[target.id] = value
-            return
-        pointer, _ = self.place(target)
-        self.builder.store(value, self.builder.bitcast(pointer, self.type.as_pointer()), align=8)
+        match target:
+            case ast.Tuple(elts=[first, second]):
+                self.require(self.is_pair(value), target, "the value is no pair")
+                for number, each in enumerate((first, second)):
+                    self.store(each, self.part(value, number))
+            case ast.Name(name):
+                known = name in self.arrays or name == self.counter
+                self.require(not known, target, "an argument or the counter is assigned to")
+                self.values[name] = value
+            case ast.Subscript():
+                self.number(value, target)
+                pointer, array, offset, own = self.element(target)
+                self.require(own or self.lanes == 1, target, "all lanes would write one number")
+                self.stored.add((array, offset))
+                pointer = self.builder.bitcast(pointer, self.type.as_pointer())
+                self.builder.store(value, pointer, align=8)
+            case _:
+                self.refuse(target, "cannot be assigned to")
+
+    def element(self, node):
+        """Return the pointer to `a[1]` or `a[1 + i]`, the array, 1, and whether i is added."""
+        match node:
+            case ast.Subscript(ast.Name(array), ast.Constant(int(offset))):
+                own = False
+            case ast.Subscript(
+                ast.Name(array),
+                ast.BinOp(ast.Constant(int(offset)), ast.Add(), ast.Name(self.counter)),
+            ):
+                own = True
+            case _:
+                self.refuse(node, "not of the form a[1] or a[1 + i]")
+        self.require(array in self.arrays, node, f"{array} is no argument")
+        self.require(type(offset) is int, node, "the index is no number")
+        number = ir.Constant(OFFSET, offset)
+        if own and self.first is not None:
+            number = self.builder.add(number, self.first)
+        pointer = self.builder.gep(self.arrays[array], [number], inbounds=True)
+        return pointer, array, offset, own
 
     def visit_Subscript(self, node):
         if isinstance(node.value, ast.Tuple):
-            return ir.Constant(self.type, list(map(float, ast.literal_eval(node.value))))
-        pointer, own = self.place(node)
+            return self.constants(node)
+        pointer, array, offset, own = self.element(node)
+        self.loaded.add((array, offset, self.lanes if own else 1))
         if own:
             pointer = self.builder.bitcast(pointer, self.type.as_pointer())
             return self.builder.load(pointer, align=8)
         number = self.builder.load(pointer, align=8)
-        if self.width == 1:
-            return number
-        return repeated(self.builder, number, self.width)
+        return number if self.width == 1 else broadcast(self.builder, number, self.width)
+
+    def constants(self, node):
+        """Return a constant a lane."""
+        counted = isinstance(node.slice, ast.Name) and node.slice.id == self.counter
+        fits = counted and 1 < self.lanes == self.width == len(node.value.elts)
+        self.require(fits, node, f"not a constant a lane, at [i], of up to {WIDTH} lanes")
+        return ir.Constant(self.type, [self.literal(each) for each in node.value.elts])
+
+    def literal(self, node):
+        """Return the value of a number in the source, with a minus sign or without."""
+        match node:
+            case ast.UnaryOp(ast.USub(), operand):
+                return -self.literal(operand)
+            case ast.Constant(value) if type(value) in (int, float):
+                return float(value)
+        self.refuse(node, "not a number")
 
     def visit_Name(self, node):
+        self.require(node.id in self.values, node, "a name without a value")
         return self.values[node.id]
 
     def visit_Constant(self, node):
-        return self.constant(float(node.value))
+        number = self.literal(node)
+        return ir.Constant(self.type, number if self.width == 1 else [number] * self.width)
 
     def visit_UnaryOp(self, node):
+        self.require(isinstance(node.op, ast.USub), node, "an unknown operator")
         return self.negative(self.visit(node.operand))
 
     def visit_Tuple(self, node):
-        parts = tuple(map(self.visit, node.elts))
+        self.require(len(node.elts) == 2, node, "not a pair")
+        values = tuple(self.number(self.visit(each), each) for each in node.elts)
         if self.width > 1:
-            return parts
+            return values
         pair = ir.Constant(PAIR, ir.Undefined)
-        for place, each in enumerate(parts):
-            pair = self.builder.insert_element(pair, each, ir.Constant(PLACE, place))
+        for number, each in enumerate(values):
+            pair = self.builder.insert_element(pair, each, ir.Constant(INDEX, number))
         return pair
 
-    def part(self, value, place):
-        """A number of a pair."""
+    def is_pair(self, value):
+        """Return whether a value is a pair."""
+        return isinstance(value, tuple) or (self.width == 1 and value.type == PAIR)
+
+    def number(self, value, node):
+        """Return a value, which must not be a pair."""
+        self.require(not self.is_pair(value), node, "a pair where a number is wanted")
+        return value
+
+    def part(self, value, number):
+        """Return the first or the second value of a pair."""
         if self.width > 1:
-            return value[place]
-        return self.builder.extract_element(value, ir.Constant(PLACE, place))
+            return value[number]
+        return self.builder.extract_element(value, ir.Constant(INDEX, number))
 
     def visit_BinOp(self, node):
-        """A product that is added is fused with the sum: that on the right, if there are two."""
+        """Return a sum, difference, product or quotient.
+
+        a*b + c becomes fmuladd(a, b, c). If both terms are products, the right one is fused.
+        """
         kind, left, right = type(node.op), node.left, node.right
+        self.require(kind in OPERATIONS, node, "an unknown operator")
         if kind in (ast.Add, ast.Sub) and is_product(right):
             first = self.visit(right.left)
             first = self.negative(first) if kind is ast.Sub else first
@@ -175,36 +285,44 @@ class _Lines(ast.NodeVisitor):
         return self.each(operation, self.visit(left), self.visit(right))
 
     def negative(self, value):
-        """A number or pair with the other sign."""
+        """Return a number or pair with the opposite sign."""
         return self.each(partial(self.builder.fneg, flags=CONTRACT), value)
 
     def fused(self, *values):
-        """First times second plus third, rounded once where the machine can."""
+        """Return the first value times the second plus the third, rounded once where possible."""
+        return self.call_llvm("llvm.fmuladd", values)
+
+    def call_llvm(self, name, values):
+        """Return what an LLVM intrinsic returns for values of one type."""
         kind = values[0].type
-        name = "llvm.fmuladd." + (f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64")
-        signature = ir.FunctionType(kind, [kind] * 3)
-        function = cgutils.get_or_insert_function(self.builder.module, signature, name)
+        suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
+        signature = ir.FunctionType(kind, [kind] * len(values))
+        function = cgutils.get_or_insert_function(
+            self.builder.module, signature, f"{name}.{suffix}"
+        )
         return self.builder.call(function, values)
 
     def each(self, operation, *values):
-        """An operation on numbers, or on the numbers of pairs and those beside them."""
+        """Return the result of an operation on numbers, or on both numbers of pairs."""
+        if not any(map(self.is_pair, values)):
+            return operation(*values)
         if self.width > 1:
-            if not any(isinstance(value, tuple) for value in values):
-                return operation(*values)
-            values = [value if isinstance(value, tuple) else (value, value) for value in values]
+            values = [value if self.is_pair(value) else (value, value) for value in values]
             return tuple(map(operation, *values))
-        if any(value.type == PAIR for value in values):
-            values = [
-                repeated(self.builder, each, 2) if each.type == NUMBER else each for each in values
-            ]
-        return operation(*values)
+        return operation(
+            *(
+                value if self.is_pair(value) else broadcast(self.builder, value, 2)
+                for value in values
+            )
+        )
 
     def visit_Call(self, node):
-        values = [self.visit(argument) for argument in node.args]
-        if node.func.id == "abs":
-            name = "llvm.fabs.f64" if self.width == 1 else f"llvm.fabs.v{self.width}f64"
-            signature = ir.FunctionType(self.type, [self.type])
-            function = cgutils.get_or_insert_function(self.builder.module, signature, name)
-            return self.builder.call(function, values)
-        larger = self.builder.fcmp_ordered(">", *values)
-        return self.builder.select(larger, *values)
+        counts = {"abs": 1, "max": 2}
+        name = node.func.id if isinstance(node.func, ast.Name) else None
+        self.require(name in counts, node, "neither abs nor max")
+        fits = len(node.args) == counts[name] and not node.keywords
+        self.require(fits, node, f"{name} takes {counts[name]} here")
+        values = [self.number(self.visit(each), each) for each in node.args]
+        if name == "abs":
+            return self.call_llvm("llvm.fabs", values)
+        return self.builder.select(self.builder.fcmp_ordered(">", *values), *values)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import inlined, kernel, within
+from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
@@ -53,7 +53,7 @@ def extremum(c, order, length, start):
     return best
 
 
-@within
+@kernel_only
 def series_of_step(work, side, y, t):
     """Z1, its rate, Z2 or the signed penetration, and its rate, at time t into a step from y."""
     if side == 0:
@@ -167,7 +167,7 @@ def trace(p, y, t, times, tolerance, states, log):
     return contacts
 
 
-@within
+@kernel_only
 def record_beginning(log, contacts, side, t, speed):
     """Open a row of the contact log; returns the number of contacts."""
     if contacts < len(log):

@@ -21,7 +21,7 @@ from impact_damper.kernel.batch import (
     make_pool,
     send,
 )
-from impact_damper.kernel.compiling import inlined, kernel, within
+from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.single import assign, side_of
 from impact_damper.motions.records import CHAOTIC, DIVERGED, NON_COLLIDING, SETTLED, UNRESOLVED
 from impact_damper.motions.strobe_map import (
@@ -59,7 +59,7 @@ SEEN = np.dtype(
 )
 
 
-@within
+@kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
     """Period of an orbit that the motion approaches and is within `tolerance` of, or 0.
 
@@ -104,7 +104,7 @@ def land(p, y, periods, near, out):
     return True
 
 
-@within
+@kernel_only
 def follow_tangent(tangent, growth):
     """Renormalise a tangent after a period and add its growth to its batch of BLOCK periods.
 

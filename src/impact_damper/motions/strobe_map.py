@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import inlined, kernel, within
+from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
@@ -30,7 +30,7 @@ def one_period(p, y, tangents, side, tolerance, work):
     return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[FREQUENCY], tolerance, work)
 
 
-@within
+@kernel_only
 def speed_weight(p, side):
     """Weight of Z2' in `distance`: 1 in flight; in contact it moves faster than Z2 by 1/weight."""
     if side == 0:

@@ -4,7 +4,7 @@ Equations (3), (4) and (20) to (24). A contact acts while |Z2| exceeds the clear
 at zero penetration, and the dashpot's force jumps at both ends.
 """
 
-from impact_damper.kernel.compiling import kernel, within
+from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force, spring
 from impact_damper.system.packed import (
     CLEARANCE,
@@ -31,7 +31,7 @@ def rate(p, side, t, y):
     return rate_under(p, side, external_force(p, t), y)
 
 
-@within
+@kernel_only
 def rate_under(p, side, drive, y):
     """`rate` under a known forcing."""
     x, v, z, w = y
@@ -40,7 +40,7 @@ def rate_under(p, side, drive, y):
     return v, a, w, a - p[INVERSE_MASS_RATIO] * force
 
 
-@within
+@kernel_only
 def rate_by_position(p, drive, y):
     """`rate_under`, the wall chosen by the position: integration through the kink."""
     return rate_under(p, wall_at(p, y[2]), drive, y)
@@ -52,7 +52,7 @@ def moved(y, h, k):
     return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
 
 
-@within
+@kernel_only
 def largest_within(x, v, x_end, v_end, h):
     """Largest |Z1| over a step, with the rate taken as linear in it."""
     largest = max(abs(x), abs(x_end))

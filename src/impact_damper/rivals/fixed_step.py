@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import kernel, within
+from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force
 from impact_damper.rivals.equations import largest_within, moved, rate_by_position
 from impact_damper.rivals.runs import Integrator
@@ -39,7 +39,7 @@ def forcing(p, t, h):
     )
 
 
-@within
+@kernel_only
 def heun_step(p, drives, h, y):
     """Return the state after a step of Heun's method, order 2."""
     k1 = rate_by_position(p, drives[0], y)
@@ -47,7 +47,7 @@ def heun_step(p, drives, h, y):
     return moved(moved(y, 0.5 * h, k1), 0.5 * h, k2)
 
 
-@within
+@kernel_only
 def verlet_step(p, drives, h, y):
     """Return the state after a step of velocity Verlet, order 2; forces take a predicted speed."""
     k1 = rate_by_position(p, drives[0], y)
@@ -57,7 +57,7 @@ def verlet_step(p, drives, h, y):
     return x, y[1] + 0.5 * h * (k1[1] + k2[1]), z, y[3] + 0.5 * h * (k1[3] + k2[3])
 
 
-@within
+@kernel_only
 def runge_kutta_4_step(p, drives, h, y):
     """Return the state after a step of the classical Runge-Kutta method, order 4."""
     k1 = rate_by_position(p, drives[0], y)
@@ -68,7 +68,7 @@ def runge_kutta_4_step(p, drives, h, y):
     return moved(moved(y, h / 3.0, k3), h / 6.0, k4)
 
 
-@within
+@kernel_only
 def merson_step(p, drives, h, y):
     """Return the state after a step of Runge-Kutta-Merson, order 4 with five evaluations."""
     k1 = rate_by_position(p, drives[0], y)

@@ -12,9 +12,10 @@ from functools import cache
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 
-from impact_damper.kernel.by_address import by_address, call_at
-from impact_damper.kernel.compiling import aligned, kernel, pointer
-from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance, steps
+from impact_damper.kernel.by_address import call_at, compiled
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
+from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.kernel.single import (
     COLUMNS,
     LENGTH,
@@ -78,9 +79,8 @@ def steps_of(orders):
     the kept series, and the size of a workspace.
     """
     module = instance(1, *orders)
-    flight, contact, _, _ = steps(module)
-    called = flight, contact, by_address(module.kept_series)
-    return np.array([*(each.compile() for each in called), module.SIZE])
+    called = module.flight_step, module.contact_step, module.kept_series
+    return np.array([*(compiled(each).address for each in called), module.SIZE])
 
 
 def name_of(orders):

@@ -1,19 +1,11 @@
-"""Compile every kernel that the package calls, on problems of no size, and cache it."""
+"""Compile every kernel that the package calls, by calls of no length, and cache it.
+
+A module that holds steps of the series compiles them when it is imported. So each function below
+imports what it compiles, which lets two processes share the work.
+"""
 
 import numpy as np
 
-from impact_damper.kernel import batch, single
-from impact_damper.migration import legs
-from impact_damper.motions import following, strobe_map
-from impact_damper.motions.ensemble import Settling
-from impact_damper.motions.records import MOTION
-from impact_damper.motions.simulate import simulate
-from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
-from impact_damper.rivals.orbit_models import rigid
-from impact_damper.rivals.passages import draw_passages, free_flight
-from impact_damper.rivals.taylor_runs import ORDERS, taylor
-from impact_damper.stages.response import collisions, frequency_response
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 
@@ -24,34 +16,46 @@ FREQUENCY = 1.95
 
 
 def warm_up() -> None:
-    """Call each kernel once with the types that it is always called with."""
+    """Call each kernel once, with the types that all calls have."""
     warm_up_orbits()
     warm_up_settling()
 
 
 def warm_up_orbits() -> None:
-    """`warm_up` of what takes one motion after the other; what both halves need first."""
-    for each in single.STEPS:
-        each.compile()
+    """`warm_up` for kernels that take one motion after the other.
+
+    First come those that `warm_up_settling` needs too, and last those that need its kernels.
+    """
+    from impact_damper.motions import records, strobe_map
+
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
     strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
+    strobe_map.flow_map(on, np.zeros(4), strobe_map.strobe_time(on), 1, False, 1e-9)
+    states, log = np.zeros((1, 4)), np.empty((0, 5))
+    records.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
+    records.first_collisions(on[None], states, 1, 1e-9, np.empty(1))
+
+    from impact_damper.migration import legs
+    from impact_damper.motions import following
+
     following.extrapolate(np.zeros(4), np.zeros(4), 1.0)
-    strobe_map.flow_map(on, np.zeros(4), strobe_time(on), 1, False, 1e-9)
-    path, records = np.zeros((4, 5)), np.zeros(1, MOTION)
-    legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, records)
-    simulate(OSCILLATOR, DAMPER, FREQUENCY, periods=1, samples=2)
-    collisions(OSCILLATOR, DAMPER, FREQUENCY, starts=1, periods=1)
+    path, out = np.zeros((4, 5)), np.zeros(1, records.MOTION)
+    legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, out)
 
 
 def warm_up_settling() -> None:
-    """`warm_up` of what takes many motions until they settle, and measures them."""
-    for each in batch.STEPS:
-        each.compile()
+    """`warm_up` for kernels that run many motions until they settle, and measure them."""
+    from impact_damper.kernel import batch
+
     pool, places = batch.make_pool(1), np.zeros(batch.LANES, np.int64)
     batch.enter(pool, 0, pack(OSCILLATOR, DAMPER, FREQUENCY), np.zeros(4), 0, 1e-9)
     batch.send(pool, 0, 0.0, 0.01, False)
     batch.advance_some(pool, places, places.copy())
+
+    from impact_damper.motions.ensemble import Settling
+    from impact_damper.stages.response import frequency_response
+
     settling = Settling(patience=100, limit=100, watched=1)
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
@@ -65,6 +69,12 @@ def warm_up_rivals(orders=()) -> None:
     differ in the last digit from those compiled in the same process, which shows where a method
     integrates through a jump. So this compiles them all before the jobs load them.
     """
+    from impact_damper.motions.strobe_map import strobe_time
+    from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
+    from impact_damper.rivals.orbit_models import rigid
+    from impact_damper.rivals.passages import draw_passages, free_flight
+    from impact_damper.rivals.taylor_runs import ORDERS, taylor
+
     p = pack(OSCILLATOR, DAMPER, 2.0)
     start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
     for each in (ORDERS, *map(tuple, orders)):

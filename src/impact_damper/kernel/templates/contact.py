@@ -9,7 +9,7 @@ This file is a template, as `step` is, and is compiled in one module with it.
 
 import math
 
-from impact_damper.kernel.compiling import within
+from impact_damper.kernel.compiling import kernel_only
 
 LANES: int
 
@@ -24,7 +24,7 @@ TINY = 1e-300
 FAR = 1e200
 
 
-@within
+@kernel_only
 def safe_advance(gap, closing, bound):
     """Time within which a gap that closes at a given speed cannot vanish.
 
@@ -37,7 +37,7 @@ def safe_advance(gap, closing, bound):
     return above / below
 
 
-@within
+@kernel_only
 def march(t, f, closing, ahead, length, fine):
     """Next time and mode while a gap f, now f(t), is certainly positive for the time `ahead`."""
     met = closing and (f <= fine or t + ahead == t)
@@ -46,20 +46,20 @@ def march(t, f, closing, ahead, length, fine):
     return following, MET if met else (ENDING if ends else MARCH)
 
 
-@within
+@kernel_only
 def bent(first, bend):
     """Step of third order, from one of second order and the relative bend of the gap."""
     return first * (1.0 - 0.5 * bend * first)
 
 
-@within
+@kernel_only
 def is_last(a, i, move, rate):
     """Whether what a move leaves out is far below the tolerance, of a gap that bends at a rate."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
 
-@within
+@kernel_only
 def close_in(a, i, t, f, first, bend, rate, fine):
     """Next move and mode between LOW and HIGH, where a gap is positive and where not; f at t is.
 
@@ -83,7 +83,7 @@ def close_in(a, i, t, f, first, bend, rate, fine):
     return step, MET if last or not moved else BRACKET
 
 
-@within
+@kernel_only
 def end_at(a, i, row, end, move, going):
     """Value and slope after a last move, from those before it and the curve, if still going."""
     value, slope = a[row + i], a[row + LANES + i]
@@ -94,7 +94,7 @@ def end_at(a, i, row, end, move, going):
     a[end + LANES + i] = slope if going else a[end + LANES + i]
 
 
-@within
+@kernel_only
 def go_on(a, i, mode, t, move):
     """Keep where a search in a lane has come to, after a last move; 1 if it has not ended."""
     going = a[MODE + i] <= ENDING
@@ -104,14 +104,14 @@ def go_on(a, i, mode, t, move):
     return 1 if mode <= ENDING else 0
 
 
-@within
+@kernel_only
 def loose_mass(a, i, t):
     """Z2 and its speed in flight, from Z1 and its slope at t."""
     drift = a[Y3 + i] - a[Y1 + i]
     return a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t, a[Z1_SLOPE + i] + drift
 
 
-@within
+@kernel_only
 def first_guess(a, i):
     """When a wall would be met by the first terms of the gap's series."""
     gap = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
@@ -120,7 +120,7 @@ def first_guess(a, i):
     return 2.0 * gap / (speed + math.sqrt(max(speed * speed + 2.0 * bend * gap, 0.0)))
 
 
-@within
+@kernel_only
 def gap_ahead(a, i, t):
     """The gap to the WALL at t, a step of second order to where it closes, and its relative bend.
 
@@ -132,7 +132,7 @@ def gap_ahead(a, i, t):
     return gap, gap / closing, a[WALL + i] * a[Z1_CURVE + i] / closing
 
 
-@within
+@kernel_only
 def expect_contact(a):
     """Move T from LENGTH to where a contact may be expected before it.
 
@@ -149,7 +149,7 @@ def expect_contact(a):
         guess_contact(a)
 
 
-@within
+@kernel_only
 def guess_contact(a):
     """Move T to where trajectories whose MODE is BRACKET may meet a wall; others' to LENGTH."""
     for i in range(LANES):
@@ -162,7 +162,7 @@ def guess_contact(a):
         a[T + i] = t if inside else a[LENGTH + i]
 
 
-@within
+@kernel_only
 def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
@@ -203,7 +203,7 @@ def find_contact(a):
         search_contact(a)
 
 
-@within
+@kernel_only
 def meet_expected(a):
     """`find_contact` where T is before LENGTH, at a wall neared all the time, nearly."""
     flight_curve(a)
@@ -223,7 +223,7 @@ def meet_expected(a):
     return unsettled
 
 
-@within
+@kernel_only
 def search_contact(a):
     """`find_contact` for trajectories that meet a wall in the step, or may do so."""
     for i in range(LANES):

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import within
+from impact_damper.kernel.compiling import kernel_only
 
 LANES: int
 
@@ -18,7 +18,7 @@ QUARTER_REST = 6.077100506506192e-11
 NEAR = 1e-4
 
 
-@within
+@kernel_only
 def find_forcing(a):
     """COSINE and SINE of the forcing phase at KNOWN, by their series within an eighth of a turn."""
     for i in range(LANES):
@@ -40,7 +40,7 @@ def find_forcing(a):
         a[SINE + i] = sign * (c if odd else s)
 
 
-@within
+@kernel_only
 def forcing(a):
     """COSINE and SINE of the forcing phase at TIME.
 
@@ -58,7 +58,7 @@ def forcing(a):
         a[SINE] = (s + t * c) - u * (0.5 * s + t * (c / 6.0))
 
 
-@within
+@kernel_only
 def look_ahead(a):
     """For one trajectory, which would wait for it, the forcing at T, where the step may end."""
     if LANES == 1:

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import within
+from impact_damper.kernel.compiling import kernel_only
 from impact_damper.kernel.equation import spring, spring_slope
 
 LANES: int
@@ -18,7 +18,7 @@ LANES: int
 DEEPER, BACK, TURNING = 0.55, 0.4, 0.25
 
 
-@within
+@kernel_only
 def fast_exp2(y):
     """Power of 2, to 0.3 %."""
     whole = np.floor(y)
@@ -27,7 +27,7 @@ def fast_exp2(y):
     return power * (1.0 + part * (0.6565 + 0.3435 * part))
 
 
-@within
+@kernel_only
 def swing(f, slope, natural):
     """Time, nearly, in which what swings at a natural frequency with f and this slope is at zero.
 
@@ -38,7 +38,7 @@ def swing(f, slope, natural):
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
 
-@within
+@kernel_only
 def foresee_release(a):
     """NATURAL frequency, LENGTH, and a guess at T in it where the contact ends.
 
@@ -71,7 +71,7 @@ def foresee_release(a):
         a[T + i] = guess if 0.0 < guess < length else length
 
 
-@within
+@kernel_only
 def find_release(a):
     """Move T to the first time in [0, LENGTH] at which the penetration returns to zero.
 

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import within
+from impact_damper.kernel.compiling import kernel_only
 
 LANES: int
 TANGENTS: int
@@ -33,25 +33,25 @@ SAFETY = 0.05
 BEYOND = 4.0
 
 
-@within
+@kernel_only
 def bits(x):
     """The bits of a number: if positive, about 2^52 times its logarithm to base 2, plus ONE."""
     return np.float64(x).view(np.int64)
 
 
-@within
+@kernel_only
 def number(x):
     """The number of some bits."""
     return np.int64(x).view(np.float64)
 
 
-@within
+@kernel_only
 def allowed(a, i):
     """How large the last terms of the series may be."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
-@within
+@kernel_only
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' slope stay below the tolerance.
 
@@ -68,7 +68,7 @@ def limit_length(a, series, order, excess):
         a[LENGTH + i] = shorter if a[TAIL + i] > excess * allowed(a, i) else a[LENGTH + i]
 
 
-@within
+@kernel_only
 def foresee_length(a):
     """Find a LENGTH in which the last terms of the series of Z1' may be expected to stay small.
 
@@ -91,7 +91,7 @@ def foresee_length(a):
         a[T + i] = a[LENGTH + i]
 
 
-@within
+@kernel_only
 def end_flight(a):
     """Find Z1 and its slope at T, where the step may END.
 
@@ -111,7 +111,7 @@ def end_flight(a):
         a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
 
 
-@within
+@kernel_only
 def flight_step(a):
     """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
     forcing(a)
@@ -142,7 +142,7 @@ def flight_step(a):
         a[LENGTH + i] = t
 
 
-@within
+@kernel_only
 def flight_tangents(a, d):
     """Carry tangents through the flight that `flight_step` has just made."""
     flight_squares(a)
@@ -157,7 +157,7 @@ def flight_tangents(a, d):
     dashpot_jump(a, d, -1.0)
 
 
-@within
+@kernel_only
 def contact_tangents(a, d):
     """Carry tangents through the contact that `contact_step` has just made."""
     contact_squares(a)
@@ -166,7 +166,7 @@ def contact_tangents(a, d):
     dashpot_jump(a, d, 1.0)
 
 
-@within
+@kernel_only
 def dashpot_jump(a, d, direction):
     """Jump of tangents where the dashpot's force has set in (-1) or ended (+1).
 
@@ -182,7 +182,7 @@ def dashpot_jump(a, d, direction):
         d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS_RATIO + j])
 
 
-@within
+@kernel_only
 def contact_step(a):
     """Step of trajectories in contact, whose SIDE becomes 0 where it ends."""
     forcing(a)

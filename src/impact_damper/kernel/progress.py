@@ -1,0 +1,68 @@
+"""One line on standard error when kernels take long to compile."""
+
+import gc
+import sys
+import time
+
+from numba.core import event
+
+# numba's event, and ours for what `by_address` compiles.
+NUMBA_EVENT, OWN_EVENT = "numba:compile", "impact_damper:compile"
+PATIENCE = 1.0  # seconds
+MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
+
+
+class Progress(event.Listener):
+    """Adds up the time spent on compiling functions of this package, and writes MESSAGE once.
+
+    Meanwhile the garbage collector pauses: compiling makes little garbage, and the search for it
+    takes a fifth of the time.
+    """
+
+    def __init__(self):
+        self.depth = 0
+        self.spent = 0.0
+        self.written = False
+
+    def on_start(self, started):
+        if not _is_own(started):
+            return
+        if self.depth == 0:
+            self.begun = time.perf_counter()
+            self.collecting = gc.isenabled()
+            gc.disable()
+        self.depth += 1
+        self._write()
+
+    def on_end(self, ended):
+        if not _is_own(ended):
+            return
+        self.depth -= 1
+        self._write()
+        if self.depth == 0:
+            self.spent += time.perf_counter() - self.begun
+            if self.collecting:
+                gc.enable()
+
+    def _write(self):
+        spent = self.spent + time.perf_counter() - self.begun
+        if spent > PATIENCE and not self.written:
+            self.written = True
+            print(MESSAGE, file=sys.stderr, flush=True)
+
+
+def _is_own(compiled):
+    """Whether an event is about a function of this package or of a module written for it."""
+    return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
+
+
+def compiling(dispatcher):
+    """Return a context in which a kernel is compiled other than by a call."""
+    return event.trigger_event(OWN_EVENT, data={"dispatcher": dispatcher})
+
+
+def show_progress():
+    """Write MESSAGE from now on."""
+    listener = Progress()
+    for kind in (NUMBA_EVENT, OWN_EVENT):
+        event.register(kind, listener)

@@ -1,0 +1,113 @@
+"""What importing the package leaves as it was, and the folder and the message of compiling."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import impact_damper
+from impact_damper.kernel.compiling import ROOMS_WITHOUT_KERNELS
+from impact_damper.kernel.progress import MESSAGE
+
+PACKAGE = Path(impact_damper.__file__).parent
+
+FOREIGN = """
+import numba
+
+@numba.njit(cache=True)
+def double(x):
+    return 2.0 * x
+"""
+
+USER = """
+import numba
+before = numba.config.CACHE_DIR, numba.config.CPU_FEATURES, numba.config.CPU_NAME
+import impact_damper.kernel.single
+import foreign
+assert foreign.double(2.0) == 4.0
+assert before == (numba.config.CACHE_DIR, numba.config.CPU_FEATURES, numba.config.CPU_NAME)
+"""
+
+SLOW = """
+import time
+from impact_damper.kernel.progress import compiling, show_progress
+
+def compiled(seconds):
+    with compiling(dispatcher):
+        time.sleep(seconds)
+
+class dispatcher:
+    def py_func():
+        pass
+
+dispatcher.py_func.__module__ = "MODULE"
+show_progress()
+for seconds in SECONDS:
+    compiled(seconds)
+"""
+
+
+def run(code, *, without=(), **environment):
+    """Run code in a fresh Python, and return what it writes to standard error."""
+    environment = os.environ | environment
+    process = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        env={name: value for name, value in environment.items() if name not in without},
+    )
+    assert process.returncode == 0, process.stderr
+    return process.stderr
+
+
+def test_importing_the_package_leaves_numba_as_it_was(tmp_path):
+    (tmp_path / "foreign.py").write_text(FOREIGN)
+    paths = os.pathsep.join([str(tmp_path), *sys.path])
+    run(USER, without=("NUMBA_CACHE_DIR",), PYTHONPATH=paths)
+    assert list((tmp_path / "__pycache__").glob("foreign.double-*.nbi"))
+
+
+@pytest.mark.parametrize(
+    ("module", "seconds", "written"),
+    [
+        ("impact_damper.made_up", (0.7, 0.7, 1.1), f"{MESSAGE}\n"),
+        ("impact_damper.made_up", (0.1, 0.1), ""),
+        ("foreign", (1.1,), ""),
+    ],
+)
+def test_compiling_says_so_once_when_it_takes_longer_than_a_second(module, seconds, written):
+    code = SLOW.replace("MODULE", module).replace("SECONDS", repr(seconds))
+    assert run(code, PYTHONPATH=os.pathsep.join(sys.path)) == written
+
+
+def digest(package):
+    """`source_digest` of a copy of the package."""
+    code = "from impact_damper.kernel.compiling import source_digest; print(source_digest())"
+    environment = os.environ | {"PYTHONPATH": str(package.parent)}
+    environment["NUMBA_CACHE_DIR"] = str(package.parent)
+    return subprocess.check_output([sys.executable, "-c", code], env=environment)
+
+
+def test_an_edit_of_what_kernels_depend_on_compiles_them_anew(tmp_path):
+    package = tmp_path / "impact_damper"
+    shutil.copytree(PACKAGE, package)
+    before = digest(package)
+    for room in ROOMS_WITHOUT_KERNELS:
+        (package / room / "added.py").write_text("")
+    assert digest(package) == before
+    for edited in ("kernel/recurrence.py", "kernel/templates/step.py", "motions/records.py"):
+        with (package / edited).open("a") as file:
+            file.write("# edited\n")
+        after = digest(package)
+        assert after != before
+        before = after
+
+
+@pytest.mark.parametrize("room", ROOMS_WITHOUT_KERNELS)
+def test_rooms_without_kernels_compile_none(room):
+    for path in (PACKAGE / room).rglob("*.py"):
+        assert "impact_damper.kernel.compiling" not in path.read_text(), path
