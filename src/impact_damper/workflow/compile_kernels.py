@@ -81,18 +81,15 @@ def warm_up_rivals(orders=()) -> None:
         taylor(p, start, begin, 1, 1e-3, each)
     rigid(p, 0.75, start, begin, 1, 1e-3)
     rivals = integrators()
+    resolution = {name: 100 if each.fixed else 1e-3 for name, each in METHODS.items()}
     for label in COMPARED["accuracy"]:
         name, locate = name_and_mode(label)
         rivals[name].run(p, start, begin, 1, 1e-3, locate, 1000)
     for label in COMPARED["method_verdicts"]:
         name, locate = name_and_mode(label)
-        rivals[name].strobes(p, start, begin, 1, _resolution(name), locate)
+        rivals[name].strobes(p, start, begin, 1, resolution[name], locate)
     for name in COMPARED["missed_contacts"][1:]:
-        rivals[name].flight(free_flight(p), start, 1.0, _resolution(name), 0.5)
+        rivals[name].flight(free_flight(p), start, 1.0, resolution[name], 0.5)
     for name in COMPARED["stable_steps"]:
         rivals[name].largest_displacements(p, start, begin, 1, 100)
     draw_passages(p, 1, 2.0, 0.1, 1995)
-
-
-def _resolution(name):
-    return 100 if METHODS[name].fixed else 1e-3
