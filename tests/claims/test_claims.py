@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from helpers.made_up import PEAKS, damped_branches, world
 
-from impact_damper.claims import exact, extract
+from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import (
     DIFFERENT,
     NOT_DECIDABLE,
     NOT_REPRODUCED,
     REPRODUCED,
     Claim,
+    Measure,
     Missing,
-    Number,
 )
 from impact_damper.claims.extract import ELASTIC
 from impact_damper.claims.suppression import suppression_band
@@ -210,7 +210,7 @@ def test_data_refute(number, data):
     REFUTED[number](data)
     row = BY_NUMBER[number].judge(data)
     assert row["verdict"] == NOT_REPRODUCED, row["evidence"]
-    assert row["difference"].startswith("Here ")
+    assert row["difference"].startswith("Computed: ")
 
 
 @pytest.mark.parametrize("number", DIFFERENCES)
@@ -228,16 +228,16 @@ def test_missing_data_leave_it_open(number):
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
-def test_evidence_and_numbers_have_the_same_names(claim, data):
-    assert {number.name for number in claim.numbers} <= set(claim.evidence(data))
-    assert any(number.decisive for number in claim.numbers)
+def test_evidence_and_measures_have_the_same_names(claim, data):
+    assert {measure.name for measure in claim.measures} <= set(claim.evidence(data))
+    assert any(measure.decisive for measure in claim.measures)
 
 
 def fitting(claim):
     """Made-up evidence within all bounds of a claim."""
-    values = dict.fromkeys((number.name for number in claim.numbers), 0.0)
-    for number in claim.numbers:
-        values[number.name] = np.clip(values[number.name], number.least, number.most)
+    values = dict.fromkeys((measure.name for measure in claim.measures), 0.0)
+    for measure in claim.measures:
+        values[measure.name] = np.clip(values[measure.name], measure.least, measure.most)
     return values
 
 
@@ -245,22 +245,23 @@ def fitting(claim):
 def test_made_up_evidence_flips_the_verdict(claim):
     values = fitting(claim)
     assert claim.verdict(values) == REPRODUCED
-    for number in claim.numbers:
-        if number.asked:
-            beyond = number.least - 1 if math.isfinite(number.least) else number.most + 1
+    for measure in claim.measures:
+        if measure.requirement:
+            finite = math.isfinite(measure.least)
+            beyond = measure.least - 1 if finite else measure.most + 1
             decisive = any(
-                other.decisive and not other.holds(beyond)
-                for other in claim.numbers
-                if other.name == number.name
+                same.decisive and not same.holds(beyond)
+                for same in claim.measures
+                if same.name == measure.name
             )
             expected = NOT_REPRODUCED if decisive else DIFFERENT
-            assert claim.verdict(values | {number.name: beyond}) == expected
-            assert claim.verdict(values | {number.name: math.nan}) == NOT_DECIDABLE
+            assert claim.verdict(values | {measure.name: beyond}) == expected
+            assert claim.verdict(values | {measure.name: math.nan}) == NOT_DECIDABLE
 
 
-SHARP = Number("sharp", "the sharp number", most=1.0, decisive=True)
-FULL = Number("full", "the full number", least=0.0, most=2.0)
-NOTE = Number("note", "the note")
+SHARP = Measure("sharp", "the sharp number", most=1.0, decisive=True)
+FULL = Measure("full", "the full number", least=0.0, most=2.0)
+NOTE = Measure("note", "the note")
 
 
 @pytest.mark.parametrize(
@@ -284,11 +285,11 @@ def test_words():
     evidence = {"sharp": 1.23456, "full": math.nan, "note": math.nan}
     row = Claim("1", "", "", "", (SHARP, FULL, NOTE), lambda datasets: evidence).judge({})
     assert row["criterion"] == (
-        "Decided by: the sharp number at most 1. In full: the full number from 0 to 2."
+        "Decided by: the sharp number at most 1. Full agreement: the full number from 0 to 2."
     )
     assert row["evidence"] == "the sharp number: 1.235; the full number: none; the note: none"
     assert row["difference"] == (
-        "Here the sharp number is 1.235 instead of at most 1; the full number is unknown."
+        "Computed: the sharp number is 1.235 instead of at most 1; the full number is unknown."
     )
 
 
@@ -325,31 +326,31 @@ def test_band_without_high_motions_has_no_lower_edge(data):
 
 
 def test_a_quiet_orbit_is_stable_and_smaller_than_half_the_resonance(data):
-    curve = exact.of_curve(data, "figure_05a")
-    quiet = exact.quiet(*curve)
-    assert exact.ranges(quiet) == [pytest.approx([1.0, 3.0])]
+    curve = exact_orbits.of_curve(data, "figure_05a")
+    quiet = exact_orbits.quiet(*curve)
+    assert exact_orbits.ranges(quiet) == [pytest.approx([1.0, 3.0])]
     assert quiet["size"].max() < 0.2
     unstable("figure_05a", 0.8, 0.9)(data)
-    broken = exact.ranges(exact.quiet(*exact.of_curve(data, "figure_05a")))
+    broken = exact_orbits.ranges(exact_orbits.quiet(*exact_orbits.of_curve(data, "figure_05a")))
     assert np.ravel(broken) == pytest.approx([1.0, 1.6, 1.8, 3.0], abs=0.02)
-    assert exact.covered(exact.high(*curve), 1.5, 2.0) == pytest.approx(0.4)
+    assert exact_orbits.covered(exact_orbits.high(*curve), 1.5, 2.0) == pytest.approx(0.4)
 
 
 def test_between_neighbouring_orbits_a_straight_line_is_close():
     """Against motions simulated at other frequencies; the folds bound the stable pieces."""
     oscillator, span = Oscillator(damping=0.215), (1.2, 2.6)
     free = orbit_branch(oscillator, None, 1.8, (2.2, 0.1), span=span)
-    part = exact.pieces(free)
+    part = exact_orbits.pieces(free)
     part = part[part.stable]
-    end, _ = exact.resonance_fold(free)
-    assert exact.ranges(part[part["size"] > 1.2]) == [pytest.approx([span[0], end])]
+    end, _ = exact_orbits.resonance_fold(free)
+    assert exact_orbits.ranges(part[part["size"] > 1.2]) == [pytest.approx([span[0], end])]
     first = float(free.event_value.min())
-    assert exact.ranges(part[part["size"] < 1.2]) == [pytest.approx([first, span[1]])]
+    assert exact_orbits.ranges(part[part["size"] < 1.2]) == [pytest.approx([first, span[1]])]
     for frequency in (1.51, 1.77):
         motion = steady_motion(oscillator, None, frequency, (2.2, 0.1))
-        size = exact.resonance(free, [frequency])
+        size = exact_orbits.resonance(free, [frequency])
         assert size == pytest.approx(float(motion.maximum_displacement), rel=1e-3)
-    assert np.isnan(exact.resonance(free, [2.2]))
+    assert np.isnan(exact_orbits.resonance(free, [2.2]))
 
 
 def test_release_phase_decides_in_the_nearest_range_of_all_scans(data):

@@ -1,1 +1,1 @@
-"""What the paper states, judged by the datasets."""
+"""Claims of the paper, each with the numbers that decide it and a verdict from the datasets."""

@@ -1,18 +1,22 @@
-"""Claims on harmonic balance: 1, 2 and 3 (sections 2 and 3, figure 3)."""
+"""Claims 1, 2 and 3, on solutions of harmonic balance (sections 2 and 3, figure 3)."""
 
 import numpy as np
 import pandas as pd
 
-from impact_damper.claims import exact, extract
-from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.claims import exact_orbits, extract
+from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.suppression import suppression_band
 from impact_damper.data.datasets import flag, is_settled
 
-NEAR = 0.1
+NEAR = 0.1  # largest relative difference of an orbit that agrees with a solution of (7)
 
 
 def small_motion(datasets):
-    """Numbers of claim 1: the designs that fulfil (19), and orbits of dampers close to it."""
+    """Measures of claim 1: at rm W^2 d0 = 1 equations (14) and (7) have a small stable solution.
+
+    From harmonic balance of the designs by (19), and from the exact orbits of the dampers of
+    figures 5 and 8.
+    """
     designs = extract.select(datasets, "design", extract.RULES)
     vanishing = []
     for design in designs:
@@ -25,10 +29,10 @@ def small_motion(datasets):
     sizes = [float(design.quiet_amplitude / design.peak_amplitude) for design in designs]
     orbits = []
     for name in extract.ELASTIC:
-        branches, free = exact.of_curve(datasets, name)
+        branches, free = exact_orbits.of_curve(datasets, name)
         peak = float(extract.get(datasets, "design", name).peak_frequency)
-        small = exact.smallest(exact.quiet(branches, free), peak)["size"]
-        orbits.append(small.min() / exact.resonance_fold(free)[1])
+        small = exact_orbits.smallest(exact_orbits.quiet(branches, free), peak)["size"]
+        orbits.append(small.min() / exact_orbits.resonance_fold(free)[1])
     return {
         "vanishing": np.max(vanishing),
         "size": np.nanmax([*sizes, 0.0]),
@@ -39,7 +43,10 @@ def small_motion(datasets):
 
 
 def rigid_against_elastic(datasets):
-    """Numbers of claim 2: solutions of (7), roots of (14) and orbits, the quiet ones left out."""
+    """Measures of claim 2: the larger solutions of (14) and (7) agree.
+
+    The smallest solution at each frequency is left out. Exact orbits are compared as well.
+    """
     designs = datasets.get("design", {}).values()
     if not designs:
         raise Missing("There is no dataset of the stage design")
@@ -53,32 +60,35 @@ def rigid_against_elastic(datasets):
             a, limit = a[np.isfinite(a)], limit[np.isfinite(limit)]
             alike.append(len(a) == len(limit))
             if alike[-1] and len(a) > 1:
-                others = np.arange(len(a)) != np.argmin(np.abs(a))
-                errors.append(np.max(np.abs(limit - a)[others] / np.abs(a)[others]))
+                larger = np.arange(len(a)) != np.argmin(np.abs(a))
+                errors.append(np.max(np.abs(limit - a)[larger] / np.abs(a)[larger]))
     pairs = pd.concat(
         [
-            exact.counterparts(
-                extract.get(datasets, "design", name), exact.of_curve(datasets, name)[0]
+            exact_orbits.counterparts(
+                extract.get(datasets, "design", name), exact_orbits.of_curve(datasets, name)[0]
             )
             for name in extract.ELASTIC
         ]
     )
-    others = pairs.difference[~pairs.least]
-    near = others[others < NEAR]
+    differences = pairs.difference[~pairs.least]
+    near = differences[differences < NEAR]
     return {
         "alike": np.mean(alike),
         "error": np.max(errors, initial=0.0) if errors else np.nan,
-        "orbits": len(near) / len(others) if len(others) else np.nan,
+        "orbits": len(near) / len(differences) if len(differences) else np.nan,
         "orbit_error": near.median(),
     }
 
 
 def quiet_and_high(datasets):
-    """Numbers of claim 3: where stable small and large solutions of (7), and orbits, exist."""
+    """Measures of claim 3: small stable motions around Wp, large ones outside the band.
+
+    By the solutions of (7) for all omega_l, and by exact orbits.
+    """
     reach, beside, bands = [], [], []
     for design in extract.select(datasets, "design", (*extract.CAPTIONS, *extract.RULES)):
         peak = float(design.peak_frequency)
-        half = exact.HALF * float(design.peak_amplitude)
+        half = exact_orbits.HALF * float(design.peak_amplitude)
         frequency = design.frequency.values
         size = np.abs(extract.stable_impacting(design))
         small = (size < half).any("solution").values
@@ -87,7 +97,7 @@ def quiet_and_high(datasets):
         bands.append(int(design.band_status) == flag("band_status", "found"))
         lower = float(design.edge_frequency[0]) if bands[-1] else peak
         below = (frequency > 0.75 * peak) & (frequency < lower)
-        level = exact.HALF * extract.free_resonance_balance(design)
+        level = exact_orbits.HALF * extract.free_resonance_balance(design)
         beside.append(np.mean((size > level).any("solution").values[below]))
     return (
         {
@@ -95,13 +105,13 @@ def quiet_and_high(datasets):
             "bands": np.mean(bands),
             "beside": np.min(beside),
         }
-        | _orbits_beside(datasets)
-        | _designs(datasets)
+        | _quiet_and_high_orbits(datasets)
+        | _design_orbits(datasets)
     )
 
 
-def _designs(datasets):
-    """Numbers of claim 3 on the true quiet orbits at the designs with a linear spring."""
+def _design_orbits(datasets):
+    """Measures of claim 3 from the exact quiet orbits at the design points of figure 3."""
     names = (*extract.CAPTIONS[1:], *extract.RULES)
     orbits = extract.select(datasets, "design_orbit", names)
     multipliers = [extract.largest_multiplier(extract.design_point(orbit)) for orbit in orbits]
@@ -115,22 +125,24 @@ def _designs(datasets):
     }
 
 
-def _orbits_beside(datasets):
-    """Numbers of claim 3 on orbits: how far the quiet ones reach, and the high ones."""
+def _quiet_and_high_orbits(datasets):
+    """Measures of claim 3 from the ranges of quiet and of high exact orbits, omega_l = 0."""
     reach, beside, pairs = [], [], []
     for name in extract.ELASTIC:
-        branches, free = exact.of_curve(datasets, name)
+        branches, free = exact_orbits.of_curve(datasets, name)
         design = extract.get(datasets, "design", name)
         peak = float(design.peak_frequency)
         around = [
             min(peak - lower, upper - peak)
-            for lower, upper in exact.ranges(exact.quiet(branches, free))
+            for lower, upper in exact_orbits.ranges(exact_orbits.quiet(branches, free))
             if lower <= peak <= upper
         ]
         reach.append(max(around, default=0.0) / peak)
         lower, edge = 0.75 * peak, suppression_band(datasets, name).lower
-        beside.append(exact.covered(exact.high(branches, free), lower, edge) / (edge - lower))
-        pairs.append(exact.high_counterparts(design, branches, free))
+        beside.append(
+            exact_orbits.covered(exact_orbits.high(branches, free), lower, edge) / (edge - lower)
+        )
+        pairs.append(exact_orbits.high_counterparts(design, branches, free))
     pairs = pd.concat(pairs)
     return {
         "orbit_reach": np.min(reach),
@@ -142,135 +154,147 @@ def _orbits_beside(datasets):
 
 CLAIMS = (
     Claim(
-        "1",
-        "With rm W^2 d0 = 1 one root of (14) has no amplitude; (7) gives a small amplitude, "
+        number="1",
+        text="With rm W^2 d0 = 1 one root of (14) has zero amplitude; (7) gives a small amplitude, "
         "stable by appendix A.",
-        "section 3",
-        "Near the peak frequency, for the designs by (19); and by the exact orbits of the dampers "
-        "of figures 5 and 8, whose rm Wp^2 d0 is within 4 % of 1. Small: of period 1 and below "
-        "half of the free resonance.",
-        (
-            Number(
+        source="section 3",
+        interpretation="Near the peak frequency, for the designs by (19); and by the exact orbits "
+        "of the dampers of figures 5 and 8, whose rm Wp^2 d0 is within 4 % of 1. Small: of period "
+        "1 and below half of the free resonance.",
+        measures=(
+            Measure(
                 "vanishing",
-                "|rm W^2 d0 - 1| where a root of (14) passes a = 0",
+                "|rm W^2 d0 - 1| at the frequency where a root of (14) has a = 0",
                 most=0.005,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "stable",
                 "share of designs by (19) with a stable small solution of (7) at Wp",
                 least=1,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "size",
-                "its largest amplitude over that of the free resonance",
+                "largest ratio of the amplitude of this solution to the free resonance amplitude",
                 most=0.05,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "orbits",
                 "share of the dampers of figures 5 and 8 with a stable small orbit at Wp",
                 least=1,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "orbit_size",
-                "its largest max |Z1| over that of the free resonance",
+                "largest ratio of max |Z1| of this orbit to the free resonance",
                 most=0.05,
                 decisive=True,
             ),
         ),
-        small_motion,
+        evidence=small_motion,
     ),
     Claim(
-        "2",
-        "Other impacting solutions of (14) and (7) agree closely.",
-        "section 3",
-        "All roots of (14) with pushing walls but the smallest, against those of (7) at the same "
-        "frequency, wherever both are as many. Beside it the first harmonic of the nearest "
-        "symmetric orbit of period 1 with two contacts, stable or not, for the dampers of figures "
-        "5 and 8; branches that no stable motion leads to are not known.",
-        (
-            Number(
+        number="2",
+        text="Other impacting solutions of (14) and (7) agree closely.",
+        source="section 3",
+        interpretation="All roots of (14) with pushing walls except the smallest, compared with "
+        "the solutions of (7) at the same frequency if both have the same number. In addition the "
+        "first harmonic of the nearest symmetric orbit of period 1 with two contacts, stable or "
+        "unstable, for the dampers of figures 5 and 8; branches without any stable orbit are "
+        "unknown.",
+        measures=(
+            Measure(
                 "alike",
-                "share of frequencies with as many roots of (14) as of (7)",
+                "share of frequencies at which (14) and (7) have the same number of solutions",
                 least=0.9,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "error", "largest relative difference of the amplitudes", most=0.05, decisive=True
             ),
-            Number("orbits", "share of these solutions of (7) with an orbit within a tenth of a"),
-            Number("orbit_error", "median relative difference of these orbits to a"),
+            Measure(
+                "orbits", "share of the larger solutions of (7) with an orbit within 10 % of a"
+            ),
+            Measure(
+                "orbit_error",
+                "median relative difference between the first harmonic of these orbits and a",
+            ),
         ),
-        rigid_against_elastic,
+        evidence=rigid_against_elastic,
     ),
     Claim(
-        "3",
-        "Whatever omega_l, a stable low-amplitude solution exists around Wp; a stable "
+        number="3",
+        text="Whatever omega_l, a stable low-amplitude solution exists around Wp; a stable "
         "high-amplitude one coexists outside the suppression band.",
-        "section 3, figure 3",
-        "Low and high: below and above half of the free resonance. Outside the band: from 0.75 Wp "
-        "to its lower edge, for above the band the resonance branch has ended. By the stable "
-        "solutions of (7), and for omega_l = 0 by the stable orbits that exist, of any period, "
-        "with the band by the motions that exist. For all omega_l of figure 3 by the true quiet "
-        "orbit at Wp, followed there from heavy damping.",
-        (
-            Number(
+        source="section 3, figure 3",
+        interpretation="Low and high: below and above half of the free resonance. Outside the "
+        "band: from 0.75 Wp to the lower edge of the band; above the band the resonance branch "
+        "has ended. By the stable solutions of (7); for omega_l = 0 also by the stable exact "
+        "orbits of any period, with the band by the motions that exist. For all omega_l of figure "
+        "3 also by the exact quiet orbit at Wp, continued from heavy damping.",
+        measures=(
+            Measure(
                 "reach",
                 "least distance from Wp, over Wp, to a frequency without a stable low solution",
                 least=0.1,
                 decisive=True,
             ),
-            Number("bands", "share of designs with a suppression band", least=1, decisive=True),
-            Number(
+            Measure("bands", "share of designs with a suppression band", least=1, decisive=True),
+            Measure(
                 "beside",
                 "least share of frequencies below the band with a stable high solution",
                 least=0.5,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "beside",
                 "least share of frequencies below the band with a stable high solution",
                 least=1,
             ),
-            Number(
+            Measure(
                 "orbit_reach",
                 "least distance from Wp, over Wp, to a frequency without a stable low orbit",
                 least=0.1,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "orbits_beside",
-                "least share of W below the band with a stable high orbit",
+                "least share of the range below the band with a stable high orbit",
                 least=0.5,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "orbits_beside",
-                "least share of W below the band with a stable high orbit",
+                "least share of the range below the band with a stable high orbit",
                 least=1,
             ),
-            Number(
+            Measure(
                 "truly_stable",
-                "share of the stable high solutions of (7) whose orbit, symmetric with two "
-                "contacts, is stable",
+                "share of the stable high solutions of (7) whose nearest symmetric orbit with two "
+                "contacts is stable",
             ),
-            Number("multiplier", "median of the largest modulus of a multiplier of these orbits"),
-            Number(
+            Measure(
+                "multiplier", "median of the largest Floquet multiplier modulus of these orbits"
+            ),
+            Measure(
                 "designs_stable",
-                "share of the designs of figure 3, by caption and by (19), whose true quiet orbit "
-                "is stable at Wp",
+                "share of the designs of figure 3, by caption and by (19), with a stable exact "
+                "quiet orbit at Wp",
                 least=1,
                 decisive=True,
             ),
-            Number("design_multiplier", "its largest modulus of a multiplier there"),
-            Number("design_damping", "damping h above which all of them would be stable"),
-            Number(
-                "design_settled", "largest share of starts that settle at an unstable one of them"
+            Measure(
+                "design_multiplier", "largest Floquet multiplier modulus of these quiet orbits"
+            ),
+            Measure("design_damping", "damping h above which all these quiet orbits are stable"),
+            Measure(
+                "design_settled",
+                "largest share of random starts that settle at a design with an unstable quiet "
+                "orbit",
             ),
         ),
-        quiet_and_high,
+        evidence=quiet_and_high,
     ),
 )

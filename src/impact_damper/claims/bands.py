@@ -1,20 +1,20 @@
-"""Claims on the suppression band: 4, 16 and 17 (sections 3 and 4, figures 3, 5 and 10)."""
+"""Claims 4, 16 and 17, on the suppression band (sections 3 and 4, figures 3, 5 and 10)."""
 
 import numpy as np
 
-from impact_damper.claims import exact, extract
-from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.claims import exact_orbits, extract
+from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.suppression import suppression_band
 
 
 def growth(widths):
-    """Least ratio of a width to the one before."""
+    """Smallest ratio of a width to the preceding one."""
     widths = np.asarray(widths, float)
     return float(np.min(widths[1:] / widths[:-1]))
 
 
 def widening(datasets):
-    """Numbers of claim 4."""
+    """Measures of claim 4: the band widens with omega_l, with rm and with lower e."""
     captions = extract.select(datasets, "design", extract.CAPTIONS)
     rules = extract.select(datasets, "design", extract.RULES)
     masses = extract.select(datasets, "design", extract.BY_MASS)
@@ -35,11 +35,11 @@ def widening(datasets):
 
 
 def accuracy(datasets):
-    """Numbers of claim 16: harmonic balance against the motions that exist."""
+    """Measures of claim 16: amplitude and width of the band by harmonic balance are accurate."""
     widths, shares, ratios, harmonics = [], [], [], []
     for name in extract.ELASTIC:
         design = extract.get(datasets, "design", name)
-        branches, free = exact.of_curve(datasets, name)
+        branches, free = exact_orbits.of_curve(datasets, name)
         lower, upper = extract.band_edges(design)
         band = suppression_band(datasets, name)
         nearest = np.clip(upper - lower, band.least_width, band.width)
@@ -60,16 +60,19 @@ def accuracy(datasets):
 
 
 def quiet_orbits(branches, free, frequency):
-    """The smallest stable orbit of period 1 at each frequency, or raise Missing at the first."""
-    orbits = exact.smallest(exact.quiet(branches, free), frequency)
-    lost = np.setdiff1d(frequency, orbits.frequency)
-    if len(lost):
-        raise Missing(f"There is no stable quiet orbit at W = {lost[0]:.4g}")
+    """Return the smallest stable quiet orbit at each frequency; raise Missing if there is none."""
+    orbits = exact_orbits.smallest(exact_orbits.quiet(branches, free), frequency)
+    missing = np.setdiff1d(frequency, orbits.frequency)
+    if len(missing):
+        raise Missing(f"There is no stable quiet orbit at W = {missing[0]:.4g}")
     return orbits
 
 
 def amplitude_by_mass(datasets):
-    """Numbers of claim 17, at the frequencies of the narrowest band."""
+    """Measures of claim 17: the larger rm, the lower the amplitude in the suppression band.
+
+    At the frequencies that lie in the bands of all dampers.
+    """
     designs = extract.select(datasets, "design", extract.BY_MASS)
     lower, upper = (
         np.max([extract.band_edges(design)[0] for design in designs]),
@@ -77,7 +80,7 @@ def amplitude_by_mass(datasets):
     )
     parts = [extract.within(design, lower, upper) for design in designs]
     sizes = [
-        quiet_orbits(*exact.of_curve(datasets, name), part.frequency)["size"].mean()
+        quiet_orbits(*exact_orbits.of_curve(datasets, name), part.frequency)["size"].mean()
         for name, part in zip(extract.BY_MASS, parts, strict=True)
     ]
     balance = [float(np.abs(extract.quiet_balance(part)).mean()) for part in parts]
@@ -91,90 +94,106 @@ def amplitude_by_mass(datasets):
 
 CLAIMS = (
     Claim(
-        "4",
-        "The suppression band widens with omega_l, with rm and with lower e; the reduction "
+        number="4",
+        text="The suppression band widens with omega_l, with rm and with lower e; the reduction "
         "in it barely depends on omega_l.",
-        "sections 3 and 4, figures 3, 5 and 10",
-        "Width by harmonic balance, for rm and e also by the motions that exist: from the end of "
-        "the last stable high orbit, or the last high chaotic motion, to the fold of the free "
-        "resonance branch. Reduction: 1 - |a|/(free amplitude) at Wp, with the captions' "
-        "clearances.",
-        (
-            Number(
+        source="sections 3 and 4, figures 3, 5 and 10",
+        interpretation="Width by harmonic balance; for rm and e also by the motions that exist, "
+        "from the end of the last stable high orbit, or the last high chaotic motion, to the fold "
+        "of the free resonance branch. Reduction: 1 - |a|/(free amplitude) at Wp, with the "
+        "clearances of the captions.",
+        measures=(
+            Measure(
                 "linear",
-                "least ratio of a width to that at the omega_l before, captions' d0",
+                "least ratio of the width to the width at the next smaller omega_l, d0 of the "
+                "captions",
                 least=1,
                 decisive=True,
             ),
-            Number("linear_rule", "the same with d0 of (19)", least=1),
-            Number(
-                "mass", "least ratio of a width to that at the rm before", least=1, decisive=True
+            Measure(
+                "linear_rule",
+                "least ratio of the width to the width at the next smaller omega_l, d0 of (19)",
+                least=1,
             ),
-            Number(
+            Measure(
+                "mass",
+                "least ratio of the width to the width at the next smaller rm, harmonic balance",
+                least=1,
+                decisive=True,
+            ),
+            Measure(
                 "existing",
-                "the same by the motions that exist, its lower bound",
+                "lower bound of the same ratio by the motions that exist",
                 least=1,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "restitution",
-                "width for e = 0.75, its lower bound, over that for e = 1",
+                "lower bound of the width for e = 0.75 over the width for e = 1",
                 least=1,
                 decisive=True,
             ),
-            Number("reduction", "spread of the reduction over omega_l", most=0.1),
+            Measure("reduction", "largest minus smallest reduction over omega_l", most=0.1),
         ),
-        widening,
+        evidence=widening,
     ),
     Claim(
-        "16",
-        "Harmonic balance estimates the amplitude in the suppression band and the band's "
+        number="16",
+        text="Harmonic balance estimates the amplitude in the suppression band and the band's "
         "width accurately.",
-        "section 3, figure 5",
-        "Width: of the band by the motions that exist, from the end of the last stable high "
-        "orbit, or the last high chaotic motion, to the fold of the free resonance branch. The "
-        "median decides: where chaos ends can hang on one start that is slow to settle. "
-        "Amplitude: max |Z1| of the quiet orbit against |a|, as a share of the free resonance "
-        "and as a ratio; beside it the first harmonic, which |a| stands for.",
-        (
-            Number(
+        source="section 3, figure 5",
+        interpretation="Width: of the band by the motions that exist, from the end of the last "
+        "stable high orbit, or the last high chaotic motion, to the fold of the free resonance "
+        "branch. The median decides, since the end of chaos may depend on a single start that "
+        "settles slowly. Amplitude: max |Z1| of the quiet orbit and |a|, their difference over "
+        "the free resonance and their ratio; in addition the first harmonic of the orbit, which "
+        "|a| approximates.",
+        measures=(
+            Measure(
                 "typical",
-                "median relative difference of the widths over the dampers",
+                "median relative difference of the two widths over the dampers",
                 most=0.25,
                 decisive=True,
             ),
-            Number("width", "largest relative difference of the widths", most=0.25),
-            Number(
+            Measure("width", "largest relative difference of the two widths", most=0.25),
+            Measure(
                 "share",
-                "largest difference of the amplitudes over that of the free resonance",
+                "largest difference of the two amplitudes over the free resonance amplitude",
                 most=0.05,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "ratio",
-                "largest ratio of max |Z1| to |a|, means over the band",
+                "largest ratio of mean max |Z1| to mean |a| in the band",
                 most=1.25,
             ),
-            Number("harmonic", "the same for the first harmonic of the orbit"),
+            Measure(
+                "harmonic",
+                "largest ratio of the mean first harmonic of the orbit to mean |a| in the band",
+            ),
         ),
-        accuracy,
+        evidence=accuracy,
     ),
     Claim(
-        "17",
-        "The larger rm, the lower the amplitude in the suppression band.",
-        "section 3, figure 5",
-        "Mean of max |Z1| of the quiet orbit over the frequencies that "
+        number="17",
+        text="The larger rm, the lower the amplitude in the suppression band.",
+        source="section 3, figure 5",
+        interpretation="Mean of max |Z1| of the quiet orbit over the frequencies that "
         "lie in the suppression bands of all three dampers.",
-        (
-            Number(
+        measures=(
+            Measure(
                 "whole",
-                "amplitude at the largest rm over that at the smallest",
+                "amplitude at the largest rm over the amplitude at the smallest rm",
                 most=1,
                 decisive=True,
             ),
-            Number("steps", "largest ratio of an amplitude to that at the rm before", most=1),
-            Number("balance", "the same by harmonic balance", most=1),
+            Measure(
+                "steps",
+                "largest ratio of the amplitude to the amplitude at the next smaller rm",
+                most=1,
+            ),
+            Measure("balance", "the same ratio by harmonic balance", most=1),
         ),
-        amplitude_by_mass,
+        evidence=amplitude_by_mass,
     ),
 )

@@ -1,4 +1,4 @@
-"""A claim of the paper: the numbers that decide it, what they must be, and the verdict."""
+"""A claim of the paper: the measures that decide it, their required values, and the verdict."""
 
 import math
 from collections.abc import Callable
@@ -12,131 +12,137 @@ VERDICTS = (REPRODUCED, DIFFERENT, NOT_REPRODUCED, NOT_DECIDABLE)
 
 
 class Missing(LookupError):
-    """A dataset, or something in it, that a claim needs is not there."""
+    """A dataset that a claim needs does not exist, or lacks what the claim needs."""
 
 
 def readable(value) -> str:
-    """A number with four digits, or that there is none."""
+    """A number with four significant digits; "none" for NaN."""
     return "none" if math.isnan(value) else f"{value:.4g}"
 
 
 @dataclass(frozen=True)
-class Number:
+class Measure:
     """One number of the evidence for a claim.
 
     Attributes
     ----------
     name : str
-        Its key in the evidence.
-    words : str
-        What it is.
+        Key of the number in the evidence.
+    description : str
+        What the number measures.
     least, most : float
-        Where the claim asks for it to be; without either it only informs.
+        Bounds that the claim requires. A measure without bounds only informs.
     decisive : bool
-        True if the claim falls with it; otherwise the claim holds with a difference.
+        True: a value outside the bounds refutes the claim. False: such a value makes the verdict
+        "reproduced with a difference".
     """
 
     name: str
-    words: str
+    description: str
     least: float = -math.inf
     most: float = math.inf
     decisive: bool = False
 
     @property
-    def asked(self) -> str:
-        """The bounds in words, "" if there are none."""
+    def requirement(self) -> str:
+        """The bounds as text, "" without bounds."""
         if math.isfinite(self.least) and math.isfinite(self.most):
             return f"from {self.least:g} to {self.most:g}"
         bounds = [("at least", self.least), ("at most", self.most)]
         return "".join(f"{word} {bound:g}" for word, bound in bounds if math.isfinite(bound))
 
     def holds(self, value) -> bool:
-        """Whether a value lies within the bounds."""
+        """Whether a value is within the bounds; False for NaN."""
         return self.least <= value <= self.most
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim, or a slip taken as the claim that what is printed holds.
+    """A statement of the paper, or a misprint taken as the statement that the print is correct.
 
     Attributes
     ----------
     number : str
-        1 to 19, or S1 to S6 for the slips.
+        "1" to "19", or "S1" to "S6" for the slips (misprints and gaps).
     text : str
-        The claim in short words.
+        The statement, shortened.
     source : str
-        Section and figure.
-    reading : str
-        What we take it to mean where the paper is vague, "" where it is not.
-    numbers : tuple of Number
-        The evidence, and what the claim asks of it.
+        Section and figure of the paper.
+    interpretation : str
+        Meaning given to vague words of the statement.
+    measures : tuple of Measure
+        The numbers that decide the claim. A name may occur twice, with a decisive bound and a
+        sharper one.
     evidence : callable
-        From the datasets, by stage and name, to the value of each number, NaN where the
-        data do not tell. Raises `Missing`.
+        Maps all datasets, by stage and name, to a dict with the value of each measure; NaN if the
+        datasets do not determine the value. Raises `Missing`.
     """
 
     number: str
     text: str
     source: str
-    reading: str
-    numbers: tuple[Number, ...]
+    interpretation: str
+    measures: tuple[Measure, ...]
     evidence: Callable[[dict], dict]
 
     def verdict(self, values) -> str:
-        """The verdict on the values of the numbers.
+        """Verdict for the values of the measures.
 
-        A decisive number out of its bounds refutes the claim. Otherwise an unknown number
-        that has bounds leaves it undecided, and another one out of its bounds is a difference.
+        A decisive measure out of bounds refutes the claim. Otherwise an unknown value of a bounded
+        measure leaves the claim undecided, and any other measure out of bounds is a difference.
         """
-        bounded = [number for number in self.numbers if number.asked]
-        known = [number for number in bounded if not math.isnan(values[number.name])]
-        failed = [number for number in known if not number.holds(values[number.name])]
-        if any(number.decisive for number in failed):
+        bounded = [measure for measure in self.measures if measure.requirement]
+        known = [measure for measure in bounded if not math.isnan(values[measure.name])]
+        failed = [measure for measure in known if not measure.holds(values[measure.name])]
+        if any(measure.decisive for measure in failed):
             return NOT_REPRODUCED
         if len(known) < len(bounded):
             return NOT_DECIDABLE
         return DIFFERENT if failed else REPRODUCED
 
     def criterion(self) -> str:
-        """What is asked of the numbers: what decides, and what full agreement takes."""
+        """The requirements as text: those that decide, and those of full agreement."""
         parts = []
-        for lead, decisive in (("Decided by", True), ("In full", False)):
-            asked = [
-                f"{number.words} {number.asked}"
-                for number in self.numbers
-                if number.asked and number.decisive == decisive
+        for lead, decisive in (("Decided by", True), ("Full agreement", False)):
+            required = [
+                f"{measure.description} {measure.requirement}"
+                for measure in self.measures
+                if measure.requirement and measure.decisive == decisive
             ]
-            if asked:
-                parts.append(f"{lead}: {'; '.join(asked)}.")
+            if required:
+                parts.append(f"{lead}: {'; '.join(required)}.")
         return " ".join(parts)
 
     def difference(self, values) -> str:
-        """A sentence on the numbers that are not what the claim asks for, or unknown."""
+        """Sentence on the measures that are out of bounds or unknown; "" without any."""
         parts = []
-        for number in self.numbers:
-            value = values[number.name]
-            if number.asked and math.isnan(value):
-                parts.append(f"{number.words} is unknown")
-            elif number.asked and not number.holds(value):
-                parts.append(f"{number.words} is {readable(value)} instead of {number.asked}")
-        return f"Here {'; '.join(parts)}." if parts else ""
+        for measure in self.measures:
+            value = values[measure.name]
+            if measure.requirement and math.isnan(value):
+                parts.append(f"{measure.description} is unknown")
+            elif measure.requirement and not measure.holds(value):
+                parts.append(
+                    f"{measure.description} is {readable(value)} instead of {measure.requirement}"
+                )
+        return f"Computed: {'; '.join(parts)}." if parts else ""
 
     def judge(self, datasets) -> dict:
-        """The claim's row of the table."""
+        """Row of the claim in the table of claims."""
         row = {
             "number": self.number,
             "claim": self.text,
             "source": self.source,
-            "reading": self.reading,
+            "interpretation": self.interpretation,
             "criterion": self.criterion(),
         }
         try:
             values = self.evidence(datasets)
         except Missing as missing:
             return row | {"evidence": "", "verdict": NOT_DECIDABLE, "difference": f"{missing}."}
-        words = {number.name: number.words for number in self.numbers}
-        evidence = "; ".join(f"{text}: {readable(values[name])}" for name, text in words.items())
+        descriptions = {measure.name: measure.description for measure in self.measures}
+        evidence = "; ".join(
+            f"{text}: {readable(values[name])}" for name, text in descriptions.items()
+        )
         return row | {
             "evidence": evidence,
             "verdict": self.verdict(values),

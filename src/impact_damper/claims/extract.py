@@ -1,4 +1,7 @@
-"""What the claims and the tables read from the datasets."""
+"""Access to datasets, their parameters and flags, and quantities of harmonic balance.
+
+For the claims and the tables. Exact orbits have a module of their own, `exact_orbits`.
+"""
 
 import numpy as np
 
@@ -6,8 +9,9 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.data.variables import VARIABLES
 
-# Curves of the configuration: by omega_l upward, with the clearance of the caption and of (19);
-# by mass ratio; all elastic ones that are simulated; the inelastic twin of BY_MASS[1].
+# Names of curves of the configuration. CAPTIONS: by ascending omega_l, with the clearances of the
+# captions of figure 3; RULES: the same with the clearances of (19); BY_MASS: by ascending mass
+# ratio; ELASTIC: all simulated ones with elastic contact; INELASTIC: as BY_MASS[1], but e < 1.
 CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
 RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
@@ -16,7 +20,7 @@ INELASTIC = "figure_10"
 
 
 def get(datasets, stage, name):
-    """The dataset of a stage by its name, or raise Missing."""
+    """Return the dataset of a stage by its name, or raise Missing."""
     try:
         return datasets[stage][name]
     except KeyError:
@@ -24,24 +28,24 @@ def get(datasets, stage, name):
 
 
 def parameter(data, name):
-    """A parameter that made a dataset."""
+    """Value of a parameter from which a dataset was computed."""
     return parameters_of(data)[name]
 
 
 def meaning(name, value):
-    """Meaning of a flag by its value, in words."""
+    """Meaning of a value of a flag, with spaces: `meaning("status", 1)` is "settled"."""
     return next(key for key, known in VARIABLES[name].flags.items() if known == value).replace(
         "_", " "
     )
 
 
 def is_outcome(data, *meanings):
-    """Where motions came to one of the outcomes."""
+    """Mask of the motions with one of the outcomes."""
     return data.outcome.isin([flag("outcome", meaning) for meaning in meanings])
 
 
 def touching(response):
-    """Motions, settled or not, in which the loose mass touches the walls."""
+    """Mask of the motions, settled or not, in which the loose mass touches the walls."""
     return is_outcome(response, "settled", "chaotic", "unresolved") & (response.contacts > 0)
 
 
@@ -51,7 +55,7 @@ def spacing(data):
 
 
 def longest_run(mask):
-    """Length of the longest run of True."""
+    """Number of elements in the longest run of True."""
     longest = run = 0
     for value in mask:
         run = run + 1 if value else 0
@@ -60,7 +64,7 @@ def longest_run(mask):
 
 
 def within(data, lower, upper):
-    """The part of a dataset with frequencies from lower to upper, or raise Missing if none."""
+    """Return the part of a dataset with frequencies from lower to upper; raise Missing if empty."""
     part = data.sel(frequency=slice(lower, upper))
     if part.sizes["frequency"] == 0:
         raise Missing(f"There is no frequency from {lower:.4g} to {upper:.4g}")
@@ -68,7 +72,7 @@ def within(data, lower, upper):
 
 
 def band_edges(design):
-    """Lower and upper edge of the suppression band by harmonic balance, or raise Missing."""
+    """Return lower and upper edge of the suppression band by harmonic balance, or raise Missing."""
     lower, upper = design.edge_frequency.values
     if not upper > lower:
         raise Missing("There is no suppression band by harmonic balance")
@@ -76,7 +80,7 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Amplitudes a of the stable solutions of (7), NaN elsewhere."""
+    """Signed amplitudes a of the stable solutions of (7); NaN for all other solutions."""
     keep = (design.stability == flag("stability", "stable")) & (
         design.kind == flag("kind", "impacting")
     )
@@ -84,21 +88,21 @@ def stable_impacting(design):
 
 
 def quiet_balance(design):
-    """Signed amplitude of the smallest stable solution of (7) at each frequency."""
+    """Signed amplitude a of the stable solution of (7) with the smallest |a| at each frequency."""
     amplitude = stable_impacting(design)
     size = np.abs(amplitude).fillna(np.inf)
     return amplitude.isel(solution=size.argmin("solution"))
 
 
 def free_resonance_balance(design):
-    """Largest free amplitude at each frequency up to the peak, NaN above."""
+    """Largest amplitude without the damper at each frequency up to the peak; NaN above."""
     return design.free_amplitude.max("free_solution").where(
         design.frequency <= design.peak_frequency
     )
 
 
 def crossing(x, y, level):
-    """First x at which y passes a level, by linear interpolation, NaN if it does not."""
+    """First x at which y crosses a level, by linear interpolation; NaN without a crossing."""
     side = np.sign(np.asarray(y) - level)
     changes = np.flatnonzero(side[:-1] * side[1:] < 0)
     if len(changes) == 0:
@@ -108,25 +112,25 @@ def crossing(x, y, level):
 
 
 def select(datasets, stage, names):
-    """Several datasets of a stage, or raise Missing."""
+    """Return several datasets of a stage by their names, or raise Missing."""
     return [get(datasets, stage, name) for name in names]
 
 
 def design_point(orbit):
-    """The quiet orbit of a `design_orbit` at the design point, or raise Missing."""
+    """Return the quiet orbit of a dataset `design_orbit` at the design point, or raise Missing."""
     if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
-        raise Missing("A quiet orbit was not followed to its design point")
+        raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
 
 
 def largest_multiplier(orbit):
-    """Largest modulus of the multipliers of an orbit, or of each of several."""
+    """Largest modulus of the Floquet multipliers of each orbit."""
     modulus = np.hypot(orbit.orbit_multiplier_real, orbit.orbit_multiplier_imaginary)
     return modulus.max("multiplier").values
 
 
 def stable_from(orbit):
-    """Damping above which the quiet orbit of a `design_orbit` is stable: the event there."""
+    """Damping h above which the quiet orbit of a dataset `design_orbit` is stable."""
     value, events = orbit.followed_value.values, orbit.event_value.values
     last = np.max(value[largest_multiplier(orbit) >= 1], initial=value.min())
     return float(

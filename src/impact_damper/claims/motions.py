@@ -1,25 +1,26 @@
-"""Claims on the motions with the damper: 5, 6 and 8 (section 3, figures 4, 5 and 8)."""
+"""Claims 5, 6 and 8, on the motions with the damper (section 3, figures 4, 5 and 8)."""
 
 import numpy as np
 import pandas as pd
 
-from impact_damper.claims import exact, extract
-from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.claims import exact_orbits, extract
+from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.suppression import chaotic_high, high_motions
 
 
 def quiet_contacts(datasets):
-    """Numbers of claim 5."""
+    """Measures of claim 5: the low-amplitude motion has two symmetric impacts per cycle."""
     shares, skew, multipliers = [], [], []
     for name in extract.ELASTIC:
         lower, upper = extract.band_edges(extract.get(datasets, "design", name))
-        quiet = exact.quiet(*exact.of_curve(datasets, name))
-        there = quiet[(quiet.upper > lower) & (quiet.lower < upper)]
-        other = there[(there.fewest != 2) | (there.contacts != 2)]
-        twos = exact.covered(there, lower, upper) - exact.covered(other, lower, upper)
-        shares.append(twos / (upper - lower))
-        skew.append(there.asymmetry.max())
-        multipliers.append(there.multiplier.max())
+        quiet = exact_orbits.quiet(*exact_orbits.of_curve(datasets, name))
+        in_band = quiet[(quiet.upper > lower) & (quiet.lower < upper)]
+        not_two = in_band[(in_band.fewest != 2) | (in_band.contacts != 2)]
+        width = exact_orbits.covered(in_band, lower, upper)
+        width -= exact_orbits.covered(not_two, lower, upper)
+        shares.append(width / (upper - lower))
+        skew.append(in_band.asymmetry.max())
+        multipliers.append(in_band.multiplier.max())
     return {
         "two": np.min(shares),
         "skew": np.max(skew),
@@ -28,20 +29,20 @@ def quiet_contacts(datasets):
 
 
 def high_and_chaotic(datasets):
-    """Numbers of claim 6."""
+    """Measures of claim 6: the high-amplitude motion has more than two impacts, or is chaotic."""
     contacts, fewest, orbits, twins, widest, total = [], [], [], [], [], []
     for name in extract.ELASTIC:
         response = extract.get(datasets, "response", name)
-        branches, free = exact.of_curve(datasets, name)
+        branches, free = exact_orbits.of_curve(datasets, name)
         contacts.append(response.contacts.values[high_motions(response, free).values])
-        high = exact.high(branches, free)
+        high = exact_orbits.high(branches, free)
         fewest.append(high.fewest.min())
         design = extract.get(datasets, "design", name)
-        level = exact.HALF * exact.resonance(free, design.frequency)
+        level = exact_orbits.HALF * exact_orbits.resonance(free, design.frequency)
         estimate = np.abs(extract.stable_impacting(design)).max("solution").to_series()
-        found = exact.crossings(high, design.frequency)
-        orbits.append(found.assign(a=found.frequency.map(estimate[estimate > level])))
-        twins.append(exact.high_counterparts(design, branches, free))
+        crossings = exact_orbits.crossings(high, design.frequency)
+        orbits.append(crossings.assign(a=crossings.frequency.map(estimate[estimate > level])))
+        twins.append(exact_orbits.high_counterparts(design, branches, free))
         chaotic = chaotic_high(response, free).values
         widest.append(extract.longest_run(chaotic) * extract.spacing(response))
         total.append(np.sum(chaotic) * extract.spacing(response))
@@ -60,7 +61,7 @@ def high_and_chaotic(datasets):
 
 
 def first_collisions(datasets):
-    """Numbers of claim 8."""
+    """Measures of claim 8: random starts in a ball of radius 2 all lead to collisions."""
     data = list(datasets.get("collisions", {}).values())
     if not data:
         raise Missing("There is no dataset of the stage collisions")
@@ -78,82 +79,100 @@ def first_collisions(datasets):
 
 CLAIMS = (
     Claim(
-        "5",
-        "The low-amplitude motion has two symmetric impacts per cycle.",
-        "section 3, figure 4",
-        "Every stable orbit of period 1 below half of the free resonance, in the suppression band "
-        "by harmonic balance, for all elastic dampers of figures 5 and 8.",
-        (
-            Number(
+        number="5",
+        text="The low-amplitude motion has two symmetric impacts per cycle.",
+        source="section 3, figure 4",
+        interpretation="Every stable orbit of period 1 below half of the free resonance, in the "
+        "suppression band by harmonic balance, for all elastic dampers of figures 5 and 8.",
+        measures=(
+            Measure(
                 "two",
-                "least share of the band with such an orbit and two contacts a period in each",
+                "least share of the band in which such orbits exist, all with two contacts a "
+                "period",
                 least=1,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "skew",
-                "largest distance from its mirror image half a period on",
+                "largest distance of such an orbit from its mirror image half a period later",
                 most=1e-6,
                 decisive=True,
             ),
-            Number("multiplier", "largest modulus of a Floquet multiplier of such an orbit"),
+            Measure("multiplier", "largest Floquet multiplier modulus of such an orbit"),
         ),
-        quiet_contacts,
+        evidence=quiet_contacts,
     ),
     Claim(
-        "6",
-        "The high-amplitude motion has more than two impacts per cycle and agrees with "
+        number="6",
+        text="The high-amplitude motion has more than two impacts per cycle and agrees with "
         "harmonic balance; regions of different impact number are separated by narrow chaotic "
         "regimes.",
-        "section 3, figure 5",
-        "High: above half of the free resonance. Contacts of all high motions, chaotic ones "
-        "included, at the frequencies of the responses; harmonic balance against max |Z1| of "
-        "the stable high orbits, of any period, and beside it their first harmonic. Narrow: no "
-        "wider than 0.1 in W.",
-        (
-            Number(
+        source="section 3, figure 5",
+        interpretation="High: above half of the free resonance. Contacts of all high motions, "
+        "chaotic ones included, at the frequencies of the responses; harmonic balance compared "
+        "with max |Z1| of the stable high orbits of any period, and with their first harmonic. "
+        "Narrow: at most 0.1 wide in W.",
+        measures=(
+            Measure(
                 "more",
                 "share of high motions with more than two contacts a period",
                 least=0.5,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "error",
-                "median relative difference of |a| to max |Z1| of stable high orbits",
+                "median relative difference between |a| and max |Z1| of stable high orbits",
                 most=0.1,
                 decisive=True,
             ),
-            Number("harmonic", "median relative difference of |a| to their first harmonic"),
-            Number(
-                "twin",
-                "the same of the orbit that |a| stands for, symmetric with two contacts, stable "
-                "or not",
+            Measure(
+                "harmonic",
+                "median relative difference between |a| and the first harmonic of stable high "
+                "orbits",
             ),
-            Number("fewest", "fewest contacts a period of a stable high orbit", least=2.01),
-            Number("widest", "widest range of W in which a high motion is chaotic", most=0.1),
-            Number("total", "most of W, for one damper, in which a high motion is chaotic"),
+            Measure(
+                "twin",
+                "median relative difference between |a| and the first harmonic of the nearest "
+                "symmetric orbit with two contacts, stable or unstable",
+            ),
+            Measure(
+                "fewest", "smallest number of contacts a period of a stable high orbit", least=2.01
+            ),
+            Measure(
+                "widest", "width in W of the widest range with a chaotic high motion", most=0.1
+            ),
+            Measure(
+                "total", "total width in W with a chaotic high motion, largest value of a damper"
+            ),
         ),
-        high_and_chaotic,
+        evidence=high_and_chaotic,
     ),
     Claim(
-        "8",
-        "Random initial conditions in a ball of radius 2 all lead to collisions.",
-        "section 3",
-        "The literal ball, which reaches beyond the walls, and the ball within the "
-        "gap; for the dampers of figure 5 at the design frequency.",
-        (
-            Number("literal", "least share that collides, literal ball", least=0.99, decisive=True),
-            Number(
-                "within_gap",
-                "least share that collides, ball within the gap",
+        number="8",
+        text="Random initial conditions in a ball of radius 2 all lead to collisions.",
+        source="section 3",
+        interpretation="The literal ball, which extends beyond the walls, and the part of the "
+        "ball within the gap; for the dampers of figure 5 at the design frequency.",
+        measures=(
+            Measure(
+                "literal",
+                "least share of starts that collide, literal ball",
                 least=0.99,
                 decisive=True,
             ),
-            Number("literal", "least share that collides, literal ball", least=1),
-            Number("within_gap", "least share that collides, ball within the gap", least=1),
-            Number("beyond_wall", "largest share of the literal ball beyond a wall"),
-            Number("wait", "longest wait for a collision, forcing periods"),
+            Measure(
+                "within_gap",
+                "least share of starts that collide, ball within the gap",
+                least=0.99,
+                decisive=True,
+            ),
+            Measure("literal", "least share of starts that collide, literal ball", least=1),
+            Measure(
+                "within_gap", "least share of starts that collide, ball within the gap", least=1
+            ),
+            Measure("beyond_wall", "largest share of starts in the literal ball beyond a wall"),
+            Measure("wait", "longest time to the first collision, forcing periods"),
         ),
-        first_collisions,
+        evidence=first_collisions,
     ),
 )

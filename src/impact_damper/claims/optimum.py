@@ -1,17 +1,20 @@
-"""Claims on the optimum clearance: 9 and 11 (sections 3 and 4, figures 6, 7, 10 and 11)."""
+"""Claims 9 and 11, on the optimum clearance (sections 3 and 4, figures 6, 7, 10 and 11)."""
 
 import numpy as np
 
-from impact_damper.claims import exact, extract
+from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.bands import quiet_orbits
-from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.suppression import suppression_band
 
-AWAY = 0.1
+AWAY = 0.1  # relative distance from the optimum clearance
 
 
 def sweeps(datasets, *keys, **fixed):
-    """Sweeps of the clearance with some parameters, grouped by others, or raise Missing."""
+    """Return clearance sweeps grouped by the parameters `keys`, or raise Missing.
+
+    Only sweeps with the parameter values `fixed`, and only groups of two or more, count.
+    """
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(extract.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -24,13 +27,13 @@ def sweeps(datasets, *keys, **fixed):
 
 
 def near_width(sweep):
-    """Width of the range of d0 within 10 % of the minimum, over the optimum d0."""
+    """Width of the range of d0 with max |Z1| within 10 % of the minimum, over the optimum d0."""
     lower, upper = sweep.near_clearance.values
     return (upper - lower) / float(sweep.optimum_clearance)
 
 
 def displaced(sweep):
-    """Largest displacement 10 % off the optimum d0, over that of the free resonance."""
+    """Largest max |Z1| at 10 % from the optimum d0, over the free resonance amplitude 1/(h W)."""
     best = float(sweep.optimum_clearance)
     sizes = np.interp(
         [best * (1 - AWAY), best * (1 + AWAY)],
@@ -45,7 +48,7 @@ def displaced(sweep):
 
 
 def excess(datasets):
-    """Numbers of claim 9: all elastic sweeps."""
+    """Measures of claim 9: the numerical optimum d0 is slightly above (19) and insensitive."""
     groups = sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.rule_clearance) - 1 for sweep in members]
@@ -66,13 +69,13 @@ def excess(datasets):
 
 
 def restitution(datasets):
-    """Numbers of claim 11."""
+    """Measures of claim 11: lower e widens the band and lowers and flattens the optimum d0."""
     names = (extract.BY_MASS[1], extract.INELASTIC)
     bands = [suppression_band(datasets, name) for name in names]
     design = extract.get(datasets, "design", extract.BY_MASS[1])
     frequency = extract.within(design, *extract.band_edges(design)).frequency
     sharp, soft = (
-        quiet_orbits(*exact.of_curve(datasets, name), frequency)["size"].to_numpy()
+        quiet_orbits(*exact_orbits.of_curve(datasets, name), frequency)["size"].to_numpy()
         for name in names
     )
     ratio = soft / sharp
@@ -96,72 +99,84 @@ def restitution(datasets):
 
 CLAIMS = (
     Claim(
-        "9",
-        "The numerical optimum d0 is slightly higher than (19); near it the response is "
+        number="9",
+        text="The numerical optimum d0 is slightly higher than (19); near it the response is "
         "insensitive to rm and d0; this holds for other h.",
-        "section 3, figures 6 and 7",
-        "(19) at the paper's Wp. Slightly: by a fifth at most. Insensitive to rm: the least max "
-        "|Z1| varies by a fifth at most; to d0: 10 % off the optimum it stays below 5 % of the "
-        "free resonance. Every sweep and its minimum rest on orbits closed by Newton's method.",
-        (
-            Number("dampings", "values of h compared", least=2),
-            Number(
+        source="section 3, figures 6 and 7",
+        interpretation="(19) at the paper's Wp. Slightly: by a fifth at most. Insensitive to rm: "
+        "the least max |Z1| varies by a fifth at most; to d0: at 10 % from the optimum max |Z1| "
+        "is below 5 % of the free resonance. The sweeps and their minima are computed from "
+        "periodic orbits that Newton's method has converged to.",
+        measures=(
+            Measure("dampings", "number of values of h", least=2),
+            Measure(
                 "least", "least relative excess of the optimum d0 over (19)", least=0, decisive=True
             ),
-            Number("most", "largest relative excess", most=0.2),
-            Number("spread", "largest relative spread of the least max |Z1| over rm", most=0.2),
-            Number(
+            Measure("most", "largest relative excess of the optimum d0 over (19)", most=0.2),
+            Measure("spread", "largest relative spread of the least max |Z1| over rm", most=0.2),
+            Measure(
                 "displaced",
-                "largest max |Z1| 10 % off the optimum d0 over the free resonance",
+                "largest max |Z1| at 10 % from the optimum d0 over the free resonance",
                 most=0.05,
                 decisive=True,
             ),
-            Number("near", "least width of the range of d0 within 10 % of the minimum, over d0"),
-            Number(
+            Measure("near", "least width of the range of d0 within 10 % of the minimum, over d0"),
+            Measure(
                 "first_harmonic",
-                "share of the excess that the first harmonic of a straight "
-                "flight explains (rm W^2 d0 = pi^2/8), mean",
+                "mean share of the excess that the first harmonic of a straight flight explains "
+                "(rm W^2 d0 = pi^2/8)",
             ),
-            Number(
+            Measure(
                 "straight_flight",
-                "share that the least maximum for a straight flight explains, mean",
+                "mean share of the excess that the smallest maximum of a straight flight explains",
             ),
         ),
-        excess,
+        evidence=excess,
     ),
     Claim(
-        "11",
-        "Inelastic collisions widen the band and raise the amplitude in it; the lower e, "
+        number="11",
+        text="Inelastic collisions widen the band and raise the amplitude in it; the lower e, "
         "the lower the optimum d0 and the flatter the response.",
-        "section 4, figures 10 and 11",
-        "Widths by the motions that exist, as in claim 4; amplitudes, max |Z1|, of the smallest "
-        "stable orbits of period 1 in the elastic band by harmonic balance. "
-        "Flatter: a wider range of d0 within 10 % of the minimum, over d0.",
-        (
-            Number(
+        source="section 4, figures 10 and 11",
+        interpretation="Widths by the motions that exist, as in claim 4; amplitudes, max |Z1|, of "
+        "the smallest stable orbits of period 1 in the elastic band by harmonic balance. Flatter: "
+        "a wider range of d0 within 10 % of the minimum, over d0.",
+        measures=(
+            Measure(
                 "band",
-                "width for e = 0.75, its lower bound, over that for e = 1",
+                "lower bound of the width for e = 0.75 over the width for e = 1",
                 least=1,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "amplitude",
-                "least ratio of the amplitude for e = 0.75 to that for e = 1",
+                "least ratio of the amplitude for e = 0.75 to the amplitude for e = 1",
                 least=1,
                 decisive=True,
             ),
-            Number("most", "largest ratio, where the paper says marginally higher", most=1.5),
-            Number(
+            Measure(
+                "most",
+                "largest ratio of these amplitudes, marginally above 1 according to the paper",
+                most=1.5,
+            ),
+            Measure(
                 "clearance",
-                "largest ratio of the optimum d0 at the least e to that at the largest",
+                "largest ratio of the optimum d0 at the smallest e to the optimum d0 at the "
+                "largest e",
                 most=1,
                 decisive=True,
             ),
-            Number("step", "largest ratio of an optimum d0 to that at the e above", most=1),
-            Number(
-                "flat", "least ratio of the range near the minimum to that at the e above", least=1
+            Measure(
+                "step",
+                "largest ratio of the optimum d0 to the optimum d0 at the next larger e",
+                most=1,
+            ),
+            Measure(
+                "flat",
+                "least ratio of the width near the minimum to the width at the next larger e",
+                least=1,
             ),
         ),
-        restitution,
+        evidence=restitution,
     ),
 )

@@ -1,19 +1,24 @@
-"""Claim 7, on the phases of the quiet motion (section 3, figure 5)."""
+"""Claim 7, on the phase between primary and loose mass (section 3, figure 5)."""
 
 import numpy as np
 
-from impact_damper.claims import exact, extract
-from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.claims import exact_orbits, extract
+from impact_damper.claims.claim import Claim, Measure, Missing
 
 
 def phases(datasets):
-    """Numbers of claim 7, in both readings."""
+    """Measures of claim 7: antiphase of the masses below Wp, in phase above.
+
+    For the phase of Z1 to Z2, which is the paper's, and for the phase of Z1 to x2.
+    """
     below, above, turns, balance, loose_below, loose_above, loose_turns = ([] for _ in range(7))
     for name in extract.BY_MASS:
         design = extract.get(datasets, "design", name)
         peak = float(design.peak_frequency)
         around = extract.quiet_balance(design).sel(frequency=slice(0.75 * peak, None))
-        near = exact.smallest(exact.quiet(*exact.of_curve(datasets, name)), around.frequency)
+        near = exact_orbits.smallest(
+            exact_orbits.quiet(*exact_orbits.of_curve(datasets, name)), around.frequency
+        )
         frequency = near.frequency.to_numpy()
         relative, loose = (np.abs(np.angle(near[key])) for key in ("amplitude", "loose"))
         under = frequency < peak
@@ -43,39 +48,48 @@ def phases(datasets):
 
 CLAIMS = (
     Claim(
-        "7",
-        "Primary and loose mass move almost in antiphase for W < Wp, almost in phase for W > Wp.",
-        "section 3, figure 5",
-        "The paper's phase is that of Z1 to Z2, the sign of a; for the place x2 = Z1 - Z2 of the "
-        "loose mass it is the reverse where |a| < b. The smallest stable orbit of period 1, from "
-        "0.75 Wp on; phases of the first harmonics in radian; almost: within 0.3. Of three dampers "
-        "the worst.",
-        (
-            Number(
+        number="7",
+        text="Primary and loose mass move almost in antiphase for W < Wp, almost in phase for W > "
+        "Wp.",
+        source="section 3, figure 5",
+        interpretation="The phase in the paper is between Z1 and Z2: the sign of a. The phase "
+        "between Z1 and the displacement x2 = Z1 - Z2 of the loose mass is the opposite if |a| < "
+        "b. From the smallest stable orbit of period 1 at W >= 0.75 Wp, by the first harmonics, "
+        "in radian. Almost: within 0.3. The least favourable of three dampers counts.",
+        measures=(
+            Measure(
                 "below",
-                "largest distance to antiphase of Z1 and Z2 below Wp",
+                "largest distance of the phase of Z1 to Z2 from antiphase below Wp",
                 most=0.3,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "above",
-                "largest distance to phase of Z1 and Z2 at the highest W",
+                "largest phase of Z1 to Z2 at the highest W",
                 most=0.3,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "turn_balance",
-                "W/Wp where a changes sign by harmonic balance",
+                "W/Wp at which a changes sign by harmonic balance",
                 least=0.95,
                 most=1.05,
             ),
-            Number(
-                "turn", "W/Wp where Z1 and Z2 are a quarter apart, orbits", least=0.95, most=1.05
+            Measure(
+                "turn",
+                "W/Wp at which Z1 and Z2 are a quarter period apart, exact orbits",
+                least=0.95,
+                most=1.05,
             ),
-            Number("loose_below", "largest distance to phase of Z1 and x2 below Wp"),
-            Number("loose_above", "largest distance to antiphase of Z1 and x2 at the highest W"),
-            Number("loose_turn", "W/Wp where Z1 and x2 are a quarter apart"),
+            Measure("loose_below", "largest phase of Z1 to x2 below Wp"),
+            Measure(
+                "loose_above",
+                "largest distance of the phase of Z1 to x2 from antiphase at the highest W",
+            ),
+            Measure(
+                "loose_turn", "W/Wp at which Z1 and x2 are a quarter period apart, exact orbits"
+            ),
         ),
-        phases,
+        evidence=phases,
     ),
 )

@@ -1,11 +1,11 @@
-"""Slips of the paper, each taken as the claim that what is printed holds."""
+"""Slips S1 to S6: misprints and gaps of the paper, taken as claims that the print is correct."""
 
 import math
 
 import numpy as np
 
-from impact_damper.claims import exact, extract
-from impact_damper.claims.claim import Claim, Missing, Number
+from impact_damper.claims import exact_orbits, extract
+from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.data.datasets import flag, oscillator_of
 from impact_damper.system.parameters import Oscillator
 from impact_damper.theory.design_rule import peak_frequency
@@ -13,16 +13,16 @@ from impact_damper.theory.design_rule import peak_frequency
 STATE = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}
 PRINTED_STATE = 3
-SHALLOW = 0.02
+SHALLOW = 0.02  # largest penetration, over the clearance, at which the expansion is tested
 
 
 def formula_peak(data):
-    """Peak frequency of the oscillator of a dataset, W^2 = wl^2 + 3/(4 h^2 W^2)."""
+    """Peak frequency Wp of the oscillator of a dataset by W^2 = wl^2 + 3/(4 h^2 W^2)."""
     return peak_frequency(oscillator_of(data))
 
 
 def penetration(datasets):
-    """Numbers of S1: how B grows with the penetration b - d0 in the solutions of (7)."""
+    """Measures of S1: expansion of the contact force B for a small penetration b - d0."""
     design = extract.get(datasets, "design", extract.CAPTIONS[0])
     mass_ratio, clearance, stiffness = (
         extract.parameter(design, name) for name in ("mass_ratio", "clearance", "contact_stiffness")
@@ -49,20 +49,20 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Numbers of S2: clearances of the captions over those of (19)."""
-    given, ruled = (
+    """Measures of S2: clearances of the captions of figure 3 over the clearances of (19)."""
+    printed, ruled = (
         [
             extract.parameter(design, "clearance")
             for design in extract.select(datasets, "design", names[1:])
         ]
         for names in (extract.CAPTIONS, extract.RULES)
     )
-    ratios = dict(zip(("b", "a"), np.divide(given, ruled), strict=True))
+    ratios = dict(zip(("b", "a"), np.divide(printed, ruled), strict=True))
     return ratios | dict(zip(("rule_b", "rule_a"), ruled, strict=True))
 
 
 def state_size(datasets):
-    """Numbers of S3: components of the state of figure 4."""
+    """Measures of S3: number of components of the initial state of figure 4."""
     motion = extract.get(datasets, "motion", "figure_04")
     return {
         "components": float(sum(name in motion for name in STATE)),
@@ -71,7 +71,7 @@ def state_size(datasets):
 
 
 def design_point(datasets):
-    """Numbers of S4: rm W^2 d0 at W = 2 for figure 5 (a)."""
+    """Measures of S4: rm W^2 d0 at W = 2 for figure 5 (a)."""
     design = extract.get(datasets, "design", extract.CAPTIONS[0])
     return {
         "inertia": extract.parameter(design, "mass_ratio")
@@ -81,14 +81,14 @@ def design_point(datasets):
 
 
 def peaks(datasets):
-    """Numbers of S5: peak frequencies by the formula and by the orbits."""
+    """Measures of S5: peak frequencies by the formula and by exact orbits."""
     numbers = {}
     for free in datasets.get("free_branches", {}).values():
         damping = oscillator_of(free).damping
         if oscillator_of(free) == Oscillator(damping) and damping in PRINTED_PEAKS:
             name = f"{damping:g}"
             numbers[f"formula_{name}"] = formula_peak(free)
-            numbers[f"end_{name}"] = exact.resonance_fold(free)[0]
+            numbers[f"end_{name}"] = exact_orbits.resonance_fold(free)[0]
     missing = [value for value in PRINTED_PEAKS if f"formula_{value:g}" not in numbers]
     if missing:
         raise Missing(f"There is no dataset of the stage free_branches with h = {missing[0]:g}")
@@ -100,7 +100,7 @@ def peaks(datasets):
 
 
 def unprinted(datasets):
-    """Numbers of S6: what is taken where the paper prints nothing."""
+    """Measures of S6: the parameters chosen where the paper prints none."""
     design = extract.get(datasets, "design", "figure_08")
     inertia = extract.parameter(design, "mass_ratio") * float(design.peak_frequency) ** 2
     ratios = [
@@ -118,92 +118,90 @@ def unprinted(datasets):
 
 CLAIMS = (
     Claim(
-        "S1",
-        "B near b = d0 is (2/pi) sqrt(2 d0 eps), eps = b - d0.",
-        "section 2.1, equations (11) and (12)",
-        "The power of eps in B in the solutions of (7) with eps below 2 % of d0; expanding (6e) "
-        "gives 8 sqrt(2)/(3 pi) eps^(3/2)/sqrt(d0). (13) does not depend on it.",
-        (
-            Number("power", "power of eps in B", least=0.45, most=0.55, decisive=True),
-            Number(
+        number="S1",
+        text="B near b = d0 is (2/pi) sqrt(2 d0 eps), eps = b - d0.",
+        source="section 2.1, equations (11) and (12)",
+        interpretation="B in the solutions of (7) with eps below 2 % of d0. Expanding (6e) gives "
+        "8 sqrt(2)/(3 pi) eps^(3/2)/sqrt(d0). Equation (13) does not depend on this expansion.",
+        measures=(
+            Measure("power", "power of eps in B", least=0.45, most=0.55, decisive=True),
+            Measure(
                 "printed",
                 "median of the printed expression over B",
                 least=0.9,
                 most=1.1,
                 decisive=True,
             ),
-            Number("corrected", "median of the expansion of (6e) over B"),
+            Measure("corrected", "median of the expansion of (6e) over B"),
         ),
-        penetration,
+        evidence=penetration,
     ),
     Claim(
-        "S2",
-        "The captions' d0 = 0.69 for omega_l = 1.5 and 1.2 for omega_l = 1 follow from (19).",
-        "section 3, figure 3 (a) and (b)",
-        "With the peak frequency of that omega_l.",
-        (
-            Number(
-                "a", "d0 of caption (a) over that of (19)", least=0.95, most=1.05, decisive=True
+        number="S2",
+        text="The captions' d0 = 0.69 for omega_l = 1.5 and 1.2 for omega_l = 1 follow from (19).",
+        source="section 3, figure 3 (a) and (b)",
+        interpretation="With the peak frequency of the same omega_l.",
+        measures=(
+            Measure("a", "d0 of caption (a) over d0 of (19)", least=0.95, most=1.05, decisive=True),
+            Measure("b", "d0 of caption (b) over d0 of (19)", least=0.95, most=1.05, decisive=True),
+            Measure("rule_a", "d0 of (19) for (a)"),
+            Measure("rule_b", "d0 of (19) for (b)"),
+        ),
+        evidence=captions,
+    ),
+    Claim(
+        number="S3",
+        text="The initial conditions of figure 4 are (1, 0.5, 0).",
+        source="figure 4",
+        interpretation="An initial state has as many components as the state of the motion.",
+        measures=(
+            Measure(
+                "components", "number of components of the state", most=PRINTED_STATE, decisive=True
             ),
-            Number(
-                "b", "d0 of caption (b) over that of (19)", least=0.95, most=1.05, decisive=True
-            ),
-            Number("rule_a", "d0 of (19) for (a)"),
-            Number("rule_b", "d0 of (19) for (b)"),
+            Measure("printed", "number of values printed"),
         ),
-        captions,
+        evidence=state_size,
     ),
     Claim(
-        "S3",
-        "The initial conditions of figure 4 are (1, 0.5, 0).",
-        "figure 4",
-        "A starting state has as many components as the motion.",
-        (
-            Number("components", "components of the state", most=PRINTED_STATE, decisive=True),
-            Number("printed", "numbers printed"),
-        ),
-        state_size,
+        number="S4",
+        text="(rm, d0) = (0.12, 2) fulfils rm W^2 d0 = 1 at W = 2.",
+        source="section 3, figure 5 (a)",
+        interpretation="Within 1 %.",
+        measures=(Measure("inertia", "rm W^2 d0", least=0.99, most=1.01, decisive=True),),
+        evidence=design_point,
     ),
     Claim(
-        "S4",
-        "(rm, d0) = (0.12, 2) fulfils rm W^2 d0 = 1 at W = 2.",
-        "section 3, figure 5 (a)",
-        "To 1 %.",
-        (Number("inertia", "rm W^2 d0", least=0.99, most=1.01, decisive=True),),
-        design_point,
-    ),
-    Claim(
-        "S5",
-        "The peak frequencies are 2, 2.37 and 2.8 for h = 0.215, 0.15 and 0.107.",
-        "section 3, figures 6 to 8",
-        "The fold at which the resonance branch of exact orbits ends, to 1 %; beside it the "
-        "formula W^2 = (3/4) a^2, a = 1/(h W).",
-        (
-            Number(
+        number="S5",
+        text="The peak frequencies are 2, 2.37 and 2.8 for h = 0.215, 0.15 and 0.107.",
+        source="section 3, figures 6 to 8",
+        interpretation="The fold that ends the resonance branch of exact orbits, within 1 %; in "
+        "addition the formula W^2 = (3/4) a^2, a = 1/(h W).",
+        measures=(
+            Measure(
                 "worst",
-                "largest relative difference of the folds",
+                "largest relative difference of a fold to the printed frequency",
                 most=0.01,
                 decisive=True,
             ),
             *(
-                Number(f"{kind}_{value:g}", f"{words} for h = {value:g}")
+                Measure(f"{kind}_{value:g}", f"{words} for h = {value:g}")
                 for value in PRINTED_PEAKS
                 for kind, words in (("formula", "peak by the formula"), ("end", "fold"))
             ),
         ),
-        peaks,
+        evidence=peaks,
     ),
     Claim(
-        "S6",
-        "Figure 8 prints no d0, figure 11 neither h nor W: the values taken are the design "
-        "of the paper.",
-        "figures 8 and 11",
-        "Figure 8: d0 by (19) at Wp = 2.8; figure 11: h = 0.215 and W = 2. Judged by the peak "
-        "frequency of the formula, to 5 %.",
-        (
-            Number("inertia", "rm Wp^2 d0 of figure 8", least=0.95, most=1.05, decisive=True),
-            Number("frequency", "W/Wp of figure 11", least=0.95, most=1.05, decisive=True),
+        number="S6",
+        text="Figure 8 prints no d0, figure 11 neither h nor W: the values chosen agree with the "
+        "design of the paper.",
+        source="figures 8 and 11",
+        interpretation="Figure 8: d0 by (19) at Wp = 2.8; figure 11: h = 0.215 and W = 2. "
+        "Compared with the peak frequency of the formula, within 5 %.",
+        measures=(
+            Measure("inertia", "rm Wp^2 d0 of figure 8", least=0.95, most=1.05, decisive=True),
+            Measure("frequency", "W/Wp of figure 11", least=0.95, most=1.05, decisive=True),
         ),
-        unprinted,
+        evidence=unprinted,
     ),
 )

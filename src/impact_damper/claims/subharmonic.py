@@ -1,31 +1,31 @@
-"""Claims on the one-third subharmonic: 10 and 18 (section 3, figures 5 and 8)."""
+"""Claims 10 and 18, on the one-third subharmonic (section 3, figures 5 and 8)."""
 
 import numpy as np
 
-from impact_damper.claims import exact, extract
-from impact_damper.claims.claim import Claim, Number
+from impact_damper.claims import exact_orbits, extract
+from impact_damper.claims.claim import Claim, Measure
 
 LIGHT, HEAVY, LOW_DAMPING = extract.BY_MASS[:2], extract.BY_MASS[2], "figure_08"
-AS_LARGE = 0.95
+AS_LARGE = 0.95  # least ratio of amplitudes at which the subharmonic counts as unchanged
 
 
-def compared(part, free):
-    """Largest ratio of the size of some pieces to that of the free subharmonic, NaN if none."""
-    sizes = exact.largest(exact.subharmonic(free), part.frequency)
+def largest_ratio(part, free):
+    """Largest ratio of the size of pieces to the free subharmonic's; NaN without pieces."""
+    sizes = exact_orbits.largest(exact_orbits.subharmonic(free), part.frequency)
     return (part["size"] / sizes).max()
 
 
 def reappearance(datasets):
-    """Numbers of claim 10."""
+    """Measures of claim 10: the damper removes the subharmonic; a larger rm lets it reappear."""
     in_band, anywhere, ratios = [], [], []
     for name in (*LIGHT, HEAVY):
-        branches, free = exact.of_curve(datasets, name)
-        part = exact.stable_subharmonics(branches)
+        branches, free = exact_orbits.of_curve(datasets, name)
+        part = exact_orbits.stable_subharmonics(branches)
         lower, upper = extract.band_edges(extract.get(datasets, "design", name))
-        in_band.append(exact.covered(part, lower, upper))
-        anywhere.append(exact.covered(part, *exact.subharmonic_range(free)))
+        in_band.append(exact_orbits.covered(part, lower, upper))
+        anywhere.append(exact_orbits.covered(part, *exact_orbits.subharmonic_range(free)))
         inside = part.frequency.between(lower, upper) if name == HEAVY else slice(None)
-        ratios.append(compared(part[inside], free))
+        ratios.append(largest_ratio(part[inside], free))
     heavy = extract.within(extract.get(datasets, "subharmonic", HEAVY), lower, upper)
     return {
         "light": max(in_band[: len(LIGHT)]),
@@ -38,26 +38,28 @@ def reappearance(datasets):
 
 
 def expected(curve):
-    """Mean amplitude of subharmonics that a start leads to, 0 for another motion."""
+    """Mean amplitude over random starts, counting 0 if a start leads to no subharmonic."""
     third = extract.is_outcome(curve, "settled") & (curve.period % 3 == 0)
     share = curve.share / curve.share.sum("motion")
     return (share * curve.maximum_displacement).where(third, 0.0).sum("motion")
 
 
 def unchanged(branches, free):
-    """Share of the free subharmonic's range in which one with the damper is as large."""
-    lower, upper = exact.subharmonic_range(free)
-    part = exact.stable_subharmonics(branches)
+    """Share of the range of the free subharmonic with an equally large one with the damper."""
+    lower, upper = exact_orbits.subharmonic_range(free)
+    part = exact_orbits.stable_subharmonics(branches)
     part = part[part.frequency.between(lower, upper)]
-    alike = part["size"] >= AS_LARGE * exact.largest(exact.subharmonic(free), part.frequency)
-    return exact.covered(part[alike], lower, upper) / (upper - lower)
+    alike = part["size"] >= AS_LARGE * exact_orbits.largest(
+        exact_orbits.subharmonic(free), part.frequency
+    )
+    return exact_orbits.covered(part[alike], lower, upper) / (upper - lower)
 
 
 def by_damping(datasets):
-    """Numbers of claim 18."""
+    """Measures of claim 18: the subharmonic is reduced more at lower h."""
     names = (LOW_DAMPING, extract.BY_MASS[0])
-    curves = [exact.of_curve(datasets, name) for name in names]
-    ends = [exact.subharmonic_range(free) for _, free in curves]
+    curves = [exact_orbits.of_curve(datasets, name) for name in names]
+    ends = [exact_orbits.subharmonic_range(free) for _, free in curves]
     low, high = (
         extract.within(extract.get(datasets, "subharmonic", name), *pair)
         for name, pair in zip(names, ends, strict=True)
@@ -80,69 +82,79 @@ def by_damping(datasets):
 
 CLAIMS = (
     Claim(
-        "10",
-        "A properly designed damper removes the one-third subharmonic; a larger rm lets it "
+        number="10",
+        text="A properly designed damper removes the one-third subharmonic; a larger rm lets it "
         "reappear within the band with a much lower amplitude.",
-        "section 3, figure 5",
-        "Removed: no stable orbit whose period is a multiple of 3 in the suppression band by "
-        "harmonic balance, figures 5 (a) and (b), and in full nowhere between the folds of the "
-        "free one. Reappears: figure 5 (c). Much lower: half at most of the free one at the same "
-        "W. All stable orbits count, however small their basins.",
-        (
-            Number(
+        source="section 3, figure 5",
+        interpretation="Removed: no stable orbit whose period is a multiple of 3 in the "
+        "suppression band by harmonic balance, figures 5 (a) and (b); full agreement requires "
+        "none between the folds of the free subharmonic. Reappears: figure 5 (c). Much lower: at "
+        "most half of the free subharmonic at the same W. All stable orbits count, however small "
+        "their basins.",
+        measures=(
+            Measure(
                 "light",
-                "width of W in the band with such an orbit, (a) and (b)",
+                "width in W of the part of the band with such an orbit, (a) and (b)",
                 most=0,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "light_anywhere",
-                "width of W between the folds of the free one with such an orbit, (a) and (b)",
+                "width in W of the range between the folds with such an orbit, (a) and (b)",
                 most=0,
             ),
-            Number("light_ratio", "its largest amplitude over that without the damper"),
-            Number(
+            Measure(
+                "light_ratio",
+                "largest amplitude of such an orbit over the free subharmonic, (a) and (b)",
+            ),
+            Measure(
                 "heavy",
-                "width of W in the band with such an orbit, (c)",
+                "width in W of the part of the band with such an orbit, (c)",
                 least=0.005,
                 decisive=True,
             ),
-            Number(
+            Measure(
                 "ratio",
-                "its largest amplitude over that without the damper, (c)",
+                "largest amplitude of such an orbit over the free subharmonic, (c)",
                 most=0.5,
                 decisive=True,
             ),
-            Number("reached", "largest share of runs from the free subharmonic that lead to it"),
+            Measure(
+                "reached",
+                "largest share of starts on the free subharmonic that lead to such an orbit",
+            ),
         ),
-        reappearance,
+        evidence=reappearance,
     ),
     Claim(
-        "18",
-        "The control of the one-third subharmonic is more prominent at lower h.",
-        "section 3, figure 8",
-        "By how much its amplitude falls, where starts lead, mean over the free range: h = 0.107 "
-        "against h = 0.215, both rm = 0.12. Free range: between the folds. Stable orbits whose "
-        "period is a multiple of 3 are counted apart, for they may have small basins.",
-        (
-            Number(
+        number="18",
+        text="The control of the one-third subharmonic is more prominent at lower h.",
+        source="section 3, figure 8",
+        interpretation="Decrease of its mean amplitude over random starts, averaged over the free "
+        "range: h = 0.107 compared with h = 0.215, both rm = 0.12. Free range: W between the "
+        "folds of the free subharmonic. Stable orbits whose period is a multiple of 3 are "
+        "reported separately, since they may have small basins.",
+        measures=(
+            Measure(
                 "fall",
-                "mean fall of the amplitude for h = 0.107 over that for h = 0.215",
+                "mean decrease of the amplitude for h = 0.107 over the decrease for h = 0.215",
                 least=1,
                 decisive=True,
             ),
-            Number("relative", "the same, each relative to the free amplitude", least=1),
-            Number("low", "mean fall for h = 0.107"),
-            Number("high", "mean fall for h = 0.215"),
-            Number("range", "free range of W for h = 0.107 over that for h = 0.215"),
-            Number(
+            Measure("relative", "ratio of the decreases relative to the free amplitudes", least=1),
+            Measure("low", "mean decrease for h = 0.107"),
+            Measure("high", "mean decrease for h = 0.215"),
+            Measure("range", "width of the free range for h = 0.107 over the width for h = 0.215"),
+            Measure(
                 "unchanged",
-                "share of the range for h = 0.107 in which a subharmonic of at "
-                "least 95 % of the free amplitude is left",
+                "share of the free range for h = 0.107 with a subharmonic of at least 95 % of the "
+                "free amplitude",
                 most=0.05,
             ),
-            Number("unchanged_high", "the same for h = 0.215"),
+            Measure(
+                "unchanged_high", "share of the free range for h = 0.215 with such a subharmonic"
+            ),
         ),
-        by_damping,
+        evidence=by_damping,
     ),
 )

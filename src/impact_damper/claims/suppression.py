@@ -1,15 +1,23 @@
-"""The suppression band by the motions that exist: exact orbits, and chaotic motions simulated."""
+"""The suppression band by the motions that exist: exact orbits and simulated chaotic motions."""
 
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from impact_damper.claims import exact, extract
+from impact_damper.claims import exact_orbits, extract
 
 
 class Band(NamedTuple):
-    """A suppression band by the motions that exist: edges, and how far up the lower may lie."""
+    """A suppression band by the motions that exist.
+
+    Attributes
+    ----------
+    lower, upper : float
+        Edges in W, dimensionless.
+    resolution : float
+        Uncertainty of the lower edge, which lies between `lower` and `lower + resolution`.
+    """
 
     lower: float
     upper: float
@@ -17,42 +25,50 @@ class Band(NamedTuple):
 
     @property
     def width(self):
-        """Largest width that the data allow."""
+        """Largest width compatible with the data."""
         return self.upper - self.lower
 
     @property
     def least_width(self):
-        """Least width that the data allow."""
+        """Smallest width compatible with the data."""
         return self.width - self.resolution
 
 
 def high_motions(response, free):
-    """Damped motions that exceed half of the free resonance branch."""
+    """Mask of the motions with damper that are larger than half of the free resonance branch."""
     frequency = response.frequency
-    limit = exact.HALF * xr.DataArray(exact.resonance(free, frequency), {"frequency": frequency})
+    limit = exact_orbits.HALF * xr.DataArray(
+        exact_orbits.resonance(free, frequency), {"frequency": frequency}
+    )
     return extract.touching(response) & (response.maximum_displacement > limit)
 
 
 def chaotic_high(response, free):
-    """Frequencies at which a high damped motion is chaotic."""
+    """Mask of the frequencies at which a high motion with damper is chaotic."""
     return (high_motions(response, free) & extract.is_outcome(response, "chaotic")).any("motion")
 
 
 def suppression_band(datasets, name):
-    """Range below the fold of the free resonance branch without any high motion, or raise Missing.
+    """Return the range of W without a high motion, below the end of the free resonance branch.
 
-    The lower edge is the upper end of the last branch of stable high orbits, or the last frequency
-    of the response with a high motion that has not settled, of which all that is known is that
-    it is gone at the next one.
+    The lower edge is the larger of two frequencies: the upper end of the branches of stable high
+    orbits, and the last frequency of the response with a high motion that did not settle. The
+    latter is known to the step of the frequencies only.
+
+    Raises
+    ------
+    Missing
+        If a dataset or the fold of the free resonance branch is missing.
     """
-    branches, free = exact.of_curve(datasets, name)
+    branches, free = exact_orbits.of_curve(datasets, name)
     response = extract.get(datasets, "response", name)
-    upper, _ = exact.resonance_fold(free)
-    ends = [top for _, top in exact.ranges(exact.high(branches, free))]
+    upper, _ = exact_orbits.resonance_fold(free)
+    ends = [top for _, top in exact_orbits.ranges(exact_orbits.high(branches, free))]
     unsettled = high_motions(response, free) & extract.is_outcome(response, "chaotic", "unresolved")
-    there = response.frequency.values[unsettled.any("motion").values]
-    if not ends and not len(there):
+    last = response.frequency.values[unsettled.any("motion").values]
+    if not ends and not len(last):
         return Band(np.nan, upper, np.nan)
-    lower = min(max([*ends, *there]), upper)
-    gone = response.frequency.values[response.frequency.values > max(there, default=np.inf)]
-    return Band(lower, upper, max(min([*gone[:1], upper]) - lower, 0.0) if len(there) else 0.0)
+    lower = min(max([*ends, *last]), upper)
+    following = response.frequency.values[response.frequency.values > max(last, default=np.inf)]
+    resolution = max(min([*following[:1], upper]) - lower, 0.0) if len(last) else 0.0
+    return Band(lower, upper, resolution)

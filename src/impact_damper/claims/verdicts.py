@@ -1,4 +1,4 @@
-"""Every claim of Chatterjee, Mallik and Ghosh (1995), judged by the datasets."""
+"""Registry of all claims of Chatterjee, Mallik and Ghosh (1995), and the table of verdicts."""
 
 import pandas as pd
 
@@ -16,45 +16,60 @@ from impact_damper.claims import (
 from impact_damper.claims.claim import VERDICTS
 from impact_damper.data.table_files import plain
 
-MODULES = (balance, bands, contact, migration, motions, optimum, phases, slips, subharmonic)
-CLAIMS = tuple(
-    sorted(
-        (claim for module in MODULES for claim in module.CLAIMS),
-        key=lambda claim: (claim.number.startswith("S"), int(claim.number.removeprefix("S"))),
-    )
+MODULES = (
+    balance,  # 1, 2, 3
+    bands,  # 4, 16, 17
+    motions,  # 5, 6, 8
+    phases,  # 7
+    optimum,  # 9, 11
+    subharmonic,  # 10, 18
+    migration,  # 12, 13, 14, 19
+    contact,  # 15
+    slips,  # S1 to S6
 )
 
 
+def _order(claim):
+    """Sort key: claims 1 to 19 before slips S1 to S6."""
+    return claim.number.startswith("S"), int(claim.number.removeprefix("S"))
+
+
+CLAIMS = tuple(sorted((claim for module in MODULES for claim in module.CLAIMS), key=_order))
+
+
 def claims(datasets) -> pd.DataFrame:
-    """The claims table: a row for each claim, then one for each slip.
+    """Table of verdicts: a row for each claim, then one for each slip.
 
     Parameters
     ----------
-    datasets : dict
-        By stage and name, as the workflow makes them; a claim whose datasets are missing
-        is not decidable.
+    datasets : dict of dict of xarray.Dataset
+        By stage and name. A claim whose datasets are missing is not decidable.
     """
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
 
 def document(frame) -> str:
-    """The claims table in Markdown: the verdicts at a glance, then a section for each claim."""
+    """Table of verdicts in Markdown: a summary, then a section for each claim."""
     slips = frame["number"].str.startswith("S")
     parts = [
-        "# What the paper states, and what the data say",
+        "# Claims of the paper, and verdicts from the data",
         f"Claims: {_tally(frame[~slips])}. Slips: {_tally(frame[slips])}.",
-        "S1 to S6 are slips of the paper, each taken as the claim that what is printed holds.",
+        "S1 to S6 are misprints and gaps of the paper, each taken as the claim that the print is "
+        "correct.",
         plain(frame[["number", "claim", "verdict"]]),
     ]
     for row in frame.to_dict("records"):
         parts.append(f"## {row['number']}. {row['claim']}")
         entries = [("Verdict", row["verdict"] + ". " + row["difference"])]
-        entries += [(name.capitalize(), row[name]) for name in ("source", "reading", "criterion")]
+        entries += [
+            (name.capitalize(), row[name]) for name in ("source", "interpretation", "criterion")
+        ]
         entries.append(("Evidence", row["evidence"].replace("; ", ";\n  ")))
         parts.append("\n".join(f"- **{name}:** {text.strip()}" for name, text in entries if text))
     return "\n\n".join(parts)
 
 
 def _tally(frame):
+    """Number of claims with each verdict, as text."""
     counts = frame["verdict"].value_counts()
     return ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS if verdict in counts)

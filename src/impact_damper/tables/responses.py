@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from impact_damper.claims import exact, extract
+from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Missing
 from impact_damper.claims.suppression import chaotic_high, high_motions, suppression_band
 from impact_damper.data.datasets import flag
@@ -49,7 +49,7 @@ def _existing_band(datasets, name):
     """Columns of the band by the motions that exist, and of chaotic high motions."""
     response = datasets["response"][name]
     try:
-        free = exact.free_of(datasets, response)
+        free = exact_orbits.free_of(datasets, response)
         band = suppression_band(datasets, name)
     except Missing:
         return {}
@@ -99,7 +99,7 @@ def subharmonic(datasets) -> pd.DataFrame:
             }
         )
         if name in datasets.get("branches", {}):
-            part = exact.stable_subharmonics(datasets["branches"][name])
+            part = exact_orbits.stable_subharmonics(datasets["branches"][name])
             rows += [head | _stable_part(branch) for _, branch in part.groupby("branch")]
     return pd.DataFrame(rows)
 
@@ -118,7 +118,7 @@ def _stable_part(part):
 def _free_subharmonic(free):
     """Columns of the free one-third subharmonic, if it exists."""
     try:
-        part = exact.subharmonic(free)
+        part = exact_orbits.subharmonic(free)
     except Missing:
         return {"branch": "none"}
     return _stable_part(part[part.stable])

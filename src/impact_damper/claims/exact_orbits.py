@@ -1,4 +1,8 @@
-"""What the claims and the tables read from the exact branches of periodic orbits."""
+"""Quantities from the branches of exact periodic orbits, for the claims and the tables.
+
+A branch is cut into pieces, each between two neighbouring orbits. Between them all quantities are
+interpolated linearly, so that branches can be evaluated at any frequency.
+"""
 
 import numpy as np
 import pandas as pd
@@ -7,13 +11,13 @@ from impact_damper.claims import extract
 from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, oscillator_of
 
-SYMMETRIC = 1e-6
-HALF = 0.5  # an orbit is high if it exceeds this share of the free resonance branch
-ALONG = ("frequency", "size", "amplitude", "loose")
+SYMMETRIC = 1e-6  # largest asymmetry of a symmetric orbit
+HALF = 0.5  # an orbit is high if its size exceeds this share of the free resonance branch
+INTERPOLATED = ("frequency", "size", "amplitude", "loose")
 
 
 def free_of(datasets, data):
-    """Branches of the free oscillator that a damper of `data` is attached to, or raise Missing."""
+    """Return the branches without damper of the oscillator of a dataset, or raise Missing."""
     wanted = oscillator_of(data)
     for free in datasets.get("free_branches", {}).values():
         if oscillator_of(free) == wanted:
@@ -22,23 +26,29 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Branches with the damper of a curve, and those of its free oscillator, or raise Missing."""
+    """Return the branches of a curve with damper and those without, or raise Missing."""
     branches = extract.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
 
 def pieces(branches) -> pd.DataFrame:
-    """Branches cut into pieces, each from one orbit to the next.
+    """Cut branches into pieces, each from one orbit to the next.
 
     Returns
     -------
     pandas.DataFrame
-        By piece: branch and period; W at both its ends, the lower and the upper; in its middle
-        W, max |Z1| (size) and the first harmonic of Z1 as a complex number, by the phase of Z2
-        (amplitude) and by that of x2 (loose), and by how much these change along it; largest
-        modulus of a multiplier in the middle, and whether it is stable, which changes at orbits
-        only; fewest and most contacts a period; asymmetry; least ratio of the speeds after and
-        before a contact.
+        One row for each piece, with the columns
+
+        - branch, period (in forcing periods);
+        - lower, upper: ends in W;
+        - frequency, size (max |Z1|), amplitude (first harmonic of Z1 as a complex number, with its
+          phase relative to Z2), loose (the same with its phase relative to x2): values in the
+          middle of the piece; with the ending `_change` their differences between its ends;
+        - multiplier: mean over both ends of the largest modulus of a Floquet multiplier;
+        - stable: whether `multiplier` is below 1;
+        - fewest, contacts: least and largest number of contacts per period at the ends;
+        - asymmetry: largest asymmetry at the ends;
+        - restitution: least ratio of the speeds after and before a contact.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -72,49 +82,49 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Ranges of W over which some pieces extend, in order; those that touch are one."""
-    found = []
+    """Ascending ranges [lower, upper] of W that some pieces cover; touching ranges are merged."""
+    merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
-        if found and lower <= found[-1][1]:
-            found[-1][1] = max(found[-1][1], upper)
+        if merged and lower <= merged[-1][1]:
+            merged[-1][1] = max(merged[-1][1], upper)
         else:
-            found.append([lower, upper])
-    return found
+            merged.append([lower, upper])
+    return merged
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Width of W, within bounds, over which some pieces extend."""
+    """Total width of W between `lower` and `upper` that some pieces cover."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Some pieces where they pass given frequencies, by a straight line between their ends."""
+    """Pieces interpolated at frequencies: a row for each pair of a frequency and a piece there."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
-    there = frequency[:, None] >= part.lower.to_numpy()
-    there &= frequency[:, None] <= part.upper.to_numpy()
-    place, row = np.nonzero(there)
-    found = part.iloc[row].reset_index(drop=True)
-    away = frequency[place] - found.frequency
-    change = found.frequency_change.to_numpy()
-    share = np.divide(away, change, out=np.zeros(len(found)), where=change != 0)
-    for name in ALONG:
-        found[name] = found[name] + share * found[f"{name}_change"]
-    return found.assign(frequency=frequency[place])
+    inside = frequency[:, None] >= part.lower.to_numpy()
+    inside &= frequency[:, None] <= part.upper.to_numpy()
+    index, row = np.nonzero(inside)
+    rows = part.iloc[row].reset_index(drop=True)
+    distance = frequency[index] - rows.frequency
+    change = rows.frequency_change.to_numpy()
+    share = np.divide(distance, change, out=np.zeros(len(rows)), where=change != 0)
+    for name in INTERPOLATED:
+        rows[name] = rows[name] + share * rows[f"{name}_change"]
+    return rows.assign(frequency=frequency[index])
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """The crossing of least size at each frequency that some pieces pass, in their order."""
-    found = crossings(part, frequency)
-    return found.loc[found.groupby("frequency")["size"].idxmin()]
+    """Row of `crossings` with the smallest size at each frequency; none without a piece there."""
+    rows = crossings(part, frequency)
+    return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
 
 def largest(part, frequency):
-    """Largest size of some pieces at each frequency, NaN where there is none."""
+    """Largest size of the pieces at each frequency; NaN without a piece there."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
 def resonance_fold(free):
-    """Frequency and size at which the free resonance branch ends, or raise Missing."""
+    """Return frequency and size of the end of the free resonance branch, or raise Missing."""
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():
@@ -124,7 +134,7 @@ def resonance_fold(free):
 
 
 def resonance(free, frequency):
-    """Size of the free resonance branch at each frequency, NaN above its fold."""
+    """Size of the free resonance branch at each frequency; NaN above its fold."""
     end, _ = resonance_fold(free)
     part = pieces(free)
     sizes = largest(part[part.period == 1], frequency)
@@ -132,12 +142,12 @@ def resonance(free, frequency):
 
 
 def above_half(part, free):
-    """Whether pieces exceed half of the free resonance branch."""
+    """Mask of the pieces larger than half of the free resonance branch."""
     return part["size"] > HALF * resonance(free, part.frequency)
 
 
 def high(branches, free):
-    """Pieces of stable orbits above half of the free resonance branch, of any period."""
+    """Pieces of stable orbits of any period, larger than half of the free resonance branch."""
     part = pieces(branches)
     part = part[part.stable]
     return part[above_half(part, free)]
@@ -151,14 +161,17 @@ def quiet(branches, free):
 
 
 def counterparts(design, branches) -> pd.DataFrame:
-    """Impacting solutions of (7), each with the nearest orbit of its kind at the same frequency.
+    """Pair each impacting solution of (7) with the nearest exact orbit at the same frequency.
+
+    The orbits considered are those that the ansatz of (7) approximates: symmetric, period 1, two
+    contacts per period, stable or unstable.
 
     Returns
     -------
     pandas.DataFrame
-        By solution its frequency, amplitude `a`, whether it is `balance_stable` and whether it
-        is the `least` one there; beside it the crossing of symmetric orbits of period 1 with two
-        contacts, stable or not, whose amplitude is nearest, and their relative difference.
+        One row for each solution with such an orbit: `frequency`; `a`; `balance_stable`; `least`
+        (whether |a| is the smallest at this frequency); the columns of `crossings` for the orbit;
+        `difference`, the relative difference of the orbit's first harmonic to `a`.
     """
     part = pieces(branches)
     alike = part[
@@ -183,16 +196,16 @@ def counterparts(design, branches) -> pd.DataFrame:
 
 
 def high_counterparts(design, branches, free):
-    """The counterparts of the stable solutions of (7) above half of the free resonance branch."""
+    """Rows of `counterparts` for the stable solutions above half of the free resonance branch."""
     pairs = counterparts(design, branches)
     limit = HALF * resonance(free, pairs.frequency)
     return pairs[pairs.balance_stable & (np.abs(pairs.a) > limit)]
 
 
 def subharmonic(free):
-    """Pieces of the free one-third subharmonic, or raise Missing.
+    """Return the pieces of the one-third subharmonic without damper, or raise Missing.
 
-    It is symmetric and of period 3; of several such branches it is the one of the widest range.
+    Of the branches of symmetric orbits of period 3, the one with the widest range of W.
     """
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
@@ -202,7 +215,7 @@ def subharmonic(free):
 
 
 def subharmonic_range(free):
-    """Frequencies of the folds between which the free one-third subharmonic exists."""
+    """Frequencies of both folds that bound the one-third subharmonic without damper."""
     part = subharmonic(free)
     return float(part.lower.min()), float(part.upper.max())
 
