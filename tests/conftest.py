@@ -1,27 +1,30 @@
-"""Fixtures: orbits that many tests use, and the reference integrator."""
+"""Fixtures for tests in several rooms: known periodic orbits, and integrators by heyoka.py."""
 
 import pytest
-from helpers.scenes import IMPACTING, STARTS, scene_of
+from helpers.known_orbits import IMPACTING, STARTS, polished_orbit
 
 
 @pytest.fixture(scope="session", params=list(STARTS))
-def scene(request):
-    return scene_of(request.param)
+def known_orbit(request):
+    """Each known orbit in turn, with a damper and without."""
+    return polished_orbit(request.param)
 
 
 @pytest.fixture(scope="session", params=IMPACTING)
-def impacting(request):
-    return scene_of(request.param)
+def impacting_orbit(request):
+    """Each known orbit with contacts in turn."""
+    return polished_orbit(request.param)
 
 
 @pytest.fixture(scope="session")
-def design():
-    return scene_of("design")
+def design_orbit():
+    """The quiet orbit of the design of figure 5(a) at W = 2."""
+    return polished_orbit("design")
 
 
 @pytest.fixture(scope="session")
-def references():
-    """Two reference integrators that differ in their steps."""
+def heyoka_references():
+    """Two heyoka.py integrators with different step limits; skips the test without heyoka.py."""
     pytest.importorskip("heyoka")
     from references.taylor_events import Reference
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, PAPER
+from helpers.known_orbits import DESIGN, PAPER
 from references import extended
 
 from benchmarks import accuracy, chart, costs, machine, overhead, ratios, scaling, scenes, stages

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER, scene_of
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
@@ -98,7 +98,7 @@ def by_scipy(damper, frequency, y):
 @pytest.mark.parametrize("frequency", [2.0, 2.3])
 def test_against_scipy(damper, name, frequency):
     """At W = 2.3 |Z1| is largest at an impact, which is no stationary point."""
-    y = scene_of(name).state
+    y = polished_orbit(name).state
     state, _, impacts, _, _, largest = rigid_map(
         rigid(damper, frequency), damper.restitution, y, 1e-13
     )
@@ -111,7 +111,7 @@ def test_against_scipy(damper, name, frequency):
 @pytest.mark.parametrize(("damper", "name"), CASES)
 def test_derivative(damper, name):
     """Against central differences, whose error falls as the square of their step."""
-    p, y = rigid(damper, 2.0), scene_of(name).state
+    p, y = rigid(damper, 2.0), polished_orbit(name).state
     _, matrix, *_ = rigid_map(p, damper.restitution, y, 1e-14)
 
     def differences(step):
@@ -129,7 +129,7 @@ def test_derivative(damper, name):
 @pytest.mark.parametrize(("damper", "name"), CASES)
 def test_compliant_contact_comes_to_it(damper, name):
     """State and derivative of the map over a period differ by r1^(-1/2)."""
-    y = scene_of(name).state
+    y = polished_orbit(name).state
     state, matrix, *_ = rigid_map(rigid(damper, 2.0), damper.restitution, y, 1e-13)
     errors = []
     for stiffness in (1e6, 1e8):

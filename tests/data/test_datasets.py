@@ -6,7 +6,7 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
-from helpers.scenes import DESIGN, PAPER
+from helpers.known_orbits import DESIGN, PAPER
 
 from impact_damper.data import datasets
 from impact_damper.data.variables import VARIABLES

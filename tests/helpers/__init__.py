@@ -1,0 +1,1 @@
+"""Helpers of the tests: known systems and orbits, invented datasets, copies of the project."""

@@ -1,4 +1,7 @@
-"""Made-up datasets in which every claim of the paper holds, small and with closed forms."""
+"""Invented datasets of every stage, from closed forms, in which every claim of the paper holds.
+
+Tests of claims, tables and figures change one of them and expect one claim to fail.
+"""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Made-up branches of orbits, with closed forms."""
+"""Invented branches of periodic orbits, from closed forms."""
 
 import numpy as np
 
@@ -6,9 +6,10 @@ from impact_damper.data.datasets import dataset, flag
 
 
 def branch(frequency, size, *, stable=True, **others):
-    """A branch over frequencies: size, and whether it is stable, scalars or over frequency.
+    """Columns of one branch, by name: `size` is max |Z1|, a scalar or an array over `frequency`.
 
-    Others are `period`, `contacts`, `phase` of Z1 to Z2, `asymmetry` and `restitution`.
+    So are `stable` and, in `others`, `period`, `contacts`, `phase` (of Z1 relative to Z2),
+    `asymmetry` and `restitution`.
     """
     usual = {"period": 1, "contacts": 2.0, "phase": np.pi, "asymmetry": 0.0, "restitution": np.nan}
     given = {"size": size, "multiplier": np.where(stable, 0.5, 2.0)} | usual | others
@@ -17,7 +18,7 @@ def branch(frequency, size, *, stable=True, **others):
 
 
 def branches(*parts, folds=(), parameters):
-    """Dataset of branches, and of folds (branch, W, size) on them."""
+    """Dataset of branches made by `branch`, with `folds` on them as (branch number, W, size)."""
     table = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     number = np.repeat(np.arange(len(parts)), [len(part["frequency"]) for part in parts])
     count = len(number)

@@ -1,4 +1,4 @@
-"""Motions sampled at chosen times, and quadrature over them."""
+"""States of a motion at chosen times, and Gauss quadrature between its events."""
 
 import numpy as np
 
@@ -6,7 +6,11 @@ from impact_damper.motions import records
 
 
 def sample(p, state, start, times, tolerance=1e-14):
-    """States at increasing times, and contacts as rows of wall, beginning, end, Z2' at both."""
+    """Run the kernel from `start` through increasing `times`.
+
+    Returns the states, shape (n, 4), and the contacts, shape (k, 5): wall, beginning, end, and Z2'
+    at both.
+    """
     states, log = np.empty((len(times), 4)), np.empty((4096, 5))
     count = records.trace(
         p, np.array(state, float), float(start), np.array(times, float), tolerance, states, log
@@ -15,7 +19,11 @@ def sample(p, state, start, times, tolerance=1e-14):
 
 
 def gauss(breaks, longest=0.1, order=12):
-    """Nodes and weights that are spectrally accurate on functions smooth between the breaks."""
+    """Nodes and weights of Gauss-Legendre quadrature from the first to the last of the breaks.
+
+    Each interval between breaks is divided into panels no longer than `longest`, so the quadrature
+    converges spectrally for functions that are smooth between the breaks.
+    """
     x, w = np.polynomial.legendre.leggauss(order)
     nodes, weights = [], []
     for left, right in zip(breaks[:-1], breaks[1:], strict=True):

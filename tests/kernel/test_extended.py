@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER, STARTS
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS
 from references import extended
 from references.extended import scenes
 
@@ -187,7 +187,7 @@ def test_heyoka_in_the_same_digits(case):
     assert np.max(np.abs(motion.state - run.states[-1, :2])) < 10 * DIGITS * run.growth
 
 
-@pytest.mark.parametrize("scene", list(scenes.scenes()), ids=lambda scene: scene[0])
+@pytest.mark.parametrize("scene", list(scenes.configured_scenes()), ids=lambda scene: scene[0])
 def test_stored_references_are_what_the_program_gives(scene):
     """To the last digits but two, in which C libraries may differ."""
     name, *motion = scene

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from helpers.sampling import sample
-from helpers.scenes import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
@@ -19,10 +19,10 @@ TOLERANCES = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12]
 DAMPERS = pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
 
 
-def compare(references, p, state, start, times, atol, side=0):
+def compare(heyoka_references, p, state, start, times, atol, side=0):
     """States at given times and all contacts of both references and of the kernel."""
     states, log = sample(p, state, start, times, 1e-14)
-    for reference in references:
+    for reference in heyoka_references:
         expected = reference.run(p, state, start, times, side)
         assert len(expected.contacts) == len(log)
         assert_allclose(states, expected.states, atol=atol)
@@ -32,34 +32,41 @@ def compare(references, p, state, start, times, atol, side=0):
 
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
-def test_error_stays_within_ten_tolerances(scene, references, tolerance):
+def test_error_stays_within_ten_tolerances(known_orbit, heyoka_references, tolerance):
     """After 20 periods, from the orbit and from beside it, at a phase of mid-flight."""
-    p, end = scene.parameters, scene.strobe + 20 * scene.period
+    p, end = known_orbit.parameters, known_orbit.strobe + 20 * known_orbit.period
     for nudge in (0.0, 1e-2):
-        first = scene.state + nudge
-        expected = references[0].run(p, first, scene.strobe, [end])
-        (last,), log = sample(p, first, scene.strobe, [end], tolerance)
+        first = known_orbit.state + nudge
+        expected = heyoka_references[0].run(p, first, known_orbit.strobe, [end])
+        (last,), log = sample(p, first, known_orbit.strobe, [end], tolerance)
         assert len(log) == len(expected.contacts)
         assert np.max(np.abs(last - expected.states[0])) < 10 * tolerance
 
 
-def test_whole_motion(scene, references):
+def test_whole_motion(known_orbit, heyoka_references):
     """Every sample and every contact, in contact too."""
-    times = scene.strobe + np.linspace(0, 5, 401)[1:] * scene.period
-    log = compare(references, scene.parameters, scene.state, scene.strobe, times, 1e-11)
-    assert len(log) == (10 if scene.damper else 0)
+    times = known_orbit.strobe + np.linspace(0, 5, 401)[1:] * known_orbit.period
+    log = compare(
+        heyoka_references,
+        known_orbit.parameters,
+        known_orbit.state,
+        known_orbit.strobe,
+        times,
+        1e-11,
+    )
+    assert len(log) == (10 if known_orbit.damper else 0)
 
 
 @DAMPERS
 @pytest.mark.parametrize("linear_frequency", [0.0, 1.5])
 @pytest.mark.parametrize("speed", [-3.0, -0.5, 0.0, 0.5, 3.0])
-def test_start_in_contact(references, damper, linear_frequency, speed):
+def test_start_in_contact(heyoka_references, damper, linear_frequency, speed):
     p = pack(Oscillator(0.215, linear_frequency), damper, 2.0)
     times = np.linspace(0, 0.5, 51)[1:]
     for side in (1, -1):
         state = np.array([0.4, -0.3, side * (damper.clearance + 0.02), speed])
         assert side_of(p, state) == side
-        log = compare(references, p, state, 0.0, times, 1e-11, side)
+        log = compare(heyoka_references, p, state, 0.0, times, 1e-11, side)
         assert log[0, 0] == side and log[0, 1] == 0.0 and log[0, 3] == speed
 
 
@@ -79,24 +86,24 @@ def grazing_state(reference, p, depth):
 
 @DAMPERS
 @pytest.mark.parametrize("exponent", range(3, 14))
-def test_no_grazing_contact_is_missed_or_invented(references, damper, exponent):
+def test_no_grazing_contact_is_missed_or_invented(heyoka_references, damper, exponent):
     p = pack(PAPER, damper, 2.0)
     depth = 10.0**-exponent
     for sign in (1, -1):
-        state, instant = grazing_state(references[0], p, sign * depth)
+        state, instant = grazing_state(heyoka_references[0], p, sign * depth)
         _, log = sample(p, state, 0.0, [instant + 0.3])
         assert len(log) == (sign == 1)
         if sign == 1:
             assert log[0, 1] < instant
             assert 0 < log[0, 3] < 3 * math.sqrt(6 * depth)
         # The speed of approach goes as the square root of a depth known to rounding.
-        compare(references, p, state, 0.0, [instant + 0.3], 3e-15 / math.sqrt(depth) + 1e-11)
+        compare(heyoka_references, p, state, 0.0, [instant + 0.3], 3e-15 / math.sqrt(depth) + 1e-11)
 
 
 @pytest.mark.parametrize(
     "damper", [DESIGN, INELASTIC, Damper(0.4, 0.625, 0.3)], ids=["elastic", "inelastic", "dead"]
 )
-def test_random_starts(references, damper):
+def test_random_starts(heyoka_references, damper):
     """Contacts counted twice over; states agree as far as the motion's own sensitivity allows."""
     p = pack(PAPER, damper, 1.7)
     start, end = math.pi / 3.4, math.pi / 3.4 + 2 * math.pi / 1.7
@@ -106,7 +113,7 @@ def test_random_starts(references, damper):
         sensitivity = 1e-13 * (10 + np.linalg.norm(matrix))
         (last,), log = sample(p, state, start, [end])
         assert len(log) == contacts
-        for reference in references:
+        for reference in heyoka_references:
             expected = reference.run(p, state, start, [end])
             assert len(expected.contacts) == contacts
             assert_allclose(last, expected.states[0], atol=sensitivity)

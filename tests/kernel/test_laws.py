@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from helpers.sampling import gauss, sample
-from helpers.scenes import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.motions.simulate import random_states
@@ -16,21 +16,26 @@ from impact_damper.system.parameters import Damper, Oscillator
 WITH_LINEAR_SPRING = Oscillator(0.15, 1.2)
 
 
-def period_of_contacts(scene):
+def period_of_contacts(known_orbit):
     """Contacts in one period from mid-flight."""
-    _, log = sample(scene.parameters, scene.state, scene.strobe, [scene.strobe + scene.period])
+    _, log = sample(
+        known_orbit.parameters,
+        known_orbit.state,
+        known_orbit.strobe,
+        [known_orbit.strobe + known_orbit.period],
+    )
     assert len(log) > 0 and np.isfinite(log).all()
     return log
 
 
-def test_momentum_through_every_contact(impacting):
+def test_momentum_through_every_contact(impacting_orbit):
     """It changes by the impulse of forcing, damping and springs, and by nothing else."""
-    p, start = impacting.parameters, impacting.strobe
-    mass_ratio = impacting.damper.mass_ratio
-    for _, begin, end, *_ in period_of_contacts(impacting):
+    p, start = impacting_orbit.parameters, impacting_orbit.strobe
+    mass_ratio = impacting_orbit.damper.mass_ratio
+    for _, begin, end, *_ in period_of_contacts(impacting_orbit):
         times, weights = gauss([begin, end], order=20)
         times = np.concatenate([[begin], times, [end]])
-        states, _ = sample(p, impacting.state, start, times)
+        states, _ = sample(p, impacting_orbit.state, start, times)
         x, v, _, w = states.T
         force = np.cos(p[0] * times) - p[1] * v - p[2] * x - x**3
         momentum = v + mass_ratio * (v - w)
@@ -44,19 +49,19 @@ def energy(p, mass_ratio, state):
     return v**2 / 2 + p[2] * x**2 / 2 + x**4 / 4 + mass_ratio * (v - w) ** 2 / 2
 
 
-def test_energy_over_a_period(scene):
+def test_energy_over_a_period(known_orbit):
     """Work of the forcing against what damping and dashpot take."""
-    p, end = scene.parameters, scene.strobe + scene.period
-    _, log = sample(p, scene.state, scene.strobe, [end])
-    times, weights = gauss(np.concatenate([[scene.strobe], log[:, 1:3].ravel(), [end]]))
-    states, _ = sample(p, scene.state, scene.strobe, np.append(times, end))
+    p, end = known_orbit.parameters, known_orbit.strobe + known_orbit.period
+    _, log = sample(p, known_orbit.state, known_orbit.strobe, [end])
+    times, weights = gauss(np.concatenate([[known_orbit.strobe], log[:, 1:3].ravel(), [end]]))
+    states, _ = sample(p, known_orbit.state, known_orbit.strobe, np.append(times, end))
     v, w = states[:-1, 1], states[:-1, 3]
     touching = ((times[:, None] > log[:, 1]) & (times[:, None] < log[:, 2])).any(axis=1)
     work = weights @ (np.cos(p[0] * times) * v)
     damped = weights @ (p[1] * v**2)
     dashpot = weights @ np.where(touching, p[6] * w**2, 0.0)
-    mass_ratio = scene.damper.mass_ratio if scene.damper else 0.0
-    stored = energy(p, mass_ratio, states[-1]) - energy(p, mass_ratio, scene.state)
+    mass_ratio = known_orbit.damper.mass_ratio if known_orbit.damper else 0.0
+    stored = energy(p, mass_ratio, states[-1]) - energy(p, mass_ratio, known_orbit.state)
     assert work > 1e-3
     assert (dashpot > 0) == (p[6] > 0)
     assert_allclose(stored, 0, atol=1e-9)
@@ -84,12 +89,12 @@ def test_liouville(oscillator, damper):
     assert_allclose(errors, 0, atol=5e-14)
 
 
-def test_symmetry(scene):
+def test_symmetry(known_orbit):
     """(Z, T) -> (-Z, T + half a period) takes motions to motions."""
-    p, half = scene.parameters, scene.period / 2
-    times = scene.strobe + np.linspace(0.1, 3, 50) * scene.period
-    here, log = sample(p, scene.state, scene.strobe, times)
-    there, mirrored = sample(p, -scene.state, scene.strobe + half, times + half)
+    p, half = known_orbit.parameters, known_orbit.period / 2
+    times = known_orbit.strobe + np.linspace(0.1, 3, 50) * known_orbit.period
+    here, log = sample(p, known_orbit.state, known_orbit.strobe, times)
+    there, mirrored = sample(p, -known_orbit.state, known_orbit.strobe + half, times + half)
     assert_allclose(there, -here, atol=2e-11)
     assert np.array_equal(mirrored[:, 0], -log[:, 0])
 

@@ -5,9 +5,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from helpers.pointed import pointed
 from helpers.sampling import sample
-from helpers.scenes import DESIGN, INELASTIC, PAPER
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
@@ -310,9 +310,9 @@ def test_contact_steps_never_pass_a_release(tolerance):
         assert abs(log[0, 2] - log[0, 1] - half) < 0.2 * half
 
 
-def test_tangents_against_differences(impacting):
+def test_tangents_against_differences(impacting_orbit):
     """Central differences of the map between mid-flight phases converge with order two."""
-    p, state = impacting.parameters, impacting.state
+    p, state = impacting_orbit.parameters, impacting_orbit.state
     _, matrix, _ = period_map(p, state, 1, 1e-14)
 
     def error(h):

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from helpers.known_orbits import DESIGN, PAPER
 from helpers.sampling import sample
-from helpers.scenes import DESIGN, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
@@ -79,23 +79,23 @@ def test_free_motions_settle(state, period, largest):
     assert record["asymmetry"] < 1e-7
 
 
-def test_scenes_settle(scene):
-    record = settled(scene.parameters, scene.state + 1e-3)
+def test_known_orbits_settle(known_orbit):
+    record = settled(known_orbit.parameters, known_orbit.state + 1e-3)
     assert record["outcome"] == records.SETTLED
     assert record["period"] == 1
-    assert record["contacts"] == (2 if scene.damper else 0)
+    assert record["contacts"] == (2 if known_orbit.damper else 0)
     assert record["residual"] < 1e-8
-    assert_allclose(record["state"][:2], scene.state[:2], atol=1e-8)
+    assert_allclose(record["state"][:2], known_orbit.state[:2], atol=1e-8)
 
 
-def test_asymmetry(scene):
+def test_asymmetry(known_orbit):
     """Distance from the mirrored motion half a period on, here by integration of the mirror."""
-    record = records.measured(scene.parameters, scene.state, 1, 1e-12)
-    later = [scene.strobe + scene.period / 2]
-    (half,), _ = sample(scene.parameters, scene.state, scene.strobe, later)
-    apart = np.max(np.abs(half + scene.state))
+    record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
+    later = [known_orbit.strobe + known_orbit.period / 2]
+    (half,), _ = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, later)
+    apart = np.max(np.abs(half + known_orbit.state))
     assert_allclose(record["asymmetry"], apart, atol=1e-9)
-    assert (apart > 1) == (scene.frequency == 1.7)
+    assert (apart > 1) == (known_orbit.frequency == 1.7)
 
 
 def test_mass_that_drifts_is_not_taken_for_settled():
@@ -141,35 +141,35 @@ def test_error_of_the_exponent_shrinks_with_the_run():
     )
 
 
-def test_exponent_of_a_settled_motion_is_its_multiplier(scene):
+def test_exponent_of_a_settled_motion_is_its_multiplier(known_orbit):
     """log |multiplier| / period, against the growth of a tangent along the orbit."""
-    record = settled(scene.parameters, scene.state)
-    expected = math.log(abs(record["multiplier"])) / (record["period"] * scene.period)
+    record = settled(known_orbit.parameters, known_orbit.state)
+    expected = math.log(abs(record["multiplier"])) / (record["period"] * known_orbit.period)
     # without a damper the loose mass only rides along, a neutral tangent: start without it
-    if scene.damper is None:
-        _, matrix, _ = strobe_map.period_map(scene.parameters, scene.state, 1, 1e-13)
-        found = math.log(max(abs(np.linalg.eigvals(matrix[:2, :2])))) / scene.period
+    if known_orbit.damper is None:
+        _, matrix, _ = strobe_map.period_map(known_orbit.parameters, known_orbit.state, 1, 1e-13)
+        found = math.log(max(abs(np.linalg.eigvals(matrix[:2, :2])))) / known_orbit.period
     else:
-        found = growth_of_tangent(scene.parameters, scene.state, 1200, 200)
-    assert_allclose(found, expected, rtol=1e-2 if scene.damper else 1e-9)
+        found = growth_of_tangent(known_orbit.parameters, known_orbit.state, 1200, 200)
+    assert_allclose(found, expected, rtol=1e-2 if known_orbit.damper else 1e-9)
 
 
-def test_polish_comes_back_from_aside(scene):
+def test_polish_comes_back_from_aside(known_orbit):
     """To the orbit, from a percent aside; the return is by an integration of its own."""
-    p = scene.parameters
-    y = scene.state * 1.01
+    p = known_orbit.parameters
+    y = known_orbit.state * 1.01
     found, residual, multiplier = strobe_map.polish(p, y, 1, 0.2, 1e-13)
     assert found and residual < 1e-8
-    (back,), _ = sample(p, y, scene.strobe, [scene.strobe + scene.period])
+    (back,), _ = sample(p, y, known_orbit.strobe, [known_orbit.strobe + known_orbit.period])
     assert_allclose(back, y, atol=2e-9)
     assert abs(multiplier) < 1
-    assert_allclose(y[:2], scene.state[:2], atol=1e-8)
+    assert_allclose(y[:2], known_orbit.state[:2], atol=1e-8)
 
 
-def test_polish_finds_no_orbit_where_none_is_near(design):
+def test_polish_finds_no_orbit_where_none_is_near(design_orbit):
     y = np.array([1.0, 1.0, 0.5, -1.0])
     before = y.copy()
-    found, residual, multiplier = strobe_map.polish(design.parameters, y, 1, 1e-3, 1e-12)
+    found, residual, multiplier = strobe_map.polish(design_orbit.parameters, y, 1, 1e-3, 1e-12)
     assert not found and np.isnan(residual) and np.isnan(multiplier)
     assert np.array_equal(y, before)
 
@@ -195,23 +195,23 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
     assert abs(sizes[1] - here) > 0.8
 
 
-def test_follow_arrives(design):
+def test_follow_arrives(design_orbit):
     """At a target within the branch; the orbit there is the one that simulation comes to."""
-    p, y = design.parameters.copy(), design.state.copy()
+    p, y = design_orbit.parameters.copy(), design_orbit.state.copy()
     p, (y, multiplier) = follow_stable(p, y, 1, CLEARANCE, 1.9)
     assert p[CLEARANCE] == 1.9
-    record = settled(p, design.state)
+    record = settled(p, design_orbit.state)
     assert record["outcome"] == records.SETTLED and record["contacts"] == 2
     assert_allclose(y, record["state"], atol=1e-8)
     assert_allclose(multiplier, record["multiplier"], atol=1e-6)
 
 
-def test_measures_against_dense_samples(scene):
+def test_measures_against_dense_samples(known_orbit):
     """Extremum, contacts and harmonics of one period."""
-    record = records.measured(scene.parameters, scene.state, 1, 1e-12)
+    record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
     count = 4096
-    times = scene.strobe + np.arange(count) * scene.period / count
-    states, log = sample(scene.parameters, scene.state, scene.strobe, times)
+    times = known_orbit.strobe + np.arange(count) * known_orbit.period / count
+    states, log = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, times)
     x, z = states[:, 0], states[:, 2]
     # between samples a parabola rises by at most (spacing/2)^2 |x''|/2
     assert -1e-12 < record["maximum_displacement"] - np.max(np.abs(x)) < 1e-5
@@ -219,7 +219,7 @@ def test_measures_against_dense_samples(scene):
     # Re(c exp(i W T)), while the transform counts its time from the strobe, W T = pi/2
     # and contacts between the few samples of the record leave an error in it
     turn = 2 * np.exp(-0.5j * np.pi) / count
-    atol = 2e-4 if scene.damper else 1e-8
+    atol = 2e-4 if known_orbit.damper else 1e-8
     assert_allclose(record["harmonic_displacement"], turn * np.fft.rfft(x)[1], atol=atol)
     assert_allclose(record["harmonic_relative"], turn * np.fft.rfft(z)[1], atol=10 * atol)
 
@@ -233,12 +233,18 @@ def test_extremum_of_an_unsettled_motion():
     assert -1e-10 < record["maximum_displacement"] - largest < 1e-6
 
 
-def test_log_of_contacts_may_be_short(design):
+def test_log_of_contacts_may_be_short(design_orbit):
     """Contacts beyond its end are counted only."""
     log, states = np.full((3, 5), np.nan), np.empty((1, 4))
-    end = np.array([design.strobe + 10 * design.period])
+    end = np.array([design_orbit.strobe + 10 * design_orbit.period])
     count = records.trace(
-        design.parameters, design.state.copy(), design.strobe, end, 1e-12, states, log
+        design_orbit.parameters,
+        design_orbit.state.copy(),
+        design_orbit.strobe,
+        end,
+        1e-12,
+        states,
+        log,
     )
     assert count == 20
     assert np.isfinite(log).all()

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 from scipy import stats
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, PAPER
+from helpers.known_orbits import DESIGN, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag

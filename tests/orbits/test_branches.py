@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, PAPER, scene_of
+from helpers.known_orbits import DESIGN, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
 from impact_damper.motions.ensemble import Settling, settle
@@ -31,13 +31,13 @@ def damped(value):
 
 @pytest.fixture(scope="module")
 def resonance():
-    orbit = find_orbit(free(2.0), scene_of("resonance").state)
+    orbit = find_orbit(free(2.0), polished_orbit("resonance").state)
     return follow_branch(free, orbit, 2.0, (0.6, 2.6))
 
 
 @pytest.fixture(scope="module")
 def quiet():
-    orbit = find_orbit(damped(2.0), scene_of("design").state)
+    orbit = find_orbit(damped(2.0), polished_orbit("design").state)
     return follow_branch(damped, orbit, 2.0, (0.6, 2.6))
 
 
@@ -95,7 +95,7 @@ def test_symmetry_is_lost_where_simulation_loses_it(resonance):
 
 def test_period_doubles_where_simulation_doubles_it():
     """The large motion, followed down in frequency: period 1 above the event, 2 below."""
-    orbit = find_orbit(damped(1.7), scene_of("large").state)
+    orbit = find_orbit(damped(1.7), polished_orbit("large").state)
     branch = follow_branch(damped, orbit, 1.7, (1.58, 1.8))
     doubling = event(branch, "period_doubling")
     for side, period in ((2e-3, 1), (-2e-3, 2)):
@@ -157,7 +157,7 @@ def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
         orbit = find_orbit(middle.orbit.p, middle.orbit.strobe_states[0])
         assert branch.holds(orbit, middle.value)
         assert not branch.holds(orbit, middle.value + 0.01)
-    alien = find_orbit(free(1.9), scene_of("non-resonance").state)
+    alien = find_orbit(free(1.9), polished_orbit("non-resonance").state)
     assert not quiet.holds(alien, 1.9)
     with_half = replace(quiet.points[5].orbit, periods=2)
     assert not quiet.holds(with_half, quiet.points[5].value)
@@ -191,7 +191,7 @@ def test_what_was_found_is_told(capsys):
 )
 def test_any_parameter_ends_on_the_orbit_there(parameter, span):
     """The last orbit of a branch is that of Newton's method with the parameter changed by hand."""
-    state = scene_of("design").state
+    state = polished_orbit("design").state
     branch = orbit_branch(PAPER, DESIGN, 2.0, state, parameter=parameter, span=span)
     values = branch["followed_value"].values
     assert_allclose([values.min(), values.max()], span, rtol=1e-12)
@@ -256,7 +256,7 @@ def test_orbits_near_grazing_are_flagged(grazing):
 
 
 def test_bad_arguments_are_named():
-    state = scene_of("design").state
+    state = polished_orbit("design").state
     with pytest.raises(ValueError, match="parameter = 'gap'.*clearance"):
         orbit_branch(PAPER, DESIGN, 2.0, state, parameter="gap", span=(1, 3))
     with pytest.raises(ValueError, match="no damper to change"):

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, PAPER
+from helpers.known_orbits import DESIGN, PAPER
 
 from impact_damper.data.datasets import flag
 from impact_damper.motions import ensemble, strobe_map
@@ -39,9 +39,9 @@ def at_phase(p, state):
     return shoot(p, state, 1, STROBE)[0].at(PHASE)
 
 
-def orbit_at(damper, frequency, design):
+def orbit_at(damper, frequency, design_orbit):
     """The quiet orbit, followed from the design point in clearance and then in frequency."""
-    y, p = at_phase(design.parameters, design.state), design.parameters
+    y, p = at_phase(design_orbit.parameters, design_orbit.state), design_orbit.parameters
     for q in (pack(PAPER, damper, 2.0), pack(PAPER, damper, frequency)):
         for share in np.linspace(0, 1, 201)[1:]:
             orbit, hindrance = land((1 - share) * p + share * q, y)
@@ -57,20 +57,24 @@ def settled(orbit, push):
     return ensemble.settle(orbit.p[None], state[None], SETTLING, from_strobe=True)[0]
 
 
-def test_multipliers_are_squares_of_those_of_the_root(design):
-    orbit, hindrance = land(design.parameters, at_phase(design.parameters, design.state))
-    _, _, multiplier = strobe_map.polish(design.parameters, design.state.copy(), 1, 0.1, 1e-12)
+def test_multipliers_are_squares_of_those_of_the_root(design_orbit):
+    orbit, hindrance = land(
+        design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state)
+    )
+    _, _, multiplier = strobe_map.polish(
+        design_orbit.parameters, design_orbit.state.copy(), 1, 0.1, 1e-12
+    )
     assert hindrance == ""
-    found = seeded(design.parameters[None, None], design.state).multiplier[0, 0]
+    found = seeded(design_orbit.parameters[None, None], design_orbit.state).multiplier[0, 0]
     assert abs(found**2) == pytest.approx(abs(multiplier), abs=1e-9)
     decay = np.exp(-0.215 * np.pi / 2.0)
     assert np.linalg.det(orbit.root) == pytest.approx(decay, rel=1e-9)
 
 
-def test_a_row_ends_at_the_fold_that_continuation_locates(design):
+def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
     frequencies = np.arange(1.0, 2.01, 0.04)
-    found = seeded(row(DESIGN, frequencies), design.state)
-    orbit, _ = land(design.parameters, at_phase(design.parameters, design.state))
+    found = seeded(row(DESIGN, frequencies), design_orbit.state)
+    orbit, _ = land(design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state))
     branch = follow_branch(lambda w: pack(PAPER, DESIGN, w), orbit, 2.0, (1.0, 2.0))
     folds = [event.point.value for _, event in branch.events if event.kind == "fold"]
     end = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
@@ -82,11 +86,11 @@ def test_a_row_ends_at_the_fold_that_continuation_locates(design):
     ]
 
 
-def test_the_fold_by_simulation_on_both_sides(design):
+def test_the_fold_by_simulation_on_both_sides(design_orbit):
     frequencies = np.arange(1.0, 2.01, 0.04)
-    found = seeded(row(DESIGN, frequencies), design.state)
+    found = seeded(row(DESIGN, frequencies), design_orbit.state)
     fold = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
-    orbit = orbit_at(DESIGN, fold + 5e-3, design)
+    orbit = orbit_at(DESIGN, fold + 5e-3, design_orbit)
     record = settled(orbit, 0.0)
     assert is_symmetric_pair(record) and record["outcome"] == flag("outcome", "settled")
     beyond = pack(PAPER, DESIGN, fold - 5e-3)
@@ -95,12 +99,12 @@ def test_the_fold_by_simulation_on_both_sides(design):
     assert not is_symmetric_pair(left)
 
 
-def test_the_loss_of_symmetry_by_simulation_on_both_sides(design):
+def test_the_loss_of_symmetry_by_simulation_on_both_sides(design_orbit):
     damper = replace(DESIGN, clearance=0.8)
     push = np.array([1e-4, 0.0, 0.0, 0.0])
     sides = {}
     for frequency in (1.3, 1.6):
-        orbit = orbit_at(damper, frequency, design)
+        orbit = orbit_at(damper, frequency, design_orbit)
         values = np.linalg.eigvals(orbit.root)
         sides[frequency] = np.min(values.real[values.imag == 0], initial=0.0)
         record = settled(orbit, push)
@@ -108,13 +112,13 @@ def test_the_loss_of_symmetry_by_simulation_on_both_sides(design):
     assert sides[1.3] < -1 < sides[1.6]
 
 
-def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design):
+def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design_orbit):
     clearances, frequencies = np.linspace(1.6, 2.0, 3), np.linspace(1.0, 2.0, 6)
     grid = np.concatenate([row(replace(DESIGN, clearance=d), frequencies) for d in clearances])
     states = np.full((3, 6, 4), np.nan)
-    states[2, -1] = design.state
+    states[2, -1] = design_orbit.state
     first = quiet_orbits(grid, states)
-    corner, _ = land(grid[0, 1], orbit_at(replace(DESIGN, clearance=1.6), 1.2, design).state)
+    corner, _ = land(grid[0, 1], orbit_at(replace(DESIGN, clearance=1.6), 1.2, design_orbit).state)
     states = np.full((3, 6, 4), np.nan)
     states[0, 1] = corner.strobe_states[0]
     second = quiet_orbits(grid, states)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER, STARTS, scene_of
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS, polished_orbit
 from numpy.testing import assert_allclose
 
 from impact_damper.orbits.branches import follow_branch
@@ -15,8 +15,8 @@ from impact_damper.system.parameters import Damper
 
 @pytest.fixture(scope="module", params=list(STARTS))
 def orbit(request):
-    scene = scene_of(request.param)
-    return find_orbit(scene.parameters, scene.state)
+    known_orbit = polished_orbit(request.param)
+    return find_orbit(known_orbit.parameters, known_orbit.state)
 
 
 def test_residual_and_phase(orbit):
@@ -62,11 +62,11 @@ def test_multipliers_do_not_depend_on_the_phase(orbit):
 
 def test_contacts_of_the_design_orbit():
     """Two, half a period apart, as fast off the wall as onto it but for the forcing's work."""
-    scene = scene_of("design")
-    orbit = find_orbit(scene.parameters, scene.state)
+    known_orbit = polished_orbit("design")
+    orbit = find_orbit(known_orbit.parameters, known_orbit.state)
     wall, begin, end, approach, departure = orbit.contacts.T
     assert orbit.sequence == "+-"
-    assert_allclose(begin[1] - begin[0], scene.period / 2, atol=1e-11)
+    assert_allclose(begin[1] - begin[0], known_orbit.period / 2, atol=1e-11)
     assert_allclose(np.sign(approach), wall)
     duration = math.pi / math.sqrt(DESIGN.contact_stiffness * (1 + 1 / DESIGN.mass_ratio))
     assert_allclose(end - begin, duration, rtol=0.01)
@@ -78,7 +78,7 @@ def test_unstable_orbit_is_found_and_left_by_simulation():
     """The large symmetric orbit: Newton's method holds it, the flow leaves it as its multiplier."""
     branch = follow_branch(
         lambda value: pack(PAPER, DESIGN, value),
-        find_orbit(pack(PAPER, DESIGN, 2.0), scene_of("design").state),
+        find_orbit(pack(PAPER, DESIGN, 2.0), polished_orbit("design").state),
         2.0,
         (1.1, 2.0),
     )
@@ -100,8 +100,8 @@ def test_no_orbit_is_said_so():
 
 def test_phase_leaves_a_contact():
     """Begun inside a contact, at W T = 0 of the design orbit, the state is moved into flight."""
-    scene = scene_of("design")
-    reference = find_orbit(scene.parameters, scene.state)
+    known_orbit = polished_orbit("design")
+    reference = find_orbit(known_orbit.parameters, known_orbit.state)
     inside = reference.p[0] * (reference.contacts[1, 1] + 0.01)
     found = find_orbit(reference.p, reference.at(inside), 1, inside % TURN)
     assert found.converged and found.margin(found.phase) > 0.1
@@ -109,17 +109,17 @@ def test_phase_leaves_a_contact():
 
 
 def test_mirror_image_counts_as_the_same():
-    scene = scene_of("large")
-    orbit = find_orbit(scene.parameters, scene.state)
+    known_orbit = polished_orbit("large")
+    orbit = find_orbit(known_orbit.parameters, known_orbit.state)
     mirrored = find_orbit(orbit.p, -orbit.at(STROBE + TURN / 2), 1)
     assert np.abs(mirrored.strobe_states - orbit.strobe_states).max() > 0.1
     assert mirrored.is_same(orbit)
 
 
 def test_inelastic_volume_shrinks_by_the_time_in_contact():
-    scene = scene_of("inelastic")
-    orbit = find_orbit(scene.parameters, scene.state)
-    h, period = scene.parameters[1], scene.period
+    known_orbit = polished_orbit("inelastic")
+    orbit = find_orbit(known_orbit.parameters, known_orbit.state)
+    h, period = known_orbit.parameters[1], known_orbit.period
     rate = INELASTIC.dashpot * (1 + 1 / INELASTIC.mass_ratio)
     expected = math.exp(-h * period - rate * orbit.touching)
     assert_allclose(np.prod(orbit.multipliers).real, expected, rtol=1e-11)

@@ -1,4 +1,4 @@
-"""Motions by heyoka.py with terminal events: the same equations, another program.
+"""Motions by heyoka.py with terminal events: an integrator independent of the kernels.
 
 State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `packed.pack`.
 """
@@ -14,7 +14,7 @@ BEYOND_ALL_MOTIONS = 16.0
 
 
 class Run(NamedTuple):
-    """States at the times asked for, and contacts: wall, beginning, end, Z2' at both."""
+    """States (n, 4) at given times, and contacts (k, 5): wall, beginning, end, Z2' at both."""
 
     states: np.ndarray
     contacts: np.ndarray
@@ -26,7 +26,7 @@ class Reference:
     Parameters
     ----------
     longest : float
-        Longest step allowed; a second value counts the contacts a second time.
+        Longest step allowed. Runs with two different limits check that no contact is missed.
     """
 
     def __init__(self, longest=math.inf):

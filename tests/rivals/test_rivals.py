@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from helpers.sampling import sample
-from helpers.scenes import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.motions import strobe_map

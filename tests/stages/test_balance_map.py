@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from helpers.scenes import PAPER
+from helpers.known_orbits import PAPER
 
 from impact_damper.data.datasets import flag
 from impact_damper.data.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.scenes import INELASTIC, PAPER, scene_of
+from helpers.known_orbits import INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
 from impact_damper.contact.contact_law import contact, natural_frequency
@@ -42,7 +42,7 @@ def test_loads_are_symmetric_and_reach_the_largest():
 
 
 def test_logged_contacts_are_those_of_the_simulation():
-    scene = scene_of("inelastic")
+    scene = polished_orbit("inelastic")
     seen = logged_contacts(PAPER, INELASTIC, 2.0, scene.state, 3)
     motion = simulate(PAPER, INELASTIC, 2.0, scene.state, periods=3, start=scene.strobe)
     expected = -motion.departure_velocity / motion.approach_velocity
@@ -56,7 +56,7 @@ def test_logged_contacts_are_those_of_the_simulation():
 
 def test_stiffer_contacts_come_closer_to_the_closed_form():
     """What it leaves out, the change of the load in contact, goes as the time of contact."""
-    scene = scene_of("inelastic")
+    scene = polished_orbit("inelastic")
     errors = []
     for stiffness in (1e4, 1e6):
         each = replace(INELASTIC, contact_stiffness=stiffness)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from scipy.special import ellipk
 
 from impact_damper.data.datasets import flag

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, PAPER
+from helpers.known_orbits import DESIGN, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag
@@ -53,12 +53,12 @@ def test_where_right_begins():
     [(DESIGN, 2.0, QUIET, True), (None, 2.0143, FOLD, True), (None, 2.0146, FOLD, False)],
     ids=["quiet", "before the fold", "after the fold"],
 )
-def test_truth_agrees_with_heyoka(damper, frequency, given, stays, references):
+def test_truth_agrees_with_heyoka(damper, frequency, given, stays, heyoka_references):
     scene = judged.make_scene(PAPER, damper, frequency, **given)
     assert scene.stays == stays
     begin = 0.5 * math.pi / frequency
     times = begin + 2 * math.pi / frequency * np.arange(1, scene.periods + 1)
-    states = references[0].run(scene.parameters, scene.start, begin, times).states
+    states = heyoka_references[0].run(scene.parameters, scene.start, begin, times).states
     assert judged.is_on(states, scene.orbit[None, :2], scene.period) == stays
     assert judged.judge(states, scene) == "right"
 

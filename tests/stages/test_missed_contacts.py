@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import PAPER
+from helpers.known_orbits import PAPER
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.stats import binom

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from helpers.known_orbits import DESIGN, PAPER
 from helpers.sampling import sample
-from helpers.scenes import DESIGN, PAPER
 from numpy.testing import assert_allclose
 from scipy import stats
 
@@ -33,13 +33,13 @@ def test_response_holds_what_random_starts_come_to(response):
     assert np.all(response.share.where(followed, 0) == 0)
 
 
-def test_quiet_motion_is_there(response, design):
-    """One motion of two contacts on one branch; at W = 2 it is the orbit of the scene."""
+def test_quiet_motion_is_there(response, design_orbit):
+    """One motion of two contacts on one branch; at W = 2 the known orbit."""
     quiet = (response.contacts == 2) & (response.period == 1)
     assert np.all(quiet.sum("motion") == 1)
     assert len(np.unique(response.branch.values[quiet.values])) == 1
     state = response.state.values[quiet.values][1]
-    assert_allclose(np.abs(state[3]), np.abs(design.state[3]), atol=1e-7)
+    assert_allclose(np.abs(state[3]), np.abs(design_orbit.state[3]), atol=1e-7)
 
 
 def test_motions_absent_are_marked(response):

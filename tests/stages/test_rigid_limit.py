@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER, scene_of
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
 from impact_damper.contact.rigid_orbits import mended_orbit, rigid_orbit
@@ -24,7 +24,7 @@ NEAR = 0.2
 )
 def test_orders(damper, name):
     """States of the orbits differ by r1^(-1/2); with walls mended, by 1/r1."""
-    guess = scene_of(name or "inelastic").state
+    guess = polished_orbit(name or "inelastic").state
     errors = []
     for stiffness in (1e5, 1e6):
         each = replace(damper, contact_stiffness=stiffness)
@@ -38,7 +38,7 @@ def test_orders(damper, name):
 
 
 def test_an_orbit_repeats_and_is_symmetric():
-    orbit, _ = rigid_orbit(PAPER, INELASTIC, 2.0, scene_of("inelastic").state, NEAR)
+    orbit, _ = rigid_orbit(PAPER, INELASTIC, 2.0, polished_orbit("inelastic").state, NEAR)
     again, _ = rigid_orbit(PAPER, INELASTIC, 2.0, orbit.state + 1e-3, NEAR)
     assert_allclose(again.state, orbit.state, atol=1e-10)
     mirrored, _ = rigid_orbit(PAPER, INELASTIC, 2.0, -orbit.state, NEAR)
@@ -102,7 +102,7 @@ def test_stiffness_needed(limit):
             assert (np.abs(row.rigid_error) < level).all()
             continue
         each = replace(INELASTIC, contact_stiffness=float(r1))
-        guess = scene_of("inelastic").state
+        guess = polished_orbit("inelastic").state
         soft, _ = compliant_orbit(PAPER, each, 1.95, guess, NEAR)
         assert float(row.rigid_displacement) / soft.displacement - 1 == pytest.approx(level, 0.05)
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag
@@ -13,11 +13,11 @@ from impact_damper.system.parameters import Damper
 
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
-def test_orbits_return_by_heyoka(damper, references):
+def test_orbits_return_by_heyoka(damper, heyoka_references):
     found = steps.quiet_orbits(PAPER, damper, 2.0, [100.0, 2000.0, 1e5])
     for orbit in found:
         begin = 0.25 * math.pi
-        run = references[0].run(orbit.parameters, orbit.state, begin, [begin + math.pi])
+        run = heyoka_references[0].run(orbit.parameters, orbit.state, begin, [begin + math.pi])
         assert len(run.contacts) == 2
         assert_allclose(run.states[-1], orbit.state, atol=1e-8)
         assert orbit.multiplier < 1

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.packed import pack

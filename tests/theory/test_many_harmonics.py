@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.scenes import DESIGN, INELASTIC, PAPER
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 
 from impact_damper.motions import strobe_map
 from impact_damper.system.packed import pack

@@ -2,9 +2,9 @@
 
 The equations are in forced_cubic.f90, AUTO's constants in constants.txt. Run by hand,
 
-    python tests/auto/folds.py > tests/auto/folds.json
+    python tests/references/auto/folds.py > tests/references/auto/folds.json
 
-it makes the stored numbers anew. Nothing here uses the package under test.
+it writes the stored numbers anew. Nothing here uses the package under test.
 """
 
 import datetime
@@ -197,8 +197,9 @@ def main():
             for point in found_in(Path(name), damping, run, settings)
         ]
     made = {
-        "source": "AUTO-07p (E. J. Doedel and others), run by tests/auto/folds.py on the equations "
-        "in tests/auto/forced_cubic.f90 with the constants in tests/auto/constants.txt",
+        "source": "AUTO-07p (E. J. Doedel and others), run by tests/references/auto/folds.py "
+        "on the equations in tests/references/auto/forced_cubic.f90 with the constants in "
+        "tests/references/auto/constants.txt",
         "equation": "Z1'' + h Z1' + Z1^3 = cos(W T)",
         "date": datetime.date.today().isoformat(),
         **versions(),

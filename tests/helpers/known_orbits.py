@@ -1,4 +1,4 @@
-"""Orbits that many tests use."""
+"""Systems and periodic orbits that tests in several rooms use."""
 
 import math
 from typing import NamedTuple
@@ -13,7 +13,7 @@ PAPER = Oscillator(0.215)
 DESIGN = Damper(0.12, 2.0)
 INELASTIC = Damper(0.25, 1.0, restitution=0.75)
 
-# A state close to each orbit at W T = pi/2, which is in mid-flight on all of them.
+# Damper, frequency and a state near each orbit at W T = pi/2, where all of them are in free flight.
 STARTS = {
     "resonance": (None, 2.0, (2.35, -0.78, 2.35, -0.78)),
     "non-resonance": (None, 2.0, (0.027, 0.5, 0.027, 0.5)),
@@ -24,8 +24,19 @@ STARTS = {
 IMPACTING = ["design", "inelastic", "large"]
 
 
-class Scene(NamedTuple):
-    """An orbit of period 1: packed parameters, its state at W T = pi/2, and what it is of."""
+class KnownOrbit(NamedTuple):
+    """A periodic orbit of one forcing period.
+
+    Attributes
+    ----------
+    parameters : numpy.ndarray
+        Packed, see `system.packed`.
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at the strobe, W T = pi/2.
+    damper : Damper or None
+    frequency : float
+        Forcing frequency W.
+    """
 
     parameters: np.ndarray
     state: np.ndarray
@@ -34,16 +45,19 @@ class Scene(NamedTuple):
 
     @property
     def period(self):
+        """Forcing period."""
         return 2 * math.pi / self.frequency
 
     @property
     def strobe(self):
+        """Time T of the state."""
         return 0.5 * math.pi / self.frequency
 
 
-def scene_of(name):
+def polished_orbit(name):
+    """The orbit of `STARTS` with this name, its state polished to 1e-13."""
     damper, frequency, start = STARTS[name]
     p, state = pack(PAPER, damper, frequency), np.array(start)
     found, _, _ = strobe_map.polish(p, state, 1, 0.1, 1e-13)
     assert found
-    return Scene(p, state, damper, frequency)
+    return KnownOrbit(p, state, damper, frequency)
