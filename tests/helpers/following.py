@@ -16,6 +16,7 @@ from helpers.data_flow import (
     STAGES,
     TABLES,
 )
+from impact_damper.system.parameters import SYMBOLS
 
 MADE_BY = re.compile(r"^def (\w+)\(datasets\)", re.MULTILINE)
 DRAWN_BY = re.compile(r"^def draw_(\w+)\(\*, ([\w, ]+)\)", re.MULTILINE)
@@ -36,7 +37,6 @@ class Flow:
 
     def __init__(self, project, config):
         self.config, self.imported = config, {}
-        self.templates = project / "workflow/report"
         # The arguments of a drawing function are the stages that it draws.
         self.drawn = {
             kind: stages.split(", ")
@@ -208,22 +208,28 @@ class Flow:
                     yield from self._stages(section, name)
 
     def _captions(self, path):
-        """The captions, if the template of a figure that draws an entry tells the value."""
+        """The captions, if that of a figure which draws an entry holds the value."""
         for figure in self.config["figures"].values():
             section = DRAWN.get(figure["kind"], figure["kind"])
-            template = (self.templates / f"{figure['kind']}.rst").read_text()
             for name in figure["data"] if section in self.config else []:
-                if self._told(path, section, name, template):
+                if self._told(path, section, name, figure["kind"]):
                     return {"captions"}
         return set()
 
-    def _told(self, path, section, name, template):
+    def _told(self, path, section, name, kind):
         entry = self.config[section][name]
+        stiffness = kind in ("harmonics", "contact_model")
         if path[0] == "contact_stiffness":
-            return path[0] in template and path[0] not in entry and "mass_ratio" in entry
+            return stiffness and path[0] not in entry and "mass_ratio" in entry
         if path[0] == "oscillators":
             mine = name if section == "oscillators" else entry.get("oscillator")
-            return path[1] == mine and f"oscillator.{path[2]}" in template
+            return path[1] == mine and path[2] in SYMBOLS
         if path[:2] != (section, name):
             return False
-        return re.search(rf"(case\.|damper\.|first\)\.|\"){path[2]}\b", template) is not None
+        if path[2] == "oscillator":
+            return True
+        if kind == "design_rules":
+            return path[2] in ("restitutions", "contact_stiffnesses", "frequencies")
+        if kind == "studies":
+            return path[2] in ("restitution", "frequency")
+        return path[2] in SYMBOLS and (stiffness or path[2] != "contact_stiffness")

@@ -1,5 +1,7 @@
 """What each figure draws, and what its caption says."""
 
+from impact_damper.workflow.captions import in_words
+
 
 def figures(*kinds):
     """Names of the figures of some kinds."""
@@ -28,38 +30,47 @@ def figure_caption(wildcards, output):
 
 
 def figure_entry(name):
-    """A figure's entry, with what its caption says of the data in place of the names alone."""
+    """A figure's entry, and in words the parameters of the cases that it draws."""
     figure = config["figures"][name]
-    return figure | {"data": {name: said(figure["kind"], name) for name in figure["data"]}}
+    return figure | {"cases": "; ".join(said(figure["kind"], case) for case in figure["data"])}
 
 
 def caption_of(name, wildcards):
     return {name: figure_entry(name)}
 
 
-# What captions say of an entry beside its oscillator and damper.
-SAID = {
-    "design_rules": ["restitutions", "contact_stiffnesses", "frequencies"],
-    "studies": ["frequency", "restitution"],
-    "balance_map": ["damping", "linear_frequency", "mass_ratio", "clearance", "restitution"],
+# Keys of an entry that hold values of a parameter, beside its oscillator and damper.
+VALUES = {
+    "design_rules": {
+        "restitutions": "restitution",
+        "contact_stiffnesses": "contact_stiffness",
+        "frequencies": "frequency",
+    },
+    "studies": {"frequency": "frequency", "restitution": "restitution"},
 }
+# Kinds of figures whose captions name each case.
+NAMED = ("accuracy", "design_rules")
 
 
 def said(kind, name):
-    """Parameters of what a figure draws, those in its caption alone; a schematic has none."""
+    """Parameters of one case that a figure draws, in words; a schematic has none."""
     if kind == "schematic":
-        return {}
+        return ""
     if kind == "free":
-        return {"oscillator": oscillator_of(name)}
+        return in_words(oscillator_of(name))
     entry = config[SECTIONS[kind]][name]
-    found = {key: entry[key] for key in SAID.get(kind, ["frequency"]) if key in entry}
+    values = {}
     if "oscillator" in entry:
-        found["oscillator"] = oscillator_of(entry["oscillator"])
-        if kind != "studies":
-            found["damper"] = damper_of(entry) if "mass_ratio" in entry else None
-    if found.get("damper") and kind not in ("harmonics", "contact_model"):
-        del found["damper"]["contact_stiffness"]
-    return found
+        values |= oscillator_of(entry["oscillator"])
+    if kind == "balance_map":
+        values |= entry
+    elif "mass_ratio" in entry and kind != "studies":
+        values |= damper_of(entry)
+        if kind not in ("harmonics", "contact_model"):
+            del values["contact_stiffness"]
+    keys = VALUES.get(kind, {"frequency": "frequency"})
+    values |= {parameter: entry[key] for key, parameter in keys.items() if key in entry}
+    return f"{name.replace('_', ' ')}: {in_words(values)}" if kind in NAMED else in_words(values)
 
 
 def figure_module(wildcards):

@@ -28,13 +28,15 @@ MOST_STIFF = 1e6
 MOST_RUNS = 10**6
 
 
-def parameter(bounds, meaning, **default):
+def parameter(bounds, symbol, meaning, **default):
     """Return a dataclass field for a number within `bounds`.
 
-    `check_parameters` reads the bounds; the configuration reads them and `meaning`, the symbol and
-    what it stands for, so that a parameter is described in its dataclass alone.
+    `check_parameters` reads the bounds. Tables and captions read the symbol, and the configuration
+    reads the bounds and the meaning with the symbol before it, so that a parameter is described in
+    its dataclass alone.
     """
-    return field(metadata={"bounds": bounds, "meaning": meaning}, **default)
+    metadata = {"bounds": bounds, "symbol": symbol, "meaning": f"{symbol}, {meaning}"}
+    return field(metadata=metadata, **default)
 
 
 def check_parameters(part):

@@ -50,9 +50,9 @@ class Oscillator:
         If a value is not a number or out of range.
     """
 
-    damping: float = parameter(DAMPING_RANGE, "h, damping")
+    damping: float = parameter(DAMPING_RANGE, "h", "damping")
     linear_frequency: float = parameter(
-        LINEAR_FREQUENCY_RANGE, "omega_l, 0 for a purely cubic spring", default=0.0
+        LINEAR_FREQUENCY_RANGE, "omega_l", "0 for a purely cubic spring", default=0.0
     )
 
     def __post_init__(self):
@@ -80,11 +80,11 @@ class Damper:
         If a value is not a number or out of range.
     """
 
-    mass_ratio: float = parameter(MASS_RATIO_RANGE, "rm, loose mass over primary mass")
-    clearance: float = parameter(CLEARANCE_RANGE, "d0, half the free space")
-    restitution: float = parameter(RESTITUTION_RANGE, "e, 1 for elastic contact", default=1.0)
+    mass_ratio: float = parameter(MASS_RATIO_RANGE, "rm", "loose mass over primary mass")
+    clearance: float = parameter(CLEARANCE_RANGE, "d0", "half the free space")
+    restitution: float = parameter(RESTITUTION_RANGE, "e", "1 for elastic contact", default=1.0)
     contact_stiffness: float = parameter(
-        STIFFNESS_RANGE, "r1, stiffness of the contact springs", default=2000.0
+        STIFFNESS_RANGE, "r1", "stiffness of the contact springs", default=2000.0
     )
 
     def __post_init__(self):
@@ -100,6 +100,12 @@ class Damper:
     def dashpot(self) -> float:
         """Dashpot coefficient 2 zeta_c sqrt(r1 rm) of equation (22)."""
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
+
+
+# Symbol of each parameter, as tables and captions print it.
+SYMBOLS = {
+    field.name: field.metadata["symbol"] for part in (Oscillator, Damper) for field in fields(part)
+} | {"frequency": "W"}
 
 
 def describe(*parts) -> dict:

@@ -3,16 +3,7 @@
 import numpy as np
 
 from impact_damper.data.datasets import parameters_of
-
-SYMBOLS = {
-    "damping": "h",
-    "linear_frequency": "omega_l",
-    "mass_ratio": "rm",
-    "clearance": "d0",
-    "restitution": "e",
-    "frequency": "W",
-    "contact_stiffness": "r1",
-}
+from impact_damper.system.parameters import SYMBOLS
 
 
 def parameter_columns(data, *names) -> dict:

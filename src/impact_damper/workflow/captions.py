@@ -1,0 +1,26 @@
+"""Parameters in words, for the captions of figures; imports no NumPy."""
+
+from impact_damper.system.parameters import SYMBOLS
+
+
+def in_words(values) -> str:
+    """Return symbols and values of parameters, such as "h = 0.215, d0 = 2, W from 1 to 3".
+
+    Parameters
+    ----------
+    values : dict
+        By name of the parameter: a number, a list, a range with `first` and `last`, or "rule" for
+        rule (19). Other keys are ignored.
+    """
+    words = [
+        f"{symbol} {_value(values[name])}" for name, symbol in SYMBOLS.items() if name in values
+    ]
+    return ", ".join(words)
+
+
+def _value(value):
+    if isinstance(value, dict):
+        return f"from {value['first']} to {value['last']}"
+    if isinstance(value, list):
+        return f"= {', '.join(map(str, value))}"
+    return "by (19)" if value == "rule" else f"= {value}"
