@@ -8,7 +8,7 @@ from scipy.stats import CensoredData, ecdf
 
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.data.shares import escape_rate, survival, wilson
-from impact_damper.migration.damper_release import scene
+from impact_damper.migration.damper_release import release_case
 from impact_damper.motions.ensemble import Settling
 from impact_damper.stages.migration import migrate, trials
 from impact_damper.stages.release_scan import release_scan
@@ -92,7 +92,7 @@ def test_single_run_is_the_trial(runs):
 def test_course_of_a_run():
     """A run with an early release, against SciPy's integrator through both switchings."""
     run = migrate(CUBIC, PAPER, 1.95, seed=3, longest_hold=1)
-    here = scene(CUBIC, PAPER, 1.95, Settling())
+    here = release_case(CUBIC, PAPER, 1.95, Settling())
     on, off = float(run.on_time[0]), float(run.off_time[0])
     y = course(1.95, here.state, (np.pi / 2 / 1.95, on))[:, -1]
     place = np.random.default_rng(3).random((1, 3))[0, 1]
@@ -134,7 +134,7 @@ def test_shares_of_releases(runs):
 @pytest.mark.parametrize("frequency", [1.31, 1.7, 2.014])
 def test_scene(frequency):
     """Both free motions are found up to their folds, near those of harmonic balance."""
-    known = scene(CUBIC, PAPER, frequency, Settling()).known
+    known = release_case(CUBIC, PAPER, frequency, Settling()).known
     free = free_solutions(CUBIC, min(frequency, 2.0))
     assert_allclose(known, free.amplitude[[0, -1]], rtol=0.08)
 

@@ -33,8 +33,8 @@ KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
 
-class Scene(NamedTuple):
-    """What the kernels of `switching` are given: parameters, the start, and what is known.
+class ReleaseCase(NamedTuple):
+    """Arguments of the kernels of `legs`: parameters, the start, and the known free motions.
 
     Attributes
     ----------
@@ -63,8 +63,10 @@ def _free_motion(oscillator, frequency, start, which, settling):
     return record_at(p, record["state"], 1, FREQUENCY, frequency, settling.tolerance)
 
 
-def scene(oscillator, damper, frequency, settling) -> Scene:
-    """The free oscillator on its resonance branch, followed upward, and its goal, downward.
+def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
+    """Return the free oscillator on its resonance branch, followed upward, and the goal of release.
+
+    The goal is the non-resonance motion, followed downward.
 
     Raises
     ------
@@ -87,7 +89,7 @@ def scene(oscillator, damper, frequency, settling) -> Scene:
             f"frequency = {frequency:g}: the free oscillator must have a non-resonance and a "
             "resonance motion here, since migration leads from one to the other"
         )
-    return Scene(on, off, resonance["state"].copy(), known)
+    return ReleaseCase(on, off, resonance["state"].copy(), known)
 
 
 def kinds(period, displacement, known):
@@ -98,7 +100,7 @@ def kinds(period, displacement, known):
 
 
 def destination(known, record):
-    """Flag of the free motion that a record is of, `known` as in `Scene`."""
+    """Flag of the free motion that a record is of, `known` as in `ReleaseCase`."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:

@@ -14,12 +14,12 @@ EXPONENT_TOLERANCE = 1e-9
 
 
 def of_run(p, run, begin, periods, batch):
-    """Contacts a period and mean of the largest |Z1| of a period, by batch.
+    """Return contacts a period and the mean of the largest |Z1| of a period, by batch.
 
     Returns
     -------
     dict
-        Of arrays (periods // batch,), by statistic.
+        Arrays (periods // batch,), by statistic.
     """
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
@@ -35,7 +35,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch):
-    """Largest Lyapunov exponent of the Taylor series, a unit of time, by batch."""
+    """Return the largest Lyapunov exponent per unit of time, by batch, by the Taylor series."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -47,7 +47,7 @@ def exponents(p, start, tolerance, periods, batch):
 
 
 def rigid_exponents(restitution, p, start, tolerance, periods, batch):
-    """That of the rigid model."""
+    """Return the largest Lyapunov exponent per unit of time, by batch, of the rigid model."""
     p = p.copy()
     p[DASHPOT] = 0.0
     y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[FREQUENCY]
@@ -65,7 +65,7 @@ def _renormalised(tangent):
 
 
 def estimates(batches):
-    """Mean and standard error of each statistic, NaN where there is none; shape (2, 3)."""
+    """Return mean and standard error of each statistic, shape (2, 3), NaN for missing ones."""
     found = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

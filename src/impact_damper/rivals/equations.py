@@ -1,4 +1,4 @@
-"""The equations of motion as other methods take them: the state as a tuple, its rate by evaluation.
+"""The equations of motion for integrators that evaluate the rate of the state, a tuple.
 
 Equations (3), (4) and (20) to (24). A contact acts while |Z2| exceeds the clearance, so it ends
 at zero penetration, and the dashpot's force jumps at both ends.
@@ -17,7 +17,7 @@ from impact_damper.system.packed import (
 
 @kernel
 def wall_at(p, z):
-    """Wall that acts at a position Z2: -1, 0 within the clearance, or 1."""
+    """Return the wall that acts at a position Z2: -1, 0 within the clearance, or 1."""
     if z > p[CLEARANCE]:
         return 1
     if z < -p[CLEARANCE]:
@@ -27,13 +27,16 @@ def wall_at(p, z):
 
 @kernel
 def rate(p, side, t, y):
-    """Rate of the state (Z1, Z1', Z2, Z2') while a wall acts (`side`: -1, 0 for none, 1)."""
+    """Return the rate of the state (Z1, Z1', Z2, Z2') while a wall acts.
+
+    `side` is the wall: -1, 0 for none, or 1.
+    """
     return rate_under(p, side, external_force(p, t), y)
 
 
 @kernel_only
 def rate_under(p, side, drive, y):
-    """`rate` under a known forcing."""
+    """Return the rate as `rate` does, with the forcing `drive` given."""
     x, v, z, w = y
     force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
     a = drive - p[DAMPING] * v - spring(p, x) - force
@@ -42,19 +45,19 @@ def rate_under(p, side, drive, y):
 
 @kernel_only
 def rate_by_position(p, drive, y):
-    """`rate_under`, the wall chosen by the position: integration through the kink."""
+    """Return the rate with the wall that acts at the position, to integrate through the kink."""
     return rate_under(p, wall_at(p, y[2]), drive, y)
 
 
 @kernel
 def moved(y, h, k):
-    """y + h k."""
+    """Return the state y + h k."""
     return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
 
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Largest |Z1| over a step, with the rate taken as linear in it."""
+    """Return the largest |Z1| over a step h, if Z1' changes linearly."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

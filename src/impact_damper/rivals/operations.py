@@ -1,10 +1,9 @@
-"""Counted work: the floating-point operations of a function, read from its source.
+"""Counted work: the number of floating-point operations of a function, read from its source.
 
-An addition, a subtraction, a product, a quotient and a square root count as one, sines,
-logarithms and other elementary functions as ELEMENTARY; signs, absolute values, comparisons and
-whole numbers in subscripts as nothing. With a pair of numbers an operation counts twice. Of two
-branches the longer counts, unless the arguments tell which is taken. The count is the same on
-every machine, where time is not.
+Unlike time, it is the same on every machine. An addition, subtraction, product, quotient or square
+root counts as one operation; sines, logarithms and other elementary functions as ELEMENTARY; signs,
+absolute values, comparisons and subscripts as none. An operation on a pair of numbers counts twice.
+Of two branches the longer one counts, unless the arguments determine which is taken.
 """
 
 import ast
@@ -18,30 +17,30 @@ FUNCTIONS = {"cos", "sin", "exp", "log", "atan2", "pow"}
 
 
 class _Returned(Exception):
-    """A branch that is certainly taken has returned."""
+    """Raised at a `return` that is certainly reached: the statements after it do not count."""
 
 
 @cache
 def operations(function, rounds=1, without=(), **arguments):
-    """Floating-point operations of one call.
+    """Return the floating-point operations of one call.
 
     Parameters
     ----------
     function : callable
-        A Python function, compiled or not; the functions it calls count as well.
+        A Python function, compiled or not. The compiled functions that it calls are included.
     rounds : int
-        How often the body of a `while` loop is counted, wherever it stands.
+        How often the body of each `while` loop counts.
     without : tuple of callable
-        Compiled functions that are taken not to be called.
+        Compiled functions whose calls do not count.
     **arguments
-        Values of arguments that lengths of loops and the choice of branches depend on.
+        Values of arguments that determine the lengths of loops or the choice of branches.
 
     Raises
     ------
     TypeError
         If an argument is not hashable.
     ValueError
-        If the length of a `for` loop cannot be told from the arguments.
+        If the arguments do not determine the length of a `for` loop.
     """
     function = getattr(function, "py_func", function)
     body, changing = _body(function)
@@ -59,35 +58,45 @@ def operations(function, rounds=1, without=(), **arguments):
 
 @cache
 def _body(function):
-    """Statements of a function, and the names that it assigns."""
+    """Return the statements of a function, and the names that it assigns."""
     tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
     return tree.body, {node.id for node in names if isinstance(node.ctx, ast.Store)}
 
 
 class _Counter(ast.NodeVisitor):
-    """Counts the operations of statements, with the values of what is known."""
+    """Counts the operations of statements.
+
+    Parameters
+    ----------
+    known : dict
+        Values of names: of the function's module, and of its arguments as far as given.
+    rounds, without
+        As of `operations`.
+    pairs : iterable of str
+        Names of variables that hold a pair of numbers (`kernel.straight_lines`).
+    """
 
     def __init__(self, known, rounds, without, pairs=()):
         self.known, self.rounds, self.without, self.count = known, rounds, without, 0
         self.pairs = set(pairs)
 
     def value(self, node):
-        """The value of an expression, or None where it is not known."""
+        """Return the value of an expression, or None if it is not known."""
         try:
             return eval(compile(ast.Expression(node), "", "eval"), dict(self.known))
         except Exception:
             return None
 
     def within(self, statements):
-        """Operations of a block by itself."""
+        """Return the operations of a block."""
         counter = _Counter(self.known, self.rounds, self.without, self.pairs)
         for statement in statements:
             counter.visit(statement)
         return counter.count
 
     def is_pair(self, node):
-        """Whether an expression is of two numbers side by side (`straight`)."""
+        """Return whether an expression is a pair of numbers."""
         parts = [getattr(node, name, None) for name in ("left", "right", "operand")]
         named = isinstance(node, ast.Name) and node.id in self.pairs
         return isinstance(node, ast.Tuple) or named or any(map(self.is_pair, filter(None, parts)))

@@ -1,18 +1,21 @@
-"""Models of a steady motion, which find an orbit and not a motion from a state, and their work.
+"""Models of a steady motion, and the operations that each takes.
 
-Where a balance has several solutions, the one nearest to the scene's state is taken: that is the
-best such a model can do. The work, in floating-point operations:
+Most of them solve for an orbit instead of integrating from a state. If a balance has several
+solutions, the one nearest to the scene's state is taken, in the model's favour. The work, in
+floating-point operations:
 
-- rigid balance (14): the eigenvalues of companion matrices of a polynomial of degree 6 and of its
-  derivative, 10 n^3 each, and a root by bracketing between extrema;
-- full balance (7): BALANCE_EVALUATIONS of the equation, of BALANCE_OPERATIONS each, with the
-  eigenvalues of a companion matrix of BALANCE_DEGREE, as the search for all its roots takes on the
-  scenes; of the free oscillator those of two cubics;
-- many harmonics: for each step of Newton's method, with n unknowns and N harmonics, 2/3 n^3 + 4 n^2
-  for the linear systems, 8 n^2 to fill the matrix, and Fourier transforms of 16 N and 4 N values,
-  5 M log2(M) each, two and three of them; with the smaller balances on the way;
-- rigid impacts and shooting: maps over a period that Newton's method takes, each with the steps of
-  the Taylor series with four tangents; with the balance of START_HARMONICS that it begins from.
+- rigid balance (14): eigenvalues of the companion matrices of a polynomial of degree 6 and of its
+  derivative, 10 n^3 for n eigenvalues, and a root by bracketing between extrema;
+- full balance (7): BALANCE_EVALUATIONS evaluations of the equation, of BALANCE_OPERATIONS each, and
+  eigenvalues of a companion matrix of degree BALANCE_DEGREE, as measured in the search for all
+  roots on the scenes; for the free oscillator, eigenvalues for two cubics;
+- many harmonics: for each Newton step with n unknowns and N harmonics, 2/3 n^3 + 4 n^2 for the
+  linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M values:
+  two of 16 N and three of 4 N. The balances with fewer harmonics, from which Newton's method
+  starts, are included;
+- rigid impacts and shooting: for each map over a period in Newton's method, the steps of the Taylor
+  series with four tangents. The balance with START_HARMONICS, from which Newton's method starts, is
+  included.
 """
 
 import math
@@ -100,12 +103,12 @@ def rigid(p, restitution, start, t, periods, tolerance):
 
 
 def without(status, work=0.0):
-    """A model that gives no motion."""
+    """Return a model without a motion."""
     return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
 
 
 def of_coefficients(balance, coefficients, work):
-    """The model that Fourier coefficients of a balance are."""
+    """Return the model with the Fourier coefficients of a balance."""
     state = state_of(Solution(balance, coefficients, "", 0, 0.0))
     rows = balance.contacts(coefficients)
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
@@ -114,12 +117,12 @@ def of_coefficients(balance, coefficients, work):
 
 
 def nearest(models, state):
-    """Of models the one whose primary mass is nearest to a state; None if there is none."""
+    """Return the model whose Z1, Z1' is nearest to a state's, None if there are no models."""
     return min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """The single-term solution of (13) and (14), for rigid walls."""
+    """Return the single-term solution of (13) and (14), for rigid walls."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     work = 10 * (6**3 + 5**3) + 6 * 10 * 12
@@ -135,7 +138,10 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def single_terms(oscillator, damper, frequency):
-    """Coefficients (1 or 2, 1) of every solution of (7), elastic, or of the free oscillator."""
+    """Return coefficients (1 or 2, 1) of all single-term solutions.
+
+    They solve (7) with e = 1, or the cubic of the free oscillator if `damper` is None.
+    """
     if damper is None:
         found = free_solutions(oscillator, frequency)
         sizes = found.amplitude[:, None]
@@ -150,18 +156,21 @@ def single_terms(oscillator, damper, frequency):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """The single-term solution of (7), or of the cubic of the free oscillator."""
+    """Return the single-term solution of (7), or of the cubic of the free oscillator."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
-    coefficients, work = begun(oscillator, damper, frequency, state)
+    coefficients, work = nearest_term(oscillator, damper, frequency, state)
     if coefficients is None:
         return without("failed", work)
     balance = Balance(oscillator, damper, frequency, 1)
     return of_coefficients(balance, coefficients, work)
 
 
-def begun(oscillator, damper, frequency, state):
-    """Coefficients of the single-term solution nearest to a state, None if there is none; work."""
+def nearest_term(oscillator, damper, frequency, state):
+    """Return the coefficients of the single-term solution nearest to a state, and the work.
+
+    The coefficients are None if there is no solution.
+    """
     work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
     if damper is None:
         work = 2 * 10 * 3**3
@@ -175,11 +184,11 @@ def begun(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Models by harmonic balance with 1, 3, 7, 15, ... harmonics, by their highest one.
+    """Return models by harmonic balance, by their highest harmonic 3, 7, 15, ... up to `highest`.
 
-    Each begins from the last one that converged.
+    Newton's method starts from the last one that converged, at first from a single-term solution.
     """
-    coefficients, work = begun(oscillator, damper, frequency, state)
+    coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:
         return models
@@ -198,7 +207,7 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
 
 
 def newton_work(balance):
-    """Operations of one step of Newton's method with many harmonics."""
+    """Return the operations of one step of Newton's method with many harmonics."""
     n, top = int(np.sum(balance.kept)), balance.highest
     transforms = 2 * _transform(16 * top) + 3 * _transform(4 * top)
     return 2 / 3 * n**3 + 12 * n**2 + transforms
@@ -209,9 +218,9 @@ def _transform(samples):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Orbits with rigid walls, and with walls that are mended to the order 1/r1, by name.
+    """Return orbits with rigid walls, and with walls corrected to the order 1/r1, by name.
 
-    `start` is the model that Newton's method begins from.
+    Newton's method starts from the model `start`.
     """
     models = {"rigid": without("not_applicable"), "rigid_mended": without("not_applicable")}
     if damper is None:
@@ -242,7 +251,7 @@ def _phases(p, run):
 
 
 def shooting(oscillator, damper, frequency, start):
-    """The orbit by shooting on the Taylor series, from a model near it."""
+    """Return the orbit by shooting with the Taylor series, started from the model `start`."""
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
     begin = strobe_time(p)

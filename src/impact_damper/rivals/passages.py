@@ -1,8 +1,8 @@
-"""Passages near a wall: free flights whose largest |Z2| is known, where the wall is then put.
+"""Passages: free flights whose largest |Z2| is known, to place a wall near that.
 
-A wall a little nearer than the largest |Z2| is touched once, for a short time; one a little
-further away is not touched. Both are hard to tell apart for a method that looks at the ends of
-its steps.
+A wall a little nearer than the largest |Z2| is touched once, for a short time; a wall a little
+further away is not touched. A method that checks the gap only at the ends of its steps can hardly
+distinguish the two.
 """
 
 import math
@@ -27,7 +27,7 @@ class Passage(NamedTuple):
     state : numpy.ndarray, shape (4,)
         Z1, Z1', Z2, Z2' at T = 0.
     time, extremum, curvature : float
-        When |Z2| is largest, the largest |Z2|, and |Z2''| there.
+        Time at which |Z2| is largest, the largest |Z2|, and |Z2''| at that time.
     """
 
     state: np.ndarray
@@ -38,11 +38,11 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Time, value and second derivative of the largest |Z2| of a flight within (t, end).
+    """Return time, value and |second derivative| of the largest |Z2| of a flight over [t, end].
 
-    Signs of Z2' bracket the extrema in each of `PIECES` parts of a step of the Taylor series;
-    bisection of Z2' finds them to rounding. y is left at the end. The value is that at the ends,
-    and the second derivative 0, where no extremum exceeds them.
+    Changes of sign of Z2' bracket the extrema in each of `PIECES` parts of a step of the Taylor
+    series; bisection of Z2' finds them to rounding. If |Z2| is largest at an end of the flight, the
+    second derivative is returned as 0. y is replaced by the state at the end.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -52,7 +52,7 @@ def largest_of_flight(p, y, t, end):
     while t < end:
         offset, drift = y[2] - y[0], y[3] - y[1]
         length, _ = step(p, y, none, flight, t, end - t, TOLERANCE, work)
-        # one by one: to assign arrays compiles the message for unlike shapes too, for 2 s
+        # one by one: an array assignment takes 2 s more to compile
         for k in range(FLIGHT_ORDER + 1):
             c[k] = work[X + k]
         c[0] += offset
@@ -80,17 +80,18 @@ def largest_of_flight(p, y, t, end):
 
 
 def free_flight(p):
-    """The packed parameters without walls."""
+    """Return a copy of the packed parameters without walls."""
     free = p.copy()
     free[CLEARANCE] = math.inf
     return free
 
 
 def draw_passages(p, count, radius, deepest, seed):
-    """Random passages over one forcing period, and how many were drawn to find them.
+    """Return random passages over one forcing period, and the number of flights drawn to find them.
 
-    States are uniform in a ball. Kept are flights that begin and end at least `deepest` below
-    their largest |Z2|, so that it is an extremum and a wall `deepest` nearer is not yet passed.
+    The initial states are uniform in a ball. Flights are kept if |Z2| at both ends is at least
+    `deepest` below its largest value, which then is an extremum, and if the flight begins and ends
+    within a wall that is `deepest` nearer.
 
     Parameters
     ----------

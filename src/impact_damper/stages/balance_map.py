@@ -1,9 +1,9 @@
 """Where single-term harmonic balance fails: its verdicts against the true motions, as a map.
 
-In each cell two questions are asked. Quiet: is the solution of (7) with the smallest |a| a
-stable motion, by the slow flow (17), and by the Floquet multipliers of the true orbit?
-High: is there a stable solution as large as the free resonance, and where does a start there
-lead? The balance knows elastic contact only: with e < 1 its verdict is that for e = 1.
+Each cell answers two questions. Quiet: is the solution of (7) with the smallest |a| stable, by the
+slow flow (17) and by the Floquet multipliers of the true orbit? High: is there a stable solution as
+large as the free resonance, and which motion does a start there lead to? The balance describes
+elastic contact only: for e < 1 its verdict for e = 1 is taken.
 """
 
 from dataclasses import replace
@@ -26,15 +26,15 @@ from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, balance_cells
 
 PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
-# A settled motion is near what is foretold if it is within this share of it.
+# A settled motion is near a predicted one if max |Z1| differs by at most this share.
 NEAR = 0.2
-# So many chaotic high motions are run so many times as long as the patience.
+# CHECKED chaotic high motions are rerun with LONG times the patience, to see if the chaos lasts.
 CHECKED = 50
 LONG = 10
 
 
 class _Row(NamedTuple):
-    """Systems of one row of a map, and the forcing frequencies of its cells."""
+    """System of one row of a map, and the forcing frequencies of its cells."""
 
     oscillator: Oscillator
     damper: Damper
@@ -44,20 +44,19 @@ class _Row(NamedTuple):
 def balance_map(
     parameter, values, frequency_ratios, fixed, *, settling=None, workers=1, progress=None
 ):
-    """Verdicts of harmonic balance against true motions, over frequency and a parameter.
+    """Return verdicts of harmonic balance against true motions, over frequency and a parameter.
 
     Parameters
     ----------
     parameter : str
-        What changes from row to row: damping (h), mass_ratio (rm), clearance (d0) or
-        restitution (e).
+        Parameter of the rows: damping (h), mass_ratio (rm), clearance (d0) or restitution (e).
     values : array_like, shape (n,)
         Its increasing values.
     frequency_ratios : array_like, shape (m,)
         Increasing forcing frequencies W/Wp, with the peak frequency Wp of the row.
     fixed : dict
-        The other arguments of `Oscillator` and `Damper`. Without `clearance` it follows rule
-        (19) in each row, as a designer would let it.
+        The other arguments of `Oscillator` and `Damper`. Without `clearance` each row has the
+        clearance of rule (19), as a designer would choose.
     settling : Settling, optional
     workers : int
         Threads; the result does not depend on it.
@@ -67,9 +66,9 @@ def balance_map(
     Returns
     -------
     xarray.Dataset
-        On (map_value, frequency_ratio) the verdict of the balance, the truth, and the class
-        that both make, of the quiet motion and of the high one; on map_value the ends of the
-        quiet orbits.
+        Over (map_value, frequency_ratio), of the quiet and of the high motion: the verdict of the
+        balance, the truth, and the class of both together. Over map_value: the ends of the quiet
+        orbits.
 
     Raises
     ------
@@ -168,7 +167,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Records of the motions from the starts that there are, in their cells."""
+    """Return records of the motions in their cells, absent where there is no start."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -181,7 +180,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _long(parameters, starts, kinds, settling, workers):
-    """What chaotic high motions, evenly spread over the map, come to in a longer run."""
+    """Return the outcomes of longer runs of chaotic high motions, evenly spread over the map."""
     cells = np.flatnonzero(kinds == flag("high_run_motion", "high_chaotic"))
     outcome = np.full(kinds.size, flag("high_long_outcome", "absent"))
     if len(cells):
@@ -194,7 +193,7 @@ def _long(parameters, starts, kinds, settling, workers):
 
 
 def _kinds(records, resonance):
-    """Flag `quiet_run_motion` of each run."""
+    """Return the flag `quiet_run_motion` of each run."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]
@@ -212,7 +211,7 @@ def _kinds(records, resonance):
 
 
 def _truth(orbits):
-    """Flag `quiet_orbit`: absent only beyond a place where the orbit was seen to end."""
+    """Return the flag `quiet_orbit`: absent only beyond an end of the orbit that was found."""
     values = orbits.multiplier
     columns = np.arange(values.shape[1])
     ended = np.isin(
@@ -234,7 +233,7 @@ def _truth(orbits):
 
 
 def _quiet_verdict(said, truth):
-    """Flag `quiet_verdict`."""
+    """Return the flag `quiet_verdict`."""
     verdict = np.full(said.shape, flag("quiet_verdict", "unresolved"))
     cases = {
         "stable": truth == flag("quiet_orbit", "stable"),
@@ -249,7 +248,7 @@ def _quiet_verdict(said, truth):
 
 
 def _high_verdict(said, kinds, displacement):
-    """Flag `high_verdict`."""
+    """Return the flag `high_verdict`."""
     near = np.abs(displacement / said.high_amplitude - 1) <= NEAR
     low = np.isin(
         kinds, [flag("high_run_motion", n) for n in ("quiet", "other_low", "low_chaotic")]

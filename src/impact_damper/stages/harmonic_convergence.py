@@ -16,13 +16,13 @@ from impact_damper.theory.many_harmonics import Balance, refine, single_term, so
 SAMPLES = 2**14
 HIGHEST = 2**14
 SAME = 1e-6
-# Errors below are rounding, and left out of the fits.
+# Errors below this are rounding and left out of the fits.
 ROUNDING = 1e-12
 FINEST = 1e-14
 
 
 def ladder(highest) -> np.ndarray:
-    """Odd numbers of harmonics up to `highest`: all to 15, then three to an octave."""
+    """Return odd numbers of harmonics up to `highest`: all to 15, then three to an octave."""
     check_count("highest", highest, most=HIGHEST)
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
@@ -30,11 +30,11 @@ def ladder(highest) -> np.ndarray:
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Symmetric motions by harmonic balance and by Hill's method, and their errors.
+    """Return symmetric motions by harmonic balance, their stability by Hill's method, and errors.
 
-    The first motion is the single-term solution of (7) with the least |a|, the damper taken as
-    elastic, or without a damper the one with the greatest. Every balance begins from the last
-    one that converged. The exact orbit is found from the last one of all.
+    Newton's method for the first balance starts from the single-term solution of (7) with e = 1 and
+    the least |a|, or without a damper from the one with the largest; then from the last balance
+    that converged. Newton's method for the exact orbit starts from the last of these.
 
     Parameters
     ----------
@@ -45,15 +45,15 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     harmonics : sequence of int
         Increasing odd numbers N, each the highest of the harmonics 1, 3, ... N.
     cold : sequence of int
-        Those of `harmonics` that are tried from the single-term solution at once as well.
+        Those of `harmonics` that are also solved directly from the single-term solution.
 
     Returns
     -------
     xarray.Dataset
         Over `highest_harmonic`: status, steps and residual of Newton's method, largest
         displacement, errors against the exact orbit (NaN if it was not found), Floquet
-        multipliers by Hill's method, and what the cold start came to; the rates at which errors
-        fall, and those predicted (`harmonics_theory`).
+        multipliers by Hill's method, and the result of the cold start; observed and predicted rates
+        at which the errors fall (`theory.convergence`).
 
     Raises
     ------
@@ -105,7 +105,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """What a start from the single-term solution comes to, as a flag."""
+    """Return the result of a start from the single-term solution, as a flag `cold_status`."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -115,7 +115,7 @@ def cold_status(warm, first) -> int:
 
 
 def hill_table(solutions, exact):
-    """Floquet multipliers by Hill's method."""
+    """Return the variables of Floquet multipliers by Hill's method."""
     oscillator, damper, frequency = (
         getattr(solutions[0].balance, name) for name in ("oscillator", "damper", "frequency")
     )
@@ -144,7 +144,7 @@ def hill_table(solutions, exact):
 
 
 def exact_table(exact, number):
-    """What is known of the exact orbit, with so many multipliers."""
+    """Return the variables of the exact orbit, with `number` multipliers."""
     found = exact.converged and exact.active == number
     multipliers = exact.multipliers[:number] if found else np.full(number, complex(np.nan, np.nan))
     maximum = exact.record["maximum_displacement"]
@@ -158,7 +158,7 @@ def exact_table(exact, number):
 
 
 def errors(data, solutions, exact, p):
-    """Errors against the exact orbit, shape (4, N): see `harmonics_theory.MEASURES`."""
+    """Return errors against the exact orbit, shape (4, N), in the order of `convergence.MEASURES`."""
     found = np.full((4, len(solutions)), np.nan)
     if data["exact_status"] == flag("exact_status", "not_found"):
         return found
@@ -192,7 +192,7 @@ def errors(data, solutions, exact, p):
 
 
 def _farthest(values, references):
-    """Largest distance of complex numbers from references, paired so that distances are least."""
+    """Return the largest distance in the pairing of values and references with least distances."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
@@ -200,7 +200,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Rates at which the errors fall from `harmonics_theory.asymptotic_harmonic` on."""
+    """Return the rates at which the errors fall from `convergence.asymptotic_harmonic` on."""
     measures = len(convergence.MEASURES)
     lowest = convergence.asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = convergence.decay(damper, p, exact.strobe_states[0])

@@ -16,8 +16,8 @@ from impact_damper.migration.controller import (
 from impact_damper.migration.damper_release import (
     DESTINATIONS,
     KINDS,
+    release_case,
     release_data,
-    scene,
     settled_motions,
     transient_data,
     watch,
@@ -32,7 +32,7 @@ PAPER_CYCLES = 350
 
 
 def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
-    """The scene, and the parameters of the dataset, or an error that names a bad argument."""
+    """Return the case and the parameters of the dataset, or raise for a bad argument."""
     check_damper(damper)
     pack(oscillator, damper, frequency)
     check_count("longest_hold", longest_hold, most=10**6)
@@ -44,7 +44,7 @@ def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, s
         "periods": periods,
         "largest_switchings": switchings,
     }
-    return scene(oscillator, damper, frequency, settling), made
+    return release_case(oscillator, damper, frequency, settling), made
 
 
 def migrate(

@@ -5,7 +5,7 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.shares import BOUNDS, LEAD
 from impact_damper.data.variables import VARIABLES
-from impact_damper.migration.damper_release import DESTINATIONS, release_data, scene, watch
+from impact_damper.migration.damper_release import DESTINATIONS, release_case, release_data, watch
 from impact_damper.motions import records
 from impact_damper.motions.simulate import check_settling
 from impact_damper.stages.response import frequency_response
@@ -81,7 +81,7 @@ def release_scan(
     settling = check_settling(settling)
     check_count("releases", releases, most=10**6)
     check_count("lifetime", lifetime, least=2 * LEAD, most=10**7)
-    scenes = [scene(oscillator, damper, frequency, settling) for frequency in frequencies]
+    cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     response = frequency_response(
         oscillator,
         damper,
@@ -93,9 +93,9 @@ def release_scan(
         workers=workers,
         progress=progress,
     )
-    seeds = np.random.SeedSequence(seed).spawn(len(scenes))
+    seeds = np.random.SeedSequence(seed).spawn(len(cases))
     rows = []
-    for i, here in enumerate(scenes):
+    for i, here in enumerate(cases):
         _, _, entries = watch(here, seeds[i].spawn(releases), lifetime, settling, workers, None)
         rows.append(
             release_data(here, _scan_records(response.isel(frequency=i)), entries, settling)

@@ -33,7 +33,7 @@ STIFF = 1e3
 
 
 class Orbit(NamedTuple):
-    """The quiet orbit at one stiffness: parameters, its state at W T = pi/2, and what it is.
+    """The quiet orbit at one stiffness, with its state at W T = pi/2.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ def quiet_state(p):
 
 
 def _polished(p, y):
-    """The orbit next to a state, or None."""
+    """Return the orbit near a state, or None if Newton's method does not converge."""
     state = y.copy()
     found, _, multiplier = strobe_map.polish(p, state, 1, REACH, 1e-13)
     if not found:
@@ -74,7 +74,7 @@ def _polished(p, y):
 
 
 def quiet_orbits(oscillator, damper, frequency, stiffnesses) -> list:
-    """The quiet orbit at each stiffness r1, followed from that of the damper, or None."""
+    """Return the quiet orbit at each stiffness r1, followed from the damper's, or None."""
     start = quiet_state(pack(oscillator, damper, frequency))
     if start is None:
         raise ArithmeticError(

@@ -1,8 +1,9 @@
-"""Studies: what random starts come to over a grid of dampers and frequencies, chunk by chunk.
+"""Studies: motions from random starts over a grid of dampers and frequencies, chunk by chunk.
 
 The cells of a grid are numbered in the order of `AXES`, the last axis fastest, and a chunk is a
-range of these numbers. Starts are drawn by seed and number, so how a study is cut does not count.
-Runs are condensed cell by cell, so a chunk takes no more memory than a cell and its results.
+range of these numbers. Starts are drawn by seed and number of the cell, so the results do not
+depend on the division into chunks. Runs are summed up a few cells at a time, so the memory of a
+chunk hardly grows with its size.
 """
 
 import math
@@ -42,7 +43,7 @@ def study_chunk(
     workers=1,
     progress=None,
 ):
-    """What random starts come to in some cells of a grid.
+    """Return the motions that random starts lead to in a range of cells of a grid.
 
     Parameters
     ----------
@@ -50,7 +51,7 @@ def study_chunk(
     axes : dict
         Increasing values of mass_ratio (rm), clearance (d0), frequency (W) and restitution (e).
     cells : tuple of int
-        Number of the first cell of the chunk, and of the first one beyond it.
+        Numbers of the first cell of the chunk, and of the first cell after the chunk.
     contact_stiffness : float
         r1, the same in all cells.
     starts, radius, seed, settling, workers, progress
@@ -59,9 +60,9 @@ def study_chunk(
     Returns
     -------
     xarray.Dataset
-        Over `cell` the largest displacement of all motions that the starts lead to, that of the
-        quiet motion (period 1, two symmetric contacts), how many starts lead to it, and how many
-        to each outcome. The axes of the whole grid stand beside.
+        Over `cell`: largest displacement of all motions that the starts lead to, displacement of
+        the quiet motion (period 1, two symmetric contacts), numbers of starts that lead to the
+        quiet motion and to each outcome. The coordinates include the axes of the whole grid.
 
     Raises
     ------
@@ -81,7 +82,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # what is out of range is so at an end: it is to be told before hours of work
+    # values out of range are so at an end of an axis: raise before hours of work
     for end in (0, -1):
         _, damper = system([end] * len(AXES))
         random_states(0, radius, damper, seed)
@@ -97,7 +98,7 @@ def study_chunk(
         for k, of_cell in enumerate(np.split(runs, len(rows)), part.start):
             found[k] = _condensed(of_cell)
 
-    # as many cells at a time as fill the lanes, for the same memory whatever the chunk
+    # enough cells at a time to fill the lanes; the memory does not depend on the chunk
     together = max(1, ensemble.CHUNK // starts)
     ensemble.run_chunks(work, last - first, workers, progress, size=together)
     data = {
@@ -114,7 +115,7 @@ def study_chunk(
 
 
 def _condensed(runs):
-    """What a study keeps of the runs in a cell, as a row of `CELL`."""
+    """Return the results of the runs in a cell as a row of `CELL`."""
     diverged = runs["outcome"] == flag("outcome", "diverged")
     sizes = np.where(diverged, np.inf, runs["maximum_displacement"])
     quiet = is_settled(runs) & is_symmetric_pair(runs)
@@ -127,7 +128,7 @@ def _condensed(runs):
 
 
 def _checked(axes):
-    """The axes as arrays in their order, or TypeError or ValueError."""
+    """Return the axes as arrays in the order of `AXES`, or raise TypeError or ValueError."""
     if not isinstance(axes, dict) or set(axes) != set(AXES):
         raise TypeError(f"axes = {axes!r}: must be a dictionary of {', '.join(AXES)}")
     return {name: check_increasing(f"axes[{name!r}]", np.atleast_1d(axes[name])) for name in AXES}

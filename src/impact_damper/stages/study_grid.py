@@ -14,9 +14,9 @@ from impact_damper.data.whole_files import DELETE, BrokenFileError, whole_netcdf
 def gather_chunks(paths, path) -> None:
     """Write the chunks of a study, in their order, into one file over its grid.
 
-    The file has the variables of a chunk over the axes in place of `cell`. Beside them stand, over
-    mass ratio, frequency and restitution, the clearance of the grid at which the largest
-    displacement is least, and that of rule (18).
+    The file has the variables of a chunk, over the axes in place of `cell`. It also has, over mass
+    ratio, frequency and restitution, the clearance of the grid at which the largest displacement
+    is least, and the clearance of rule (18).
 
     Parameters
     ----------
@@ -28,8 +28,8 @@ def gather_chunks(paths, path) -> None:
     Raises
     ------
     BrokenFileError
-        If a chunk is not what a run has written, does not go on where the one before it ended, or
-        is not of the same study.
+        If a chunk is not a whole file of a run, does not begin where the chunk before it ended, or
+        belongs to another study.
     """
     chunk = load(paths[0])
     axes = {name: chunk[name].values for name in AXES}
@@ -57,7 +57,7 @@ def gather_chunks(paths, path) -> None:
 
 
 def _place(file, chunk, first, shape):
-    """Write a chunk to its cells, from the number `first` on; returns how many there are."""
+    """Write a chunk to its cells, from the number `first` on, and return their number."""
     count = chunk.sizes["cell"]
     for cells, block in blocks(first, first + count, shape):
         lengths = [index.stop - index.start for index in block]
@@ -68,14 +68,14 @@ def _place(file, chunk, first, shape):
 
 
 def _define(file, name, dims, dtype):
-    """An empty registered variable in an open file."""
+    """Create an empty registered variable in an open file."""
     labelled = variable(name, np.empty((0,) * len(dims), dtype), dims)
     missing = np.nan if labelled.dtype.kind == "f" else False
     file.createVariable(name, labelled.dtype, dims, fill_value=missing).setncatts(labelled.attrs)
 
 
 def _check_next(chunk, path, first, head):
-    """Raise BrokenFileError unless a chunk begins at a cell and is of the study of `head`."""
+    """Raise BrokenFileError unless a chunk begins at cell `first` and belongs to the study."""
     same = chunk.attrs == head.attrs and all(
         np.array_equal(chunk[name], head[name]) for name in (*AXES, "counted_outcome")
     )
@@ -84,14 +84,14 @@ def _check_next(chunk, path, first, head):
 
 
 def blocks(first, last, shape):
-    """Cut a range of cells, numbered with the last axis fastest, into blocks of the grid.
+    """Divide a range of cells, numbered with the last axis fastest, into blocks of the grid.
 
-    There are at most 2 n - 1 of them for n axes, however long the range is.
+    For n axes there are at most 2 n - 1 blocks, whatever the length of the range.
 
     Parameters
     ----------
     first, last : int
-        Number of the first cell, and of the first one beyond.
+        Numbers of the first cell, and of the first cell after the range.
     shape : tuple of int
 
     Yields
@@ -101,7 +101,7 @@ def blocks(first, last, shape):
     """
     while first < last:
         axis, stride = len(shape) - 1, 1
-        # the largest step that begins here and does not go beyond the end
+        # the largest block that begins here and does not extend beyond the end
         while axis > 0 and first % (wider := stride * shape[axis]) == 0 and first + wider <= last:
             axis, stride = axis - 1, wider
         place = np.unravel_index(first, shape)
@@ -114,7 +114,7 @@ def blocks(first, last, shape):
 
 
 def _write_clearances(file, axes):
-    """The best clearance of the grid and that of rule (18), a mass ratio at a time."""
+    """Write the best clearance of the grid and that of rule (18), one mass ratio at a time."""
     dims = tuple(name for name in AXES if name != "clearance")
     _define(file, "best_clearance", dims, float)
     _define(file, "rule_clearance", ("mass_ratio", "frequency"), float)
