@@ -158,7 +158,7 @@ def exact_table(exact, number):
 
 
 def errors(data, solutions, exact, p):
-    """Return errors against the exact orbit, shape (4, N), in the order of `convergence.MEASURES`."""
+    """Return errors against the exact orbit, shape (4, N), as in `convergence.MEASURES`."""
     found = np.full((4, len(solutions)), np.nan)
     if data["exact_status"] == flag("exact_status", "not_found"):
         return found
