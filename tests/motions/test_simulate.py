@@ -19,6 +19,7 @@ from impact_damper.motions.simulate import (
     steady_orbit,
     tabulate,
 )
+from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper
 
@@ -200,9 +201,9 @@ def test_settling_is_checked(wrong):
     with pytest.raises(ValueError, match=f"{name} = {value:g}"):
         ensemble.Settling(**wrong)
     with pytest.raises(ValueError, match="workers = 0"):
-        ensemble.settle(np.empty((0, 7)), np.empty((0, 4)), workers=0)
+        ensemble.settle(np.empty((0, packed.COUNT)), np.empty((0, 4)), workers=0)
     with pytest.raises(ValueError, match="shapes"):
-        ensemble.settle(np.empty((1, 7)), np.empty((2, 4)))
+        ensemble.settle(np.empty((1, packed.COUNT)), np.empty((2, 4)))
 
 
 def test_steady_orbit_closes():

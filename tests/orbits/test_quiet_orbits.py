@@ -17,6 +17,7 @@ from impact_damper.orbits.quiet_orbits import (
     straight_flight_end,
 )
 from impact_damper.orbits.shooting import STROBE, shoot
+from impact_damper.system import packed
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator
 
@@ -163,4 +164,4 @@ def test_a_row_without_a_known_orbit_is_said_to_have_none():
 
 def test_shapes_are_checked():
     with pytest.raises(ValueError, match="must be of shapes"):
-        quiet_orbits(np.zeros((2, 3, 7)), np.zeros((3, 2, 4)))
+        quiet_orbits(np.zeros((2, 3, packed.COUNT)), np.zeros((3, 2, 4)))

@@ -58,7 +58,7 @@ class Reference:
         motion.reset_cooldowns()
         motion.pars[:4] = (*p[:3], min(p[3], BEYOND_ALL_MOTIONS))
         if side:
-            motion.pars[4:] = (*p[4:], side)
+            motion.pars[4:] = (*p[4:7], side)
         outcome = motion.propagate_until(end, max_delta_t=self.longest)[0]
         return outcome, motion.state.copy(), motion.time
 

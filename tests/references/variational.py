@@ -61,7 +61,7 @@ class Variational:
 
     def monodromy(self, p, state, begin, length):
         """State and derivative (4, 4) of the flow from `begin` in flight over a length."""
-        pars = np.array([*p[:3], min(p[3], BEYOND_ALL_MOTIONS), *p[4:], 0.0])
+        pars = np.array([*p[:3], min(p[3], BEYOND_ALL_MOTIONS), *p[4:7], 0.0])
         full = np.concatenate([state, np.eye(4).ravel()])
         t, side, end = begin, 0, begin + length
         while True:

@@ -14,6 +14,7 @@ from impact_damper.stages.optimum import (
     _optimum_table,
     clearance_sweep,
 )
+from impact_damper.system import packed
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.theory.optimum_clearance import FIRST_HARMONIC_RATIO, straight_flight_ratio
 from impact_damper.theory.single_harmonic import contact_amplitude
@@ -171,7 +172,7 @@ class Line(_Branch):
 
 
 def test_optimum_at_the_end_of_the_branch():
-    parameters = np.zeros((3, 7))
+    parameters = np.zeros((3, packed.COUNT))
     parameters[:, 3] = 1, 2, 3
     branch = Line(parameters, np.zeros((3, 4)), np.array([np.nan, 2.0, 3.0]))
     table = _optimum_table(branch)

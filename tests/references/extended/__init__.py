@@ -17,6 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.system.packed import COUNT
+
 TOLERANCE = 1e-20
 PROGRAM = Path(__file__).with_name("motion.c")
 STATUS = {1: "the log of contacts is full", 2: "no memory", 3: "too many steps"}
@@ -116,7 +118,7 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=1
 
     Parameters
     ----------
-    p : array, shape (7,)
+    p : array, shape (COUNT,)
         Packed parameters.
     state : array, shape (4,)
         On a wall and moving outward, or beyond it, the start is in contact.
@@ -154,7 +156,7 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=1
 
 
 def run_many(parameters, states, starts, times, *, tolerance=TOLERANCE, longest=math.inf):
-    """Motions with parameters (m, 7), states (m, 4), starts (m,), each through times (m, n).
+    """Motions with parameters (m, COUNT), states (m, 4), starts (m,), each through times (m, n).
 
     Raises
     ------
@@ -166,7 +168,7 @@ def run_many(parameters, states, starts, times, *, tolerance=TOLERANCE, longest=
     last, summaries = np.empty((m, 4), Real), np.empty((m, 2), Real)
     begun, status = np.empty(m, np.int64), np.empty(m, np.int32)
     _library().motions(
-        m, np.array(parameters, float).reshape(m, 7), np.array(states, Real).reshape(m, 4),
+        m, np.array(parameters, float).reshape(m, COUNT), np.array(states, Real).reshape(m, 4),
         np.array(starts, Real).reshape(m), times, n, np.array([tolerance, longest], Real),
         last, summaries, begun, status,
     )  # fmt: skip

@@ -22,6 +22,9 @@ typedef struct {
     real frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot;
 } Parameters;
 
+/* Numbers in an array of packed parameters. */
+enum { WIDTH = sizeof(Parameters) / sizeof(real) };
+
 /* One step: Taylor coefficients of Z1, of the distance z of Z2 from the wall, of Z1^2, and of
    the derivatives of Z1 and z by the four initial values. */
 typedef struct {
@@ -450,7 +453,7 @@ void motions(long m, const double *packed, const real *first, const real *starts
         real flow[16];
         long counts[4] = {0};
         status[i] = states
-            ? motion(packed + 7 * i, first + 4 * i, starts[i], times + n * i, n, settings,
+            ? motion(packed + WIDTH * i, first + 4 * i, starts[i], times + n * i, n, settings,
                      states, NULL, NULL, 0, NULL, 0, flow, summaries + 2 * i, counts)
             : NO_MEMORY;
         contacts[i] = counts[1];

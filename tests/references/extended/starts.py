@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import COUNT, pack
 from impact_damper.system.parameters import Damper, Oscillator
 from references import extended
 
@@ -40,7 +40,7 @@ KINDS = {
 
 
 class Starts(NamedTuple):
-    """Packed parameters (m, 7), states (m, 4), start times (m,), and times (m, PERIODS)."""
+    """Packed parameters (m, COUNT), states (m, 4), start times (m,), and times (m, PERIODS)."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -87,7 +87,7 @@ def draw(kind, count, seed):
     to the last bit, at rest relative to it or at a speed of 1e-8 to 4, outward or inward.
     """
     random = np.random.default_rng([seed, list(KINDS).index(kind)])
-    parameters, states = np.empty((count, 7)), np.empty((count, 4))
+    parameters, states = np.empty((count, COUNT)), np.empty((count, 4))
     starts, times = np.empty(count), np.empty((count, PERIODS))
     for i in range(count):
         p = parameters[i] = _parameters(random, USUAL | KINDS[kind], elastic=i % 2 == 0)
