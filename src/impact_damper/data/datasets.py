@@ -1,4 +1,4 @@
-"""Labelled datasets: built from the registry, written whole or not at all."""
+"""Labelled datasets: built from the registry of variables, written and checked as NetCDF files."""
 
 import hashlib
 import json
@@ -13,17 +13,17 @@ from impact_damper.system.parameters import Damper, Oscillator, pick
 
 SOURCE = "impact-damper"
 
-# Numbers of an open file that are read at once.
+# Largest count of numbers read at once from an open file.
 PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """The registered variable `name` with its attributes; `dims` in place of the registered ones.
+    """Variable with the attributes registered for `name`; `dims` replaces the default ones.
 
     Raises
     ------
     KeyError
-        If the registry does not hold the name.
+        If the name is not registered.
     """
     entry = VARIABLES[name]
     attributes = {"long_name": entry.long_name, "units": entry.units}
@@ -45,9 +45,9 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
     data, coordinates : dict
         Arrays by registered name; an entry may be a pair (dims, array).
     parameters : dict
-        What made the data; kept as a JSON attribute.
+        Parameters from which the data were computed; stored as a JSON attribute.
     title : str
-        One line that says what the dataset is.
+        One line that describes the dataset.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
     Raises
     ------
     KeyError
-        If the registry does not hold a name.
+        If a name is not registered.
     """
 
     def labelled(items):
@@ -81,17 +81,17 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
 
 
 def flag(name, meaning) -> int:
-    """Value of a flag by its meaning, as `flag("status", "settled")`."""
+    """Stored value of a meaning of a flag: `flag("outcome", "settled")` is 1."""
     return VARIABLES[name].flags[meaning]
 
 
 def is_settled(motions):
-    """True where a record or a dataset of motions says that they settled."""
+    """Mask of the motions of a record or dataset whose outcome is "settled"."""
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
 def parameters_of(data) -> dict:
-    """The parameters that made a dataset."""
+    """Parameters from which a dataset was computed."""
     return json.loads(data.attrs["parameters"])
 
 
@@ -110,16 +110,17 @@ def damper_of(data, **others) -> Damper:
 
 
 def save(data, path) -> None:
-    """Write a dataset to NetCDF; the file appears only when it is whole.
+    """Write a dataset to NetCDF; the file appears only when it is complete.
 
-    It carries its stage and name, and the digest of its arrays, which `load` looks at.
+    The attributes of `seal` are added, by which `load` detects a file that was replaced or
+    damaged.
     """
     with whole_netcdf(path) as part:
         write(data.assign_attrs(seal(data.variables, path)), part)
 
 
 def write(data, path) -> None:
-    """Write a dataset to a NetCDF file of this very name."""
+    """Write a dataset to a NetCDF file `path` directly, without the protection of `save`."""
     encoding = {name: {"_FillValue": None} for name in data.coords}
     encoding |= {
         name: {"_FillValue": None} for name in data.data_vars if data[name].dtype.kind in "iub"
@@ -133,9 +134,9 @@ def load(path) -> xr.Dataset:
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     BrokenFileError
-        If the file is not what `save` has written under this path.
+        If the file is not the one that `save` wrote under this path.
     """
     check_length(path)
     try:
@@ -149,36 +150,36 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} holds {data.attrs.get('id')}: {DELETE}.")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written: {DELETE}.")
-    # They are of the file: what is made of the data is to have its own.
+    # The seal belongs to the file: datasets derived from this one get their own when saved.
     data.attrs = {name: value for name, value in data.attrs.items() if name not in sealed}
     return data
 
 
 def seal(variables, path) -> dict:
-    """Attributes by which `load` knows a file: its stage and name, and the digest of its arrays.
+    """Attributes that identify a file: `id` (stage and name) and `sha256` (digest of its arrays).
 
     Parameters
     ----------
     variables : dict of xarray.Variable
-        By name; those of an open file are read piece by piece.
+        By name; variables of an open file are read in pieces.
     path : str or pathlib.Path
-        Name of the file.
+        Path of the file.
     """
     return {"id": _identity(path), "sha256": _digest(variables)}
 
 
 def _identity(path):
-    """Stage and name of a file of results, wherever their folder lies."""
+    """Stage and name of a results file, independent of the location of the results folder."""
     path = Path(path).absolute()
     return f"{path.parent.name}/{path.stem}"
 
 
 def _digest(variables):
-    """Digest of all names and arrays."""
+    """SHA-256 digest of all names, dimensions, shapes and values."""
     digest = hashlib.sha256()
     for name, variable in sorted(variables.items()):
         digest.update(f"{name} {variable.dims} {variable.shape}".encode())
-        # Texts, and what is empty, may come back from a file as another type.
+        # Strings and empty arrays may have another type after reading from a file.
         if variable.dtype.kind in "biuf":
             for piece in _pieces(variable):
                 digest.update(piece.tobytes())
@@ -188,10 +189,10 @@ def _digest(variables):
 
 
 def _pieces(variable):
-    """Numbers of a variable, some rows at a time."""
+    """Yield the values of a variable, some rows at a time."""
     count = variable.shape[0] if variable.ndim else 1
     rows = max(1, PIECE * count // max(variable.size, 1))
     for first in range(0, count, rows):
         values = np.asarray(variable[first : first + rows] if variable.ndim else variable)
-        # a file keeps no sign of NaN
+        # NetCDF does not preserve the sign of NaN
         yield np.where(np.isnan(values), np.nan, values) if values.dtype.kind == "f" else values

@@ -1,15 +1,16 @@
-"""Shares, survival and escape rates with their 95 % intervals."""
+"""Binomial shares, survival curves and escape rates with 95 % confidence intervals."""
 
 import numpy as np
 from scipy.stats import binomtest, chi2
 
 BOUNDS = ["share", "lower", "upper"]
-# Time units left out of a rate: runs do not begin on the motion whose life is sought.
+# Initial time left out of a rate, in the unit of the lifetimes: runs first have to reach the motion
+# whose lifetime is measured.
 LEAD = 20
 
 
 def wilson(successes, total):
-    """Share, and Wilson's 95 % interval for it; NaN of nothing."""
+    """Share, lower and upper end of Wilson's 95 % interval, shape (3,); NaN if total is 0."""
     if total == 0:
         return np.full(3, np.nan)
     interval = binomtest(int(successes), int(total)).proportion_ci(method="wilson")
@@ -17,15 +18,28 @@ def wilson(successes, total):
 
 
 def survival(lives, horizon, times):
-    """Share of runs that live longer than each of the times, shape (n, 3) with its interval.
+    """Share of runs whose lifetime exceeds each of `times`, with 95 % intervals.
 
-    Lives beyond the horizon count only as longer than that. No run is lost earlier, so this is
-    Kaplan and Meier's estimate, and each value a binomial share.
+    Lifetimes are known up to the horizon, at which all remaining runs are cut off. Without earlier
+    losses the Kaplan-Meier estimate is the binomial share.
+
+    Parameters
+    ----------
+    lives : array, shape (runs,)
+        Lifetimes; any value above the horizon for runs cut off.
+    horizon : float
+        In the unit of `lives`.
+    times : array, shape (n,)
+
+    Returns
+    -------
+    numpy.ndarray, shape (n, 3)
+        Share, lower and upper end of its interval.
 
     Raises
     ------
     ValueError
-        If a time lies beyond the horizon.
+        If a time exceeds the horizon.
     """
     if np.max(times) > horizon:
         raise ValueError(f"times: must be at most the horizon {horizon}, {np.max(times)} given")
@@ -33,9 +47,15 @@ def survival(lives, horizon, times):
 
 
 def escape_rate(lives, horizon, lead=LEAD):
-    """Rate of an exponential life beyond `lead`, with its 95 % interval, per unit of time.
+    """Rate at which runs end after the time `lead`, per unit time, with its 95 % interval.
 
-    Captures over time at risk, and the chi-squared limits for a Poisson count of captures.
+    The number of ends divided by the total time at risk, the estimate for an exponential
+    distribution; with chi-squared limits for a Poisson count.
+
+    Returns
+    -------
+    numpy.ndarray, shape (3,)
+        Rate, lower and upper end of its interval; NaN without time at risk.
     """
     captures = np.sum((lives > lead) & (lives <= horizon))
     exposure = np.sum(np.clip(np.minimum(lives, horizon) - lead, 0, None))
@@ -46,12 +66,12 @@ def escape_rate(lives, horizon, lead=LEAD):
 
 
 def missed_share(data):
-    """Share of the runs that came to their end which miss the contact, NaN where none did.
+    """Share of the completed runs that miss the contact; NaN if no run was completed.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of `missed_contacts.missed_contacts`, of one method or of all.
+        Returned by `stages.missed_contacts.missed_contacts`; all methods or one.
 
     Returns
     -------

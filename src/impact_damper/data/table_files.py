@@ -10,10 +10,16 @@ DIGITS = 6
 
 
 def save(frame, csv_path, markdown_path, document=None) -> None:
-    """Write a table as CSV and as Markdown; each file appears only when it is whole.
+    """Write a table as CSV and as Markdown; each file appears only when it is complete.
 
-    Numbers are rounded to six significant digits; what is not known is left empty.
-    `document` makes the Markdown of the rounded table, `plain` if it is not given.
+    Numbers are rounded to six significant digits; NaN and None become empty cells.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+    csv_path, markdown_path : str or pathlib.Path
+    document : callable, optional
+        Maps the rounded table to Markdown; `plain` by default.
     """
     shown = frame.map(_rounded).astype(object)
     _write(csv_path, shown.to_csv(index=False, lineterminator="\n"))
@@ -21,7 +27,7 @@ def save(frame, csv_path, markdown_path, document=None) -> None:
 
 
 def plain(frame) -> str:
-    """A table of texts in Markdown."""
+    """Markdown of a table of strings."""
 
     def escaped(value):
         return str(value).replace("|", r"\|")
@@ -36,7 +42,7 @@ def _write(path, content):
 
 
 def _rounded(value):
-    """A cell as it is written."""
+    """Text of a cell."""
     if isinstance(value, str):
         return value
     if isinstance(value, numbers.Integral):

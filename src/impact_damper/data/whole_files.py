@@ -1,4 +1,4 @@
-"""Files that appear only when they are whole, and damage that can be seen without reading them."""
+"""Files that appear only when they are complete, and a quick check for truncated NetCDF files."""
 
 import glob
 import os
@@ -7,22 +7,22 @@ from pathlib import Path
 
 DELETE = "delete it and run the same command again"
 
-# How an HDF5 file begins, and where its length stands in the versions of its first block that
-# follow.
+# An HDF5 file begins with SIGNATURE. If one of VERSIONS follows, the bytes LENGTH hold the file's
+# length.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)
 
 
 class BrokenFileError(OSError):
-    """A result that is not what a run has written; the message says what to do."""
+    """A results file that is damaged or was not written by a run; the message says what to do."""
 
 
 @contextmanager
 def whole(path):
-    """Path to write to; the file gets its name `path` once it is written to the end.
+    """Yield a temporary path to write to, which is renamed to `path` on success.
 
-    What a killed process has left of the same file is removed first.
+    Temporary files of the same name that a killed process has left are removed first.
 
     Raises
     ------
@@ -38,7 +38,7 @@ def whole(path):
         yield part
         os.replace(part, path)
     except BrokenFileError:
-        raise  # of another file, that was read for this one
+        raise  # concerns another file, which was read to write this one
     except OSError as error:
         raise OSError(f"{path} cannot be written: {_reason(path.parent, error)}") from error
     finally:
@@ -48,7 +48,7 @@ def whole(path):
 
 @contextmanager
 def whole_netcdf(path):
-    """`whole` for a NetCDF file, which is looked at before it gets its name."""
+    """As `whole` for a NetCDF file, which is checked with `check_length` before it is renamed."""
     with whole(path) as part:
         try:
             yield part
@@ -58,7 +58,11 @@ def whole_netcdf(path):
 
 
 def _reason(folder, error):
-    """Why a file could not be written: NetCDF says little, and of a full disk the wrong thing."""
+    """Reason why a file could not be written, with what to do, as one line.
+
+    A trial file is written, since errors of the NetCDF library are vague, and wrong for a full
+    disk.
+    """
     trial = folder / f".trial-{os.getpid()}"
     try:
         with trial.open("wb") as file:
@@ -72,19 +76,19 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise if a NetCDF file is not of the kind that a run writes, or is cut off.
+    """Raise BrokenFileError if a file is not NetCDF-4 or is truncated.
 
-    Only its first bytes are read, so that all results can be looked at before a run.
+    Reads only the first bytes, so that all results can be checked before a run.
 
     Raises
     ------
     BrokenFileError
-        Naming the file and what to do.
+        Names the file and says what to do.
     """
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):
         raise BrokenFileError(f"{path} is not a NetCDF file of this project: {DELETE}.")
-    stated, found = int.from_bytes(start[LENGTH], "little"), os.path.getsize(path)
-    if found != stated and start[len(SIGNATURE) :].startswith(VERSIONS):
-        raise BrokenFileError(f"{path} has {found} bytes in place of {stated}: {DELETE}.")
+    stated, actual = int.from_bytes(start[LENGTH], "little"), os.path.getsize(path)
+    if actual != stated and start[len(SIGNATURE) :].startswith(VERSIONS):
+        raise BrokenFileError(f"{path} has {actual} bytes instead of {stated}: {DELETE}.")

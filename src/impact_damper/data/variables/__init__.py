@@ -1,6 +1,6 @@
-"""The registry: what each variable in a dataset is called, measured in, and means.
+"""Registry of the variables in all datasets: name, description, symbol, units, flags.
 
-A module holds the variables of one subject; a name stands in one of them only.
+Each module holds the variables of one subject. A name may occur in one module only.
 """
 
 from impact_damper.data.variables import (
@@ -37,5 +37,5 @@ VARIABLES: dict[str, Variable] = {}
 for module in MODULES:
     twice = VARIABLES.keys() & module.VARIABLES.keys()
     if twice:
-        raise ValueError(f"{', '.join(sorted(twice))}: stands in two modules of the registry")
+        raise ValueError(f"{', '.join(sorted(twice))}: registered in two modules")
     VARIABLES |= module.VARIABLES

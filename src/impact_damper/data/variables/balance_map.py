@@ -1,4 +1,4 @@
-"""Harmonic balance against the true motions, over frequency and another parameter."""
+"""Harmonic balance and exact motions in maps over frequency and another parameter."""
 
 from impact_damper.data.variables.variable import OUTCOME, Variable
 
@@ -42,24 +42,28 @@ HIGH_VERDICT = {
 }
 
 VARIABLES = {
-    "map_value": Variable(("map_value",), "parameter that changes from row to row"),
+    "map_value": Variable(
+        ("map_value",), "value of the parameter that differs between the rows of a map"
+    ),
     "frequency_ratio": Variable(
         ("frequency_ratio",), "forcing frequency over the peak frequency", "Omega/Omega_p"
     ),
     "map_frequency": Variable(CELL, "forcing frequency", "Omega"),
     "map_clearance": Variable(("map_value",), "clearance of the loose mass", "d0"),
     "resonance_amplitude": Variable(
-        CELL, "amplitude of the free resonance branch, beyond its end that at its end"
+        CELL, "amplitude of the free resonance branch; above its end, its amplitude at the end"
     ),
     # the quiet motion
     "balance_quiet": Variable(
-        CELL, "quiet solution of (7), by its slow flow", flags=BALANCE_VERDICT
+        CELL, "stability of the quiet solution of (7) by the slow flow", flags=BALANCE_VERDICT
     ),
     "balance_quiet_amplitude": Variable(CELL, "|a| of the quiet solution of (7)", "|a|"),
-    "balance_quiet_growth": Variable(CELL, "growth rate of the slow flow there, per unit time"),
+    "balance_quiet_growth": Variable(
+        CELL, "growth rate of the slow flow at the quiet solution, per unit time"
+    ),
     "quiet_orbit": Variable(
         CELL,
-        "true quiet orbit: stable, or what makes it unstable",
+        "exact quiet orbit: stable, or the bifurcation by which it lost stability",
         flags={
             "unresolved": -1,
             "absent": 0,
@@ -70,17 +74,23 @@ VARIABLES = {
         },
     ),
     "quiet_orbit_growth": Variable(
-        CELL, "logarithm of its dominant Floquet multiplier, per unit time"
+        CELL, "logarithm of the dominant Floquet multiplier of the quiet orbit, per unit time"
     ),
-    "quiet_orbit_displacement": Variable(CELL, "its largest displacement", "max |Z1|"),
-    "quiet_orbit_harmonic": Variable(CELL, "amplitude of its first harmonic of Z1"),
+    "quiet_orbit_displacement": Variable(
+        CELL, "largest displacement in the quiet orbit", "max |Z1|"
+    ),
+    "quiet_orbit_harmonic": Variable(
+        CELL, "amplitude of the first harmonic of Z1 in the quiet orbit"
+    ),
     "quiet_verdict": Variable(
-        CELL, "verdict of harmonic balance on the quiet motion, and the truth", flags=QUIET_VERDICT
+        CELL,
+        "quiet motion: verdict of harmonic balance, then of the exact orbit",
+        flags=QUIET_VERDICT,
     ),
     "quiet_end": Variable(ROW_END, "Omega/Omega_p at which the quiet orbits of a row end"),
     "quiet_end_event": Variable(
         ROW_END,
-        "what ends them",
+        "event that ends the quiet orbits of a row",
         flags={
             "map_ends": 0,
             "fold": 1,
@@ -90,37 +100,40 @@ VARIABLES = {
         },
     ),
     "straight_flight_end": Variable(
-        ("map_value",), "Omega/Omega_p of the upper end for rigid walls at high frequency"
+        ("map_value",),
+        "Omega/Omega_p of the upper end of the quiet orbits for rigid walls at high frequency",
     ),
     # where a start at the quiet solution leads
     "quiet_run_motion": Variable(
         CELL, "motion that a start at the quiet solution of (7) leads to", flags=RUN_MOTION
     ),
-    "quiet_run_exponent": Variable(CELL, "its largest Lyapunov exponent per unit time"),
-    "quiet_run_error": Variable(CELL, "standard error of that exponent"),
+    "quiet_run_exponent": Variable(CELL, "largest Lyapunov exponent of this motion per unit time"),
+    "quiet_run_error": Variable(CELL, "standard error of quiet_run_exponent"),
     # the high motion
-    "balance_high": Variable(CELL, "high stable solution of (7)", flags=BALANCE_VERDICT),
+    "balance_high": Variable(CELL, "stability of the high solution of (7)", flags=BALANCE_VERDICT),
     "balance_high_amplitude": Variable(CELL, "|a| of the high stable solution of (7)", "|a|"),
     "high_run_motion": Variable(
         CELL,
-        "motion that a start at the high solution of (7), or else on the free resonance "
-        "branch, leads to",
+        "motion that the high run leads to: from the high solution of (7), otherwise from the free "
+        "resonance branch",
         flags=RUN_MOTION,
     ),
-    "high_run_outcome": Variable(CELL, "what it came to", flags=OUTCOME),
-    "high_run_period": Variable(CELL, "its period in forcing periods", "n"),
-    "high_run_contacts": Variable(CELL, "its contacts begun per forcing period"),
-    "high_run_displacement": Variable(CELL, "its largest displacement", "max |Z1|"),
-    "high_run_exponent": Variable(CELL, "its largest Lyapunov exponent per unit time"),
-    "high_run_error": Variable(CELL, "standard error of that exponent"),
+    "high_run_outcome": Variable(CELL, "outcome of the high run", flags=OUTCOME),
+    "high_run_period": Variable(
+        CELL, "period of the motion of the high run in forcing periods", "n"
+    ),
+    "high_run_contacts": Variable(CELL, "contacts begun per forcing period in the high run"),
+    "high_run_displacement": Variable(CELL, "largest displacement in the high run", "max |Z1|"),
+    "high_run_exponent": Variable(CELL, "largest Lyapunov exponent per unit time"),
+    "high_run_error": Variable(CELL, "standard error of high_run_exponent"),
     "high_long_outcome": Variable(
         CELL,
-        "what some of the chaotic ones come to within ten times the patience",
+        "outcome of some chaotic high runs after ten times as many periods",
         flags=OUTCOME,
     ),
     "high_verdict": Variable(
         CELL,
-        "whether harmonic balance has a stable high motion, and where a start there leads",
+        "high motion: verdict of harmonic balance, then motion that the high run leads to",
         flags=HIGH_VERDICT,
     ),
 }

@@ -1,4 +1,4 @@
-"""The contact model in closed form, contacts of motions in it, and its rigid limit."""
+"""The contact model in closed form, contacts of simulated motions, and the rigid limit."""
 
 from impact_damper.data.variables.variable import OUTCOME, Variable
 
@@ -13,36 +13,42 @@ IMAGINARY = "dominant Floquet multiplier, imaginary part"
 
 VARIABLES = {
     # map
-    "exit_rule": Variable(("exit_rule",), "what ends a contact"),
+    "exit_rule": Variable(("exit_rule",), "rule for the end of a contact"),
     "load": Variable(("load",), "load in contact", "g/(omega_n v0)"),
     "realised_restitution": Variable(CELL, "departure speed over approach speed"),
     "contact_duration": Variable(CELL, "time in contact over that of an elastic contact"),
     "contact_verdict": Variable(
         CELL,
-        "realised restitution: within 1 % of e, within 5 %, off, or none since the loose mass "
-        "falls back or the contact does not end",
+        "realised restitution: within 1 % of e, within 5 %, further off, or none, since the loose "
+        "mass falls back or the contact does not end",
         flags={"close": 0, "fair": 1, "off": 2, "falls_back": 3, "no_release": 4},
     ),
-    "pull_impulse": Variable(CELL[1:], "impulse of the wall's pull over that of its push"),
-    "pull_peak": Variable(CELL[1:], "largest pull of the wall over its largest push"),
+    "pull_impulse": Variable(CELL[1:], "tensile impulse of the wall over its compressive impulse"),
+    "pull_peak": Variable(
+        CELL[1:], "largest tensile force of the wall over its largest compressive force"
+    ),
     # without load
-    "used": Variable(("used",), "coefficient of restitution of a motion's damper", "e"),
+    "used": Variable(("used",), "coefficient of restitution of a damper", "e"),
     "unloaded_damping": Variable(("used",), "damping ratio of the relative motion", "z"),
     "unloaded_restitution": Variable(UNLOADED, "realised restitution without load"),
     "unloaded_duration": Variable(UNLOADED, "time in contact over that of an elastic contact"),
-    "unloaded_pull_time": Variable(("used",), "share of the contact in which the wall pulls"),
-    "unloaded_pull_impulse": Variable(("used",), "impulse of the pull over that of the push"),
-    "unloaded_pull_peak": Variable(("used",), "largest pull over the largest push"),
+    "unloaded_pull_time": Variable(("used",), "share of the time in contact with a tensile force"),
+    "unloaded_pull_impulse": Variable(("used",), "tensile over compressive impulse without load"),
+    "unloaded_pull_peak": Variable(
+        ("used",), "largest tensile over largest compressive force without load"
+    ),
     # contacts of motions
-    "size": Variable(("size",), "smallest settled or largest motion that random starts reach"),
-    "scene_outcome": Variable(SCENE, "what the motion came to", flags=OUTCOME),
-    "scene_displacement": Variable(SCENE, "its largest displacement", "max |Z1|"),
+    "size": Variable(
+        ("size",), "which motion that random starts reach: the smallest settled or the largest one"
+    ),
+    "scene_outcome": Variable(SCENE, "outcome of the motion", flags=OUTCOME),
+    "scene_displacement": Variable(SCENE, "largest displacement of the motion", "max |Z1|"),
     "scene_without_pull": Variable(
-        SCENE, "the same with the restitution that walls without pull return", "max |Z1|"
+        SCENE, "largest displacement with the restitution of walls that cannot pull", "max |Z1|"
     ),
     "scene_without_pull_status": Variable(
         SCENE,
-        "whether that motion was found",
+        "whether the motion with walls that cannot pull was found",
         flags={
             "absent": -1,
             "found": 0,
@@ -51,24 +57,24 @@ VARIABLES = {
             "other_contacts": 3,
         },
     ),
-    "scene_contacts": Variable(SCENE, "contacts logged"),
-    "scene_load": Variable(SCENE, "|load| that 99 % of the contacts do not exceed"),
+    "scene_contacts": Variable(SCENE, "number of contacts logged"),
+    "scene_load": Variable(SCENE, "99 % quantile of |load| over the contacts"),
     "scene_close": Variable(SCENE, "share of contacts with a restitution within 1 % of e"),
     "scene_fair": Variable(SCENE, "share of contacts with a restitution within 5 % of e"),
-    "scene_restitution_low": Variable(SCENE, "least restitution of a contact"),
+    "scene_restitution_low": Variable(SCENE, "smallest restitution of a contact"),
     "scene_restitution_high": Variable(SCENE, "largest restitution of a contact"),
     "scene_unreleased": Variable(
-        SCENE, "contacts that the closed form, with a constant load, does not release"
+        SCENE, "contacts that do not end in the closed form with constant load"
     ),
     "scene_restitution_error": Variable(
-        SCENE, "error of the closed form's restitution that 99 % of the contacts do not exceed"
+        SCENE, "99 % quantile of the error of the closed-form restitution"
     ),
     "scene_duration_error": Variable(
-        SCENE, "error of the closed form's time in contact that 99 % of them do not exceed"
+        SCENE, "99 % quantile of the error of the closed-form time in contact"
     ),
-    "contact_used": Variable(("contact",), "place, along used, of a contact's damper"),
-    "contact_row": Variable(("contact",), "place, along frequency, of a contact's motion"),
-    "contact_size": Variable(("contact",), "place, along size, of a contact's motion"),
+    "contact_used": Variable(("contact",), "index along used of the damper of a contact"),
+    "contact_row": Variable(("contact",), "index along frequency of the motion of a contact"),
+    "contact_size": Variable(("contact",), "index along size of the motion of a contact"),
     "contact_load": Variable(("contact",), "load at the beginning of a contact"),
     "contact_restitution": Variable(("contact",), "departure speed over approach speed"),
     "contact_time": Variable(("contact",), "time in contact over that of an elastic contact"),
@@ -77,19 +83,25 @@ VARIABLES = {
     "compliant_status": Variable(
         LIMIT, "how the search for the compliant orbit ended", flags=FOLLOWED
     ),
-    "compliant_displacement": Variable(LIMIT, "its largest displacement", "max |Z1|"),
+    "compliant_displacement": Variable(
+        LIMIT, "largest displacement of the compliant orbit", "max |Z1|"
+    ),
     "compliant_multiplier_real": Variable(LIMIT, REAL),
     "compliant_multiplier_imaginary": Variable(LIMIT, IMAGINARY),
     "rigid_status": Variable(
         ("frequency",), "how the search for the rigid orbit ended", flags=RIGID
     ),
-    "rigid_displacement": Variable(("frequency",), "its largest displacement", "max |Z1|"),
+    "rigid_displacement": Variable(
+        ("frequency",), "largest displacement of the rigid orbit", "max |Z1|"
+    ),
     "rigid_multiplier_real": Variable(("frequency",), REAL),
     "rigid_multiplier_imaginary": Variable(("frequency",), IMAGINARY),
     "mended_status": Variable(
         LIMIT, "how the search for the mended rigid orbit ended", flags=RIGID
     ),
-    "mended_displacement": Variable(LIMIT, "its largest displacement", "max |Z1|"),
+    "mended_displacement": Variable(
+        LIMIT, "largest displacement of the mended rigid orbit", "max |Z1|"
+    ),
     "mended_multiplier_real": Variable(LIMIT, REAL),
     "mended_multiplier_imaginary": Variable(LIMIT, IMAGINARY),
     "rigid_error": Variable(LIMIT, "relative error of max |Z1| by rigid impacts"),
@@ -99,7 +111,7 @@ VARIABLES = {
     ),
     "rigid_verdict": Variable(
         LIMIT,
-        "which of both orbits were reached, and whether they are stable",
+        "which of the compliant and rigid orbits were reached, and their stability",
         flags={
             "both_stable": 0,
             "both_unstable": 1,
@@ -115,13 +127,17 @@ VARIABLES = {
     ),
     "needed_status": Variable(
         ("threshold", "frequency"),
-        "where that stiffness is",
+        "where needed_stiffness lies",
         flags={"absent": -1, "found": 0, "below_grid": 1, "above_grid": 2},
     ),
-    "rigid_order": Variable(("frequency",), "n of rigid_error ~ r1^-n where contacts are short"),
-    "mended_order": Variable(("frequency",), "the same of mended_error"),
+    "rigid_order": Variable(("frequency",), "exponent n of rigid_error ~ r1^-n for short contacts"),
+    "mended_order": Variable(
+        ("frequency",), "exponent n of mended_error ~ r1^-n for short contacts"
+    ),
     "own_displacement": Variable((), "largest displacement for the damper's own r1", "max |Z1|"),
-    "own_error": Variable((), "relative error of it by rigid impacts"),
-    "own_mended_error": Variable((), "relative error of it by mended rigid impacts"),
-    "own_decay_error": Variable((), "error of the modulus of the dominant multiplier there"),
+    "own_error": Variable((), "relative error of own_displacement by rigid impacts"),
+    "own_mended_error": Variable((), "relative error of own_displacement by mended rigid impacts"),
+    "own_decay_error": Variable(
+        (), "error of the modulus of the dominant multiplier for the damper's own r1"
+    ),
 }

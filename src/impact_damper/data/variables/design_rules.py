@@ -1,4 +1,4 @@
-"""Rules for the optimum clearance against the optimum of the motion."""
+"""Rules for the optimum clearance, and the optimum of the exact quiet motion."""
 
 from impact_damper.data.variables.variable import MINIMUM, STABILITY, Variable
 
@@ -7,15 +7,16 @@ BEST = (*SWEPT, "criterion")
 
 VARIABLES = {
     "mass_ratio": Variable(("mass_ratio",), "mass ratio", "r_m"),
-    "criterion": Variable(("criterion",), "what is least at an optimum"),
+    "criterion": Variable(("criterion",), "quantity that is smallest at an optimum"),
     "rule": Variable(("rule",), "rule for the clearance"),
     "best_ratio": Variable(BEST, "r_m Omega^2 d0 at the optimum"),
-    "best_size": Variable(BEST, "Omega^2 times what is least there"),
+    "best_size": Variable(BEST, "smallest value of the criterion times Omega^2"),
     "best_kind": Variable(BEST, "kind of minimum", flags=MINIMUM),
-    "best_multiplier": Variable(BEST, "modulus of the dominant Floquet multiplier there"),
-    "best_stability": Variable(BEST, "stability of the motion there", flags=STABILITY),
+    "best_multiplier": Variable(BEST, "modulus of the dominant Floquet multiplier at the optimum"),
+    "best_stability": Variable(BEST, "stability of the motion at the optimum", flags=STABILITY),
     "rule_ratio": Variable((*BEST, "rule"), "r_m Omega^2 d0 by the rule"),
     "rule_excess": Variable(
-        (*SWEPT, "rule"), "max |Z1| at the rule's clearance over the least, less one"
+        (*SWEPT, "rule"),
+        "relative excess of max |Z1| at the clearance of the rule over the smallest max |Z1|",
     ),
 }

@@ -18,7 +18,7 @@ VARIABLES = {
         ("frequency", "solution"), "largest real part of the eigenvalues of the slow flow"
     ),
     "stability": Variable(("frequency", "solution"), "stability by the slow flow", flags=STABILITY),
-    "solution_count": Variable(("frequency",), "solutions of the harmonic balance"),
+    "solution_count": Variable(("frequency",), "number of solutions of the harmonic balance"),
     "balance_status": Variable(
         ("frequency",),
         "how the solution of the harmonic balance ended",
@@ -38,7 +38,9 @@ VARIABLES = {
         "stability by the slow flow without the damper",
         flags=STABILITY,
     ),
-    "free_count": Variable(("frequency",), "solutions of the harmonic balance without the damper"),
+    "free_count": Variable(
+        ("frequency",), "number of solutions of the harmonic balance without the damper"
+    ),
     "rigid_tangent": Variable(("frequency", "root"), "root of the polynomial (14)", "D"),
     "rigid_amplitude": Variable(
         ("frequency", "root"), "amplitude of Z1 for rigid walls, negative in antiphase", "a"
@@ -52,7 +54,7 @@ VARIABLES = {
         flags={"absent": 0, "pushes": 1, "pulls": 2},
     ),
     "rigid_residual": Variable(("frequency", "root"), "residual of (13)"),
-    "rigid_count": Variable(("frequency",), "real roots of the polynomial (14)"),
+    "rigid_count": Variable(("frequency",), "number of real roots of the polynomial (14)"),
     # suppression band
     "peak_frequency": Variable((), "peak frequency without the damper", "Omega_p"),
     "peak_amplitude": Variable((), "amplitude of Z1 without the damper at the peak frequency"),
@@ -70,7 +72,7 @@ VARIABLES = {
     ),
     "edge_event": Variable(
         ("edge",),
-        "what ends the suppression band",
+        "event that ends the suppression band",
         flags={
             "not_found": 0,
             "resonance_branch_ends": 1,
@@ -83,7 +85,7 @@ VARIABLES = {
     ),
     "band_width": Variable((), "width of the suppression band", "Delta Omega_s"),
     "break_even_frequency": Variable(
-        (), "frequency above the peak where |a| reaches the least amplitude without the damper"
+        (), "frequency above the peak at which |a| equals the smallest amplitude without the damper"
     ),
     # optimum clearance
     "quiet_displacement": Variable(
@@ -96,7 +98,7 @@ VARIABLES = {
         ("clearance",), "largest displacement over all motions that random starts reach"
     ),
     "analytical_amplitude": Variable(
-        ("clearance",), "|a| of the stable solution of (7) with the smallest one", "|a|"
+        ("clearance",), "smallest |a| of a stable solution of (7)", "|a|"
     ),
     "analytical_status": Variable(
         ("clearance",),
@@ -104,7 +106,9 @@ VARIABLES = {
         flags={"absent": 0, "found": 1, "inelastic": 2, "unresolved": 3},
     ),
     "optimum_clearance": Variable((), "clearance at which the quiet motion is smallest", "d0"),
-    "optimum_displacement": Variable((), "its largest displacement there", "max |Z1|"),
+    "optimum_displacement": Variable(
+        (), "largest displacement in the quiet motion at the optimum clearance", "max |Z1|"
+    ),
     "optimum_kind": Variable(
         (), "kind of minimum: smooth, kink, end of the branch or of the sweep", flags=MINIMUM
     ),
@@ -113,19 +117,23 @@ VARIABLES = {
     ),
     "near_status": Variable(
         ("edge",),
-        "what ends them",
+        "event that ends the range near_clearance",
         flags={"not_found": 0, "crossed": 1, "branch_ends": 2, "sweep_ends": 3},
     ),
     "analytical_optimum": Variable((), "clearance at which (7) has a solution with a = 0", "d0"),
-    "analytical_kind": Variable((), "kind of minimum of |a| there", flags=MINIMUM),
+    "analytical_kind": Variable((), "kind of minimum of |a| at analytical_optimum", flags=MINIMUM),
     "rule_clearance": Variable((), "clearance of rule (18) at the forcing frequency", "d0"),
     "peak_rule_clearance": Variable((), "clearance of rule (19)", "d0"),
-    "optimum_ratio": Variable((), "rm W^2 d0 at the optimum, 1 by rule (18)"),
+    "optimum_ratio": Variable((), "rm W^2 d0 at the optimum clearance; 1 by rule (18)"),
     "straight_flight_ratio": Variable(
-        (), "rm W^2 d0 of the least max |Z1| for rigid walls at high frequency"
+        (), "rm W^2 d0 at the smallest max |Z1| for rigid walls at high frequency"
     ),
     "first_harmonic_share": Variable(
-        (), "(pi^2/8 - 1)/(optimum_ratio - 1), the first harmonic of a straight flight"
+        (), "share of the excess explained by the first harmonic: (pi^2/8 - 1)/(optimum_ratio - 1)"
     ),
-    "straight_flight_share": Variable((), "(straight_flight_ratio - 1)/(optimum_ratio - 1)"),
+    "straight_flight_share": Variable(
+        (),
+        "share of the excess explained by straight flight: (straight_flight_ratio - 1)/"
+        "(optimum_ratio - 1)",
+    ),
 }

@@ -1,4 +1,4 @@
-"""Harmonic balance with many harmonics against the exact orbit, and Hill's method."""
+"""Harmonic balance with many harmonics and Hill's method, compared with the exact orbit."""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -8,21 +8,23 @@ SEARCH = {"converged": 0, "stalled": 1, "iteration_limit": 2}
 
 VARIABLES = {
     "highest_harmonic": Variable(COUNTED, "highest harmonic", "N"),
-    "error_measure": Variable(ERRORS, "what an error is an error of"),
+    "error_measure": Variable(ERRORS, "quantity that an error refers to"),
     "series_status": Variable(
-        COUNTED, "how Newton's method ended, begun from fewer harmonics", flags=SEARCH
+        COUNTED,
+        "how Newton's method ended, started from the solution with fewer harmonics",
+        flags=SEARCH,
     ),
-    "series_steps": Variable(COUNTED, "steps of Newton's method"),
+    "series_steps": Variable(COUNTED, "number of steps of Newton's method"),
     "series_residual": Variable(COUNTED, "largest residual of the balance"),
     "series_maximum": Variable(COUNTED, "largest displacement by harmonic balance", "max |Z1|"),
     "series_error": Variable(
         (*ERRORS, *COUNTED),
-        "error against the exact orbit: of max |Z1|, of Z1 in the mean square of the harmonics up "
-        "to N and beyond, as shares of max |Z1|; of a Floquet multiplier",
+        "error against the exact orbit: of max |Z1|, of Z1 in the harmonics up to N and beyond N "
+        "(root mean square), all relative to max |Z1|; and of a Floquet multiplier",
     ),
     "cold_status": Variable(
         COUNTED,
-        "what Newton's method came to, begun from the single-term solution",
+        "result of Newton's method, started from the single-term solution",
         flags={
             "not_tried": -1,
             "same_motion": 0,
@@ -41,26 +43,28 @@ VARIABLES = {
         EXPONENTS, "Floquet multiplier by Hill's method, imaginary part"
     ),
     "hill_trace_error": Variable(
-        COUNTED, "sum of the exponents by Hill's method, less that of Liouville's theorem"
+        COUNTED, "sum of the exponents by Hill's method minus the sum by Liouville's theorem"
     ),
     "exact_status": Variable(
         (), "whether the exact orbit was found", flags={"not_found": 0, "found": 1}
     ),
-    "exact_residual": Variable((), "distance of the exact orbit's state from its return"),
+    "exact_residual": Variable(
+        (), "distance between the state of the exact orbit and the state a period later"
+    ),
     "exact_maximum": Variable((), "largest displacement of the exact orbit", "max |Z1|"),
     "exact_multiplier_real": Variable(("exponent",), "exact Floquet multiplier, real part"),
     "exact_multiplier_imaginary": Variable(
         ("exponent",), "exact Floquet multiplier, imaginary part"
     ),
-    "asymptotic_harmonic": Variable((), "harmonic from which on errors are fitted"),
+    "asymptotic_harmonic": Variable((), "lowest N of the errors fitted"),
     "decay_kind": Variable(
         (),
-        "how errors fall: by a power of N, or exponentially",
+        "decrease of the errors: a power of N, or exponential",
         flags={"algebraic": 0, "exponential": 1},
     ),
     "decay_observed": Variable(
-        ERRORS, "power of 1/N, or rate per harmonic, by which an error falls, fitted"
+        ERRORS, "fitted power of 1/N, or rate per harmonic, at which an error decreases"
     ),
     "decay_fitted": Variable(ERRORS, "number of errors fitted"),
-    "decay_predicted": Variable(ERRORS, "power of 1/N, or rate per harmonic, predicted"),
+    "decay_predicted": Variable(ERRORS, "predicted power of 1/N, or rate per harmonic"),
 }

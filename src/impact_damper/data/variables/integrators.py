@@ -1,4 +1,4 @@
-"""Where integrators fail: contacts missed near grazing, stable steps, verdicts."""
+"""Failures of integrators: contacts missed near grazing, unstable steps, wrong verdicts."""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -26,55 +26,59 @@ VARIABLES = {
     "method_tolerance": Variable(("method_tolerance",), "tolerance of the method"),
     # contacts missed near grazing
     "depth": Variable(("depth",), "depth of the passage beyond the wall"),
-    "contact_outcome": Variable(("contact_outcome",), "what a method makes of a contact"),
+    "contact_outcome": Variable(("contact_outcome",), "how a method treats a contact"),
     "passage_count": Variable(
         ("integrator", "method_tolerance", "depth", "contact_outcome"),
-        "contacts found, passed unseen between steps, not reached by the method's own motion, and "
-        "runs that failed",
+        "number of contacts that are found, passed between two steps, or not reached by the "
+        "inaccurate motion, and of failed runs",
     ),
     "spurious_count": Variable(
-        ("integrator", "method_tolerance", "depth"), "contacts reported where there is none"
+        ("integrator", "method_tolerance", "depth"),
+        "number of contacts reported in passages without contact",
     ),
     "mean_steps": Variable(
         ("integrator", "method_tolerance"),
-        "mean steps a forcing period in flight, without runs that failed",
+        "mean number of steps per forcing period in flight, failed runs excluded",
     ),
     "motion_error": Variable(
         ("integrator", "method_tolerance"),
-        "median error of the largest |Z2| of a passage, without runs that failed",
+        "median error of the largest |Z2| of a passage, failed runs excluded",
     ),
-    "passages": Variable(("integrator",), "passages run for each tolerance"),
-    "passages_drawn": Variable((), "random flights drawn to find the passages"),
+    "passages": Variable(("integrator",), "number of passages run for each tolerance"),
+    "passages_drawn": Variable((), "number of random flights drawn to obtain the passages"),
     "fixed_steps": Variable(
-        ("method_tolerance",), "steps a forcing period of the fixed-step method"
+        ("method_tolerance",), "steps per forcing period of the fixed-step method"
     ),
     "expected_unseen": Variable(
-        ("method_tolerance", "depth"), "share passed unseen if fixed steps fall at random"
+        ("method_tolerance", "depth"),
+        "share of contacts passed between two steps if the phase of fixed steps is random",
     ),
     "extremum_time": Variable(("passage",), "time of the largest |Z2| of a passage", "T"),
     "extremum": Variable(("passage",), "largest |Z2| of a passage"),
-    "extremum_curvature": Variable(("passage",), "|Z2''| there"),
+    "extremum_curvature": Variable(("passage",), "|Z2''| at the extremum"),
     # largest stable steps
     "fixed_method": Variable(("fixed_method",), "method with equal steps"),
     "scaled_step": Variable(("scaled_step",), "step times contact frequency", "h omega_c"),
     "accuracy": Variable(("accuracy",), "relative deviation allowed in max |Z1|"),
     "step_verdict": Variable(
         ("fixed_method", "contact_stiffness", "scaled_step"),
-        "what becomes of the quiet motion",
+        "how well the method keeps the quiet motion",
         flags=STEP_VERDICT,
     ),
     "step_deviation": Variable(
         ("fixed_method", "contact_stiffness", "scaled_step"),
-        "largest relative deviation of max |Z1| in any period, infinite where it diverged",
+        "largest relative deviation of max |Z1| in any period, infinite if the run diverged",
     ),
-    "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps a forcing period"),
+    "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps per forcing period"),
     "stable_step": Variable(
         ("fixed_method", "contact_stiffness", "accuracy"),
-        "largest step from which on all smaller ones hold",
+        "largest step such that it and all smaller ones keep the accuracy",
         "h",
     ),
     "largest_holding_step": Variable(
-        ("fixed_method", "contact_stiffness", "accuracy"), "largest step that holds at all", "h"
+        ("fixed_method", "contact_stiffness", "accuracy"),
+        "largest step that keeps the accuracy",
+        "h",
     ),
     "step_slope": Variable(("fixed_method", "accuracy"), "slope of log(1/h) over log r1"),
     "step_slope_error": Variable(("fixed_method", "accuracy"), "standard error of the slope"),
@@ -88,34 +92,36 @@ VARIABLES = {
         ("contact_stiffness",), "largest displacement of the exact orbit", "max |Z1|"
     ),
     "orbit_multiplier": Variable(
-        ("contact_stiffness",), "modulus of its dominant Floquet multiplier"
+        ("contact_stiffness",), "modulus of the dominant Floquet multiplier of the exact orbit"
     ),
     "free_bound": Variable((), "displacement beyond which a run has escaped", "max |Z1|"),
     # verdicts by tolerance
     "scene": Variable(("scene",), "motion whose verdict is known"),
     "verdict_method": Variable(("verdict_method",), "method of integration"),
     "verdict": Variable(
-        ("scene", "verdict_method", "method_tolerance"), "verdict against the truth", flags=VERDICT
+        ("scene", "verdict_method", "method_tolerance"),
+        "verdict of the method, compared with the exact one",
+        flags=VERDICT,
     ),
     "right_from": Variable(
         ("scene", "verdict_method"),
-        "largest tolerance, or number of fixed steps, from which on all verdicts are right",
+        "largest tolerance, or smallest number of steps, from which on all verdicts are right",
     ),
     "verdict_steps": Variable(
-        ("method_tolerance",), "steps a forcing period of fixed-step methods"
+        ("method_tolerance",), "steps per forcing period of fixed-step methods"
     ),
     "scene_multiplier": Variable(
         ("scene",), "modulus of the dominant Floquet multiplier of the orbit"
     ),
     "scene_period": Variable(("scene",), "period of the orbit in forcing periods", "n"),
     "landing_period": Variable(
-        ("scene",), "period of the motion that it comes to, 0 if it does not settle", "n"
+        ("scene",), "period of the motion that results, 0 if it does not settle", "n"
     ),
-    "scene_periods": Variable(("scene",), "forcing periods run"),
+    "scene_periods": Variable(("scene",), "number of forcing periods run"),
     "scene_frequency": Variable(("scene",), "forcing frequency", "Omega"),
     "scene_truth": Variable(
         ("scene",),
-        "whether the motion comes to be on the orbit",
+        "whether the motion settles on the orbit",
         flags={"leaves": 0, "stays": 1},
     ),
 }

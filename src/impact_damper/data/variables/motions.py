@@ -24,14 +24,18 @@ VARIABLES = {
     "contact_wall": Variable(("contact",), "wall of a contact, -1 or 1"),
     "contact_begin": Variable(("contact",), "beginning of a contact"),
     "contact_end": Variable(("contact",), "end of a contact"),
-    "approach_velocity": Variable(("contact",), "relative velocity at its beginning", "Z2'"),
-    "departure_velocity": Variable(("contact",), "relative velocity at its end", "Z2'"),
-    "outcome": Variable(("frequency", "motion"), "what the motion came to", flags=OUTCOME),
+    "approach_velocity": Variable(
+        ("contact",), "relative velocity at the beginning of a contact", "Z2'"
+    ),
+    "departure_velocity": Variable(
+        ("contact",), "relative velocity at the end of a contact", "Z2'"
+    ),
+    "outcome": Variable(("frequency", "motion"), "outcome of the motion", flags=OUTCOME),
     "period": Variable(("frequency", "motion"), "period of the motion in forcing periods", "n"),
     "contacts": Variable(("frequency", "motion"), "contacts begun per forcing period"),
     "maximum_displacement": Variable(("frequency", "motion"), "largest displacement", "max |Z1|"),
     "asymmetry": Variable(
-        ("frequency", "motion"), "distance of the motion from its mirror image half a period on"
+        ("frequency", "motion"), "distance of the motion from its mirror image half a period later"
     ),
     "phase_relative": Variable(
         ("frequency", "motion"), "phase of Z1 to Z2, first harmonics", units="radian"
@@ -43,7 +47,9 @@ VARIABLES = {
     "multiplier_imaginary": Variable(
         ("frequency", "motion"), "dominant Floquet multiplier, imaginary part"
     ),
-    "residual": Variable(("frequency", "motion"), "distance of the state from its return"),
+    "residual": Variable(
+        ("frequency", "motion"), "distance between the state and the state a period later"
+    ),
     "lyapunov_exponent": Variable(
         ("frequency", "motion"), "largest Lyapunov exponent per unit time"
     ),
@@ -52,32 +58,34 @@ VARIABLES = {
     ),
     "periods_run": Variable(("frequency", "motion"), "forcing periods run before it settled"),
     # frequency responses
-    "branch": Variable(("frequency", "motion"), "number of the branch a motion belongs to"),
-    "share": Variable(("frequency", "motion"), "random starts that lead to the motion"),
+    "branch": Variable(("frequency", "motion"), "number of the branch that a motion lies on"),
+    "share": Variable(("frequency", "motion"), "number of random starts that lead to the motion"),
     "origin": Variable(
         ("frequency", "motion"),
         "how the motion was found first",
         flags={"absent": 0, "random_start": 1, "followed": 2},
     ),
-    "run_outcome": Variable(("frequency", "start"), "what a random start came to", flags=OUTCOME),
-    "run_motion": Variable(("frequency", "start"), "place, along motion, of what it came to"),
+    "run_outcome": Variable(("frequency", "start"), "outcome of a random start", flags=OUTCOME),
+    "run_motion": Variable(
+        ("frequency", "start"), "index along motion of the motion that a random start leads to"
+    ),
     "run_length": Variable(("frequency", "start"), "forcing periods run from a random start"),
     "end_value": Variable(("end",), "parameter of the sweep at the end of a branch"),
     "end_branch": Variable(("end",), "branch that ends"),
     "end_direction": Variable(
         ("end",), "direction of the sweep in which the branch ends", flags={"down": -1, "up": 1}
     ),
-    "end_event": Variable(("end",), "what ends the branch", flags=END),
+    "end_event": Variable(("end",), "event that ends the branch", flags=END),
     "end_displacement": Variable(
         ("end",), "largest displacement of the primary mass at the end of a branch"
     ),
-    "end_multiplier_real": Variable(("end",), "dominant Floquet multiplier there, real part"),
+    "end_multiplier_real": Variable(("end",), "dominant Floquet multiplier at the end, real part"),
     "end_multiplier_imaginary": Variable(
-        ("end",), "dominant Floquet multiplier there, imaginary part"
+        ("end",), "dominant Floquet multiplier at the end, imaginary part"
     ),
     # first collisions
-    "ball": Variable(("ball",), "where random starts were drawn"),
+    "ball": Variable(("ball",), "ball from which random starts are drawn"),
     "beyond_wall": Variable(("ball",), "share of starts that lie beyond a wall"),
     "colliding": Variable(("ball",), "share of starts that lead to a collision"),
-    "longest_wait": Variable(("ball",), "longest wait for the first collision, forcing periods"),
+    "longest_wait": Variable(("ball",), "longest time to the first collision, forcing periods"),
 }

@@ -32,13 +32,13 @@ VARIABLES = {
     ),
     "orbit_status": Variable(
         ("point",),
-        "whether an orbit returns, and whether a contact begins so slowly that its multipliers "
-        "hold for the smallest changes only",
+        "whether Newton's method converged, and whether a contact begins so slowly that the "
+        "multipliers hold for infinitesimal disturbances only",
         flags={"not_converged": 0, "regular": 1, "near_grazing": 2},
     ),
     "orbit_contacts": Variable(("point",), "contacts begun per forcing period in an orbit"),
     "orbit_asymmetry": Variable(
-        ("point",), "distance of an orbit from its mirror image half a period on"
+        ("point",), "distance of an orbit from its mirror image half a period later"
     ),
     "orbit_amplitude": Variable(
         ("point",), "amplitude of the first harmonic of Z1 in an orbit, |a| of harmonic balance"
@@ -49,9 +49,13 @@ VARIABLES = {
     "orbit_phase_loose": Variable(
         ("point",), "phase of Z1 to Z1 - Z2 in an orbit, first harmonics", units="radian"
     ),
-    "orbit_phase": Variable(("point",), "phase Omega T at which the state is given", "", "radian"),
-    "orbit_state": Variable(("point", "component"), "state of an orbit at its phase, in flight"),
-    "orbit_residual": Variable(("point",), "distance of an orbit's state from its return"),
+    "orbit_phase": Variable(("point",), "phase Omega T of orbit_state", "", "radian"),
+    "orbit_state": Variable(
+        ("point", "component"), "state of an orbit at orbit_phase, without contact"
+    ),
+    "orbit_residual": Variable(
+        ("point",), "distance between the state of an orbit and the state a period later"
+    ),
     "orbit_multiplier_real": Variable(
         ("point", "multiplier"), "Floquet multipliers by descending modulus, real part"
     ),
@@ -62,35 +66,48 @@ VARIABLES = {
         ("point",), "relative error of the determinant of the monodromy matrix"
     ),
     "least_speed": Variable(
-        ("point",), "least relative speed at which a contact of an orbit begins"
+        ("point",), "smallest relative speed at the beginning of a contact of an orbit"
     ),
     "orbit_restitution": Variable(
-        ("point",), "least ratio of the relative speeds after and before a contact of an orbit"
+        ("point",), "smallest ratio of the relative speeds after and before a contact of an orbit"
     ),
     # design points
     "design_orbit_status": Variable(
         (),
-        "whether the quiet orbit was found with heavy damping, and followed from there",
+        "whether the quiet orbit was found at heavy damping and continued to the design point",
         flags={"no_start": 0, "found": 1, "not_followed": 2},
     ),
     "design_run_outcome": Variable(
-        ("design_start",), "what a random start comes to at the design point", flags=OUTCOME
+        ("design_start",), "outcome of a random start at the design point", flags=OUTCOME
     ),
-    "design_run_displacement": Variable(("design_start",), "its largest displacement", "max |Z1|"),
+    "design_run_displacement": Variable(
+        ("design_start",), "largest displacement of the motion from a random start", "max |Z1|"
+    ),
     # branches
     "branch_period": Variable(("branch",), "period in forcing periods of the orbits", "n"),
-    "branch_events_lost": Variable(("branch",), "events on a branch that were not located"),
-    "branch_end": Variable(("branch", "edge"), "what ends a branch", flags=BRANCH_END),
-    "seeds": Variable((), "motions from which branches were begun or recognised"),
-    "seeds_lost": Variable((), "motions from which Newton's method led to no orbit"),
+    "branch_events_lost": Variable(
+        ("branch",), "number of events on a branch that were not located"
+    ),
+    "branch_end": Variable(
+        ("branch", "edge"), "event or limit that ends a branch", flags=BRANCH_END
+    ),
+    "seeds": Variable((), "number of motions from which branches were started or recognised"),
+    "seeds_lost": Variable(
+        (), "number of motions from which Newton's method converged to no orbit"
+    ),
     # events
     "event_branch": Variable(("event",), "branch on which an event lies"),
-    "event_place": Variable(("event",), "number, along its branch, of the orbit at an event"),
-    "event_kind": Variable(("event",), "what happens to the orbits", flags=EVENT),
+    "event_place": Variable(("event",), "index along the branch of the orbit at an event"),
+    "event_kind": Variable(("event",), "kind of event", flags=EVENT),
     "event_value": Variable(("event",), "parameter at an event"),
     "event_displacement": Variable(("event",), "largest displacement at an event", "max |Z1|"),
-    "event_residual": Variable(("event",), "distance of the orbit's state from its return"),
-    "event_speed": Variable(("event",), "least relative speed at which a contact begins there"),
+    "event_residual": Variable(
+        ("event",),
+        "distance between the state of the orbit at an event and the state a period later",
+    ),
+    "event_speed": Variable(
+        ("event",), "smallest relative speed at the beginning of a contact at an event"
+    ),
     "walls_before": Variable(("event",), "walls touched in order, before an event"),
     "walls_after": Variable(("event",), "walls touched in order, after an event"),
 }

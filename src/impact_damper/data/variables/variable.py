@@ -1,4 +1,4 @@
-"""One entry of the registry, and the flags that several variables share."""
+"""Entry of the registry, and the flags that several variables share."""
 
 from typing import NamedTuple
 
@@ -9,15 +9,15 @@ class Variable(NamedTuple):
     Attributes
     ----------
     dims : tuple of str
-        Usual dimensions.
+        Default dimensions.
     long_name : str
-        What it is, in words.
+        Description; also the words of an axis label.
     symbol : str
-        The paper's symbol, or "".
+        Symbol of the paper, or "".
     units : str
-        "1" for dimensionless.
-    flags : dict or None
-        Value of each flag by its meaning.
+        "1": dimensionless, as in section 2.1 of the paper. "radian": an angle.
+    flags : dict of int or None
+        For a status: the stored value of each meaning.
     """
 
     dims: tuple
