@@ -1,9 +1,9 @@
-"""What each stage of the pipeline took, from the files that Snakemake wrote."""
+"""Time and memory of each stage of the pipeline, from the files that its jobs wrote."""
 
 import pandas as pd
 
-# Snakemake's columns, and what they hold.
-COLUMNS = {"s": "seconds", "cpu_time": "cpu_seconds", "max_rss": "memory_mb"}
+# Columns of the timings (impact_damper.workflow.job), and their names here.
+COLUMNS = {"seconds": "seconds", "cpu_seconds": "cpu_seconds", "peak_memory_mb": "memory_mb"}
 
 
 def jobs(folder, since=0.0):
@@ -11,8 +11,7 @@ def jobs(folder, since=0.0):
 
     Those that were written before a time, in seconds since the epoch, are left out.
 
-    A stage is a folder there; a job whose file lies in none is a stage of its own. What Snakemake
-    could not measure, in a job too short, is NaN.
+    A stage is a folder there; a job whose file lies in none is a stage of its own.
     """
     rows = []
     for path in sorted(folder.rglob("*.tsv")):
@@ -20,9 +19,7 @@ def jobs(folder, since=0.0):
             continue
         stage, *rest = path.relative_to(folder).with_suffix("").parts
         values = pd.read_csv(path, sep="\t").iloc[-1]
-        measures = {
-            name: pd.to_numeric(values[column], errors="coerce") for column, name in COLUMNS.items()
-        }
+        measures = {name: values[column] for column, name in COLUMNS.items()}
         rows.append({"stage": stage, "job": "/".join(rest) or stage} | measures)
     return pd.DataFrame(rows, columns=["stage", "job", *COLUMNS.values()])
 

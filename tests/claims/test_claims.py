@@ -89,7 +89,7 @@ def unstable(name, lower, upper):
 
     def change(data):
         old = data["branches"][name]
-        peak = float(data["design"][name].peak_frequency)
+        peak = float(data["harmonic_balance"][name].peak_frequency)
         kept = (old.followed_value < lower * peak) | (old.followed_value > upper * peak)
         multipliers = old.orbit_multiplier_real.where(kept, 2.0)
         data["branches"][name] = old.assign(orbit_multiplier_real=multipliers)
@@ -127,10 +127,12 @@ def early(subharmonic):
 
 def power(data):
     """A change of the made-up data: the penetration that the expansion of (6e) gives."""
-    old = data["design"]["figure_05a"]
+    old = data["harmonic_balance"]["figure_05a"]
     clearance = extract.parameter(old, "clearance")
     depth = old.relative_amplitude - clearance
-    data["design"]["figure_05a"] = old.assign(relative_amplitude=clearance + depth ** (1 / 3) / 100)
+    data["harmonic_balance"]["figure_05a"] = old.assign(
+        relative_amplitude=clearance + depth ** (1 / 3) / 100
+    )
 
 
 def fourth(data):
@@ -151,10 +153,10 @@ def renamed(stage, name, **values):
 
 
 REFUTED = {
-    "1": scale("design", "figure_03a_rule", quiet_amplitude=1000),
-    "2": scale("design", "figure_05a", rigid_amplitude=1.1),
-    "3": assign("design", "figure_03b", stability=flag("stability", "unstable")),
-    "4": scale("design", "figure_05c", band_width=0.1),
+    "1": scale("harmonic_balance", "figure_03a_rule", quiet_amplitude=1000),
+    "2": scale("harmonic_balance", "figure_05a", rigid_amplitude=1.1),
+    "3": assign("harmonic_balance", "figure_03b", stability=flag("stability", "unstable")),
+    "4": scale("harmonic_balance", "figure_05c", band_width=0.1),
     "5": assign("branches", "figure_05b", orbit_contacts=3.0),
     "6": each(ELASTIC, lambda name: scale("response", name, contacts=0.5)),
     "7": scale("branches", "figure_05a", orbit_phase_relative=0.5),
@@ -171,16 +173,16 @@ REFUTED = {
     "18": scale("subharmonic", "figure_08", free_subharmonic=0.2),
     "19": early(0),
     "S1": power,
-    "S2": renamed("design", "figure_03a", clearance=0.69),
+    "S2": renamed("harmonic_balance", "figure_03a", clearance=0.69),
     "S3": fourth,
-    "S4": renamed("design", "figure_05a", clearance=2),
-    "S5": scale("free_branches", "h150", event_value=1.02),
+    "S4": renamed("harmonic_balance", "figure_05a", clearance=2),
+    "S5": scale("branches", "free_h150", event_value=1.02),
     "S6": renamed("optimum", "0.215_0.12_0.75", frequency=1.0),
 }
 
 DIFFERENCES = {
     "3": unstable("figure_05a", 0.8, 0.85),
-    "4": scale("design", "figure_03b", reduction=0.5),
+    "4": scale("harmonic_balance", "figure_03b", reduction=0.5),
     "6": assign("response", "figure_05b", outcome=flag("outcome", "chaotic")),
     "8": scale("collisions", "figure_05a", colliding=0.995),
     "9": scale("optimum", "0.215_0.12_1.0", optimum_displacement=2),
@@ -369,5 +371,5 @@ def test_release_scans_of_another_damper_tell_nothing(data):
 
 
 def test_unknown_dataset_is_named():
-    with pytest.raises(Missing, match="no dataset design/figure_05a"):
-        extract.get({}, "design", "figure_05a")
+    with pytest.raises(Missing, match="no dataset harmonic_balance/figure_05a"):
+        extract.get({}, "harmonic_balance", "figure_05a")

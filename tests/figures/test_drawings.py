@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, OUTCOME
 from impact_damper.figures.free import draw_free
-from impact_damper.figures.harmonic_balance import draw_design
+from impact_damper.figures.harmonic_balance import draw_harmonic_balance
 from impact_damper.figures.migration import draw_migration, draw_release
 from impact_damper.figures.motion import draw_motion
 from impact_damper.figures.optimum import draw_optimum
@@ -132,26 +132,26 @@ def orbits(**parameters):
     return dataset(data, {}, DAMPER | parameters, "made up")
 
 
-FREE = {"free_branches": [orbits()]}
-DAMPED = {"branches": [orbits()], **FREE}
+FREE = orbits().assign_attrs(parameters='{"damping": 0.2}')
+DAMPED = {"branches": [orbits(), FREE]}
 STATUSES = ["period_1", "higher_period", "subharmonic_damped", "chaotic", "non_colliding"]
 STATUSES += ["unresolved"]
 FREE_ROLES = ["free_stable", "free_unstable", "subharmonic_free", "free_higher"]
 FREE_ROLES += ["subharmonic_unstable"]
 BALANCE_ROLES = ["harmonic_balance", "band"]
 DRAWINGS = {
-    "free": (lambda: draw_free(**FREE), FREE_ROLES),
+    "free": (lambda: draw_free(branches=[FREE]), FREE_ROLES),
     "two free": (
-        lambda: draw_free(free_branches=2 * FREE["free_branches"]),
+        lambda: draw_free(branches=[FREE, FREE]),
         FREE_ROLES,
     ),
-    "design": (
-        lambda: draw_design(design=[balance(), balance()]),
+    "harmonic_balance": (
+        lambda: draw_harmonic_balance(harmonic_balance=[balance(), balance()]),
         ["free_stable", "free_unstable", *BALANCE_ROLES],
     ),
     "response": (
         lambda: draw_response(
-            response=[response()], design=[balance()], subharmonic=[response()], **DAMPED
+            response=[response()], harmonic_balance=[balance()], subharmonic=[response()], **DAMPED
         ),
         FREE_ROLES + BALANCE_ROLES + STATUSES + ["unstable_orbit"],
     ),
@@ -162,10 +162,9 @@ DRAWINGS = {
     "inelastic": (
         lambda: draw_response(
             response=[response(restitution=0.75), response()],
-            design=[balance()],
+            harmonic_balance=[balance()],
             subharmonic=[response()],
-            branches=[orbits(restitution=0.75), orbits()],
-            **FREE,
+            branches=[orbits(restitution=0.75), orbits(), FREE],
         ),
         FREE_ROLES
         + BALANCE_ROLES
@@ -269,7 +268,7 @@ def test_what_differs_in_colour_differs_in_grey_too(name):
 
 
 def test_balance_unstable_branch_reaches_both_folds():
-    drawn = draw_design(design=[balance()])
+    drawn = draw_harmonic_balance(harmonic_balance=[balance()])
     (line,) = (
         line for line in drawn.axes[0].lines if line.get_label() == ROLES["free_unstable"]["label"]
     )
@@ -278,7 +277,7 @@ def test_balance_unstable_branch_reaches_both_folds():
 
 
 def test_stable_and_unstable_parts_of_a_branch_meet():
-    drawn = draw_free(**FREE)
+    drawn = draw_free(branches=[FREE])
     parts = {
         line.get_label(): line.get_xydata()
         for line in drawn.axes[0].lines

@@ -367,9 +367,9 @@ def world():
         "figure_10": response("figure_10", restitution=0.75),
     }
     return {
-        "design": designs,
-        "free_branches": {f"h{1000 * h:.0f}": free_branches(h) for h in PEAKS},
-        "branches": {
+        "harmonic_balance": designs,
+        "branches": {f"free_h{1000 * h:.0f}": free_branches(h) for h in PEAKS}
+        | {
             "figure_05a": damped_branches("figure_05a"),
             "figure_05b": damped_branches("figure_05b"),
             "figure_05c": damped_branches("figure_05c", third=0.1),

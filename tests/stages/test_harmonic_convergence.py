@@ -6,7 +6,7 @@ from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from scipy.special import ellipk
 
 from impact_damper.data.datasets import flag
-from impact_damper.figures.harmonic_convergence import draw_harmonics
+from impact_damper.figures.harmonic_convergence import draw_harmonic_convergence
 from impact_damper.stages import harmonic_convergence
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
@@ -73,11 +73,11 @@ def test_the_dashpot_delays_the_asymptotic_range():
 
 
 def test_table_and_figure(soft, free):
-    rows = table({"harmonics": {"soft": soft, "free": free}}).set_index("motion")
+    rows = table({"harmonic_convergence": {"soft": soft, "free": free}}).set_index("motion")
     assert rows.loc["soft", "N for 1 %"] == 23
     assert rows.loc["free", "cold starts"] == rows.loc["free", "same motion"] == 9
     assert np.isnan(rows.loc["free", "rm"])
-    drawn = draw_harmonics(harmonics=[soft, free])
+    drawn = draw_harmonic_convergence(harmonic_convergence=[soft, free])
     assert len(drawn.axes) == 4
 
 
@@ -108,8 +108,8 @@ def test_failures_are_stored():
     assert data["hill_status"][0] == flag("hill_status", "not_tried")
     assert data["exact_status"] == flag("exact_status", "not_found")
     assert np.isnan(data["series_error"]).all() and np.isnan(data["decay_observed"]).all()
-    assert table({"harmonics": {"stiff": data}})["failed"].item() == 1
-    draw_harmonics(harmonics=[data]).draw_without_rendering()
+    assert table({"harmonic_convergence": {"stiff": data}})["failed"].item() == 1
+    draw_harmonic_convergence(harmonic_convergence=[data]).draw_without_rendering()
 
 
 def test_no_solution_to_begin_from():

@@ -1,18 +1,14 @@
-"""What the rules share: a checked configuration, and the sources of a script."""
+"""What the rules share: the checked configuration, and the files and parameters of their jobs."""
 
-import ast
 import gc
 import json
-import math
 import os
-import re
-import shlex
-from functools import cache
-from importlib.util import find_spec
+from functools import cache, partial
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
+from impact_damper.workflow import selection
 from impact_damper.workflow.configuration import (
     ConfigurationError,
     check_configuration,
@@ -20,50 +16,30 @@ from impact_damper.workflow.configuration import (
     read_schemas,
     without_left_out,
 )
-from impact_damper.workflow.contradictions import SECTIONS
-from impact_damper.data.variables.studies import AXES
-from impact_damper.workflow.job_server import start as start_warm_process
+from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES
+from impact_damper.workflow.registry.clearance import study_chunk
+from impact_damper.workflow.sources import module_file, sources
 
-# To plan makes many small objects that are all kept: to look for garbage among them takes a
+# Planning makes many small objects and keeps them all. Collecting garbage less often saves a
 # fifteenth of the time of a dry run.
 gc.set_threshold(100_000)
 
 ROOT = Path(workflow.basedir)
-PACKAGE = Path(find_spec("impact_damper").origin).parent
+ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
+# Compiled kernels. A job that needs them waits for this file, but its age reruns nothing.
+KERNELS = ancient("<results>/kernels.compiled")
+
+
+# Whether `--cache` is given. Without it Snakemake prints a line for each rule with `cache: True`.
+SHARED = workflow.workflow_settings.cache is not None
 
 
 wildcard_constraints:
-    curve="[A-Za-z0-9_]+",
-    oscillator="[A-Za-z0-9_]+",
-    motion="[A-Za-z0-9_]+",
-    optimum="[A-Za-z0-9_]+",
-    run="[A-Za-z0-9_]+",
-    grid="[A-Za-z0-9_]+",
-    harmonics="[A-Za-z0-9_]+",
-    passage="[A-Za-z0-9_]+",
-    stepping="[A-Za-z0-9_]+",
-    judged="[A-Za-z0-9_]+",
-    figure="[A-Za-z0-9_]+",
-    contact="[A-Za-z0-9_]+",
-    limit="[A-Za-z0-9_]+",
-    balance_map="[A-Za-z0-9_]+",
-    scene="[A-Za-z0-9_]+",
-    study="[A-Za-z0-9_]+",
-    table="[a-z_]+",
-
-
-def before_commands(words):
-    """Have Snakemake put words before each command of a job.
-
-    What stands there takes the place of Snakemake's own options for bash, and names in braces are
-    filled in.
-    """
-    options = "set -euo pipefail; " if Path(shell.get_executable() or "").name == "bash" else ""
-    shell.prefix(options + shlex.join(words).replace("{", "{{").replace("}", "}}"))
+    name="[A-Za-z0-9_]+",
 
 
 def checked(config):
-    """The configuration with its keys in order, or an error that lists what is wrong with it."""
+    """Return the configuration with its keys sorted, or raise an error that lists its faults."""
     config = without_left_out(config)
     schemas = read_schemas(ROOT / "workflow/schemas")
     try:
@@ -72,85 +48,128 @@ def checked(config):
         check_configuration(config, schemas)
     except ConfigurationError as error:
         raise WorkflowError(f"The configuration cannot be run.\n{error}") from None
-    # Snakemake compares parameters as text, in which the order of keys would count.
+    # Snakemake compares parameters as text, in which the order of keys counts.
     return json.loads(json.dumps(config, sort_keys=True))
 
 
 config = checked(config)
 
 
-SHARED = workflow.workflow_settings.cache is not None
-
-
-def untimed(path):
-    """Leaves a rule as it is."""
-    return lambda rule: rule
-
-
-# Snakemake refuses to share what it times, for data that come from another workflow cost nothing
-# here: with `--cache` the directive `benchmark` does nothing.
-if SHARED:
-    workflow.benchmark = untimed
-
-
-@cache
 def local(path):
-    """Path as seen from the working directory, so that a checkout can move."""
+    """Return a path relative to the working directory, so that a checkout can be moved."""
     return os.path.relpath(path)
 
 
-# An import from the package. To parse nothing else spares a dry run half a second.
-IMPORT = re.compile(
-    rf"^ *((?:from|import) {PACKAGE.name}\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))", re.MULTILINE
-)
-
-
 @cache
-def imports(path):
-    """Modules of the package that a Python file imports itself.
+def code(script, *modules):
+    """Source files of a job: a script, modules that it imports by name, and all they import.
 
-    A package's `__init__` counts only where a name is taken from it: it runs in any
-    case, but decides nothing.
+    The lock file stands for the versions of all other packages.
     """
-    statements = ast.parse("\n".join(IMPORT.findall(path.read_text()))).body
-    names = []
-    for node in statements:
-        if isinstance(node, ast.Import):
-            names += [alias.name for alias in node.names]
-        else:
-            names += [f"{node.module}.{alias.name}" for alias in node.names]
-    return {module_file(name) for name in names}
+    paths = {ROOT / "workflow/scripts" / f"{script}.py", *map(module_file, modules)}
+    return sorted(map(local, sources(*paths) | {ROOT / "requirements.lock"}))
 
 
-@cache
-def module_file(name):
-    """File of the module that `impact_damper.a.b` is, or that it is taken from."""
-    path = PACKAGE.joinpath(*name.split(".")[1:])
-    for place in (path, path.parent):
-        for file in (place.with_suffix(".py"), place / "__init__.py"):
-            if file.exists():
-                return file
-    raise WorkflowError(f"There is no module {name}.")
+def data(stage, names=None):
+    """Files of a stage: of all its entries, or of those named."""
+    names = selection.entries(config, stage) if names is None else names
+    return [f"<results>/{stage}/{name}.nc" for name in names]
 
 
-@cache
-def code(script, *others):
-    """What a job runs: inputs, so that their contents count.
+def data_by_stage(names):
+    """Files of several stages as keyword arguments of `input`."""
+    return {stage: data(stage, chosen) for stage, chosen in names.items()}
 
-    These are a script, other files and all modules they import, and the versions of all packages.
+
+def read_by(stage):
+    """Input function: files of earlier stages that the job of an entry reads."""
+
+    def files(wildcards):
+        chosen = selection.read_by(config, stage, wildcards.name)
+        return [path for each, names in chosen.items() for path in data(each, names)]
+
+    return files
+
+
+def parameters(stage, function=None):
+    """Parameters of a stage's jobs, each as {key: value}.
+
+    Snakemake compares only the set of values: without the keys two parameters could swap unnoticed.
+    One parameter for each key lets a dry run show which of them changed. The name of the entry is
+    one of them because a dataset holds it: with `--cache` another entry with equal values must not
+    get the file.
     """
-    found, new = set(), {ROOT / "workflow/scripts" / script, *others}
-    while new:
-        found |= new
-        new = set().union(*map(imports, new)) - found
-    return sorted(map(local, found | {ROOT / "requirements.lock"}))
+    function = function or STAGES[stage].parameters
+
+    def name(wildcards):
+        return {"name": "/".join(wildcards)}
+
+    def value(key, wildcards):
+        return {key: function(config, *wildcards)[key]}
+
+    names = selection.entries(config, stage)
+    keys = {key for name in names for key in STAGES[stage].parameters(config, name)}
+    return {"name": name} | {key: partial(value, key) for key in sorted(keys)}
+
+
+def parameters_of_all(stage):
+    """Parameters of a stage whose entries are computed by one job: {name: its parameters}."""
+    return {
+        name: {name: STAGES[stage].parameters(config, name)}
+        for name in selection.entries(config, stage)
+    }
 
 
 def write_provenance():
-    """Write down what the results were made with; this alone may differ from run to run."""
+    """Write versions, commit and machine; this file alone may differ from run to run."""
     from impact_damper.workflow.provenance import provenance
 
     path = Path(config["results"]) / "provenance.json"
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
     part.write_text(json.dumps(provenance(config, ROOT), indent=2) + "\n")
     os.replace(part, path)
+
+
+def chunks_of_study(wildcards):
+    """Files of the chunks that a study is made from; none if it is computed at once."""
+    count = config["chunks"]
+    numbers = range(1, count + 1) if count > 1 else []
+    return [f"<results>/study_chunks/{wildcards.name}/{k}-of-{count}.nc" for k in numbers]
+
+
+def chapter_parameters(chapter):
+    """Parameters of a chapter: the names of its tables, and what each figure draws and states."""
+    tables = [table.name for table in CHAPTERS[chapter].TABLES]
+    drawn = {
+        f"figure_{name}": {f"figure_{name}": selection.figure_values(config, name)}
+        for name in selection.figures_of(config, chapter)
+    }
+    return drawn | {"tables": {"tables": tables}}
+
+
+def chapter_templates(chapter):
+    """Templates of the captions of a chapter's figures."""
+    kinds = {config["figures"][name]["kind"] for name in selection.figures_of(config, chapter)}
+    return [local(ROOT / f"workflow/report/{kind}.rst") for kind in sorted(kinds)]
+
+
+def chapter_files(chapter):
+    """Files of a chapter: each figure and table, in two formats, and its caption."""
+    figures = selection.figures_of(config, chapter)
+    tables = [table.name for table in CHAPTERS[chapter].TABLES]
+    return [
+        *expand("<results>/figures/{name}.{kind}", name=figures, kind=["pdf", "rst"]),
+        *expand("<results>/tables/{name}.{kind}", name=tables, kind=["md", "rst"]),
+        *[in_report(chapter, "figures", name, "png") for name in figures],
+        *[in_report(chapter, "tables", name, "csv") for name in tables],
+    ]
+
+
+def in_report(chapter, folder, name, kind):
+    """A file that the report shows, with the caption that the job of the chapter writes."""
+    return report(
+        f"<results>/{folder}/{name}.{kind}",
+        caption=os.path.abspath(f"{config['results']}/{folder}/{name}.rst"),
+        category=CHAPTERS[chapter].TITLE,
+        labels={"kind": folder.removesuffix("s"), "name": name},
+    )

@@ -1,69 +1,54 @@
-rule design:
-    input:
-        data("free_design"),
-        data("design"),
-        data("design_orbit"),
-
-
-rule free_harmonic_balance:
-    input:
-        code=code("free_harmonic_balance.py"),
-    output:
-        "<results>/free_design/{oscillator}.nc",
-    log:
-        "<logs>/free_design/{oscillator}.log",
-    benchmark:
-        "<benchmarks>/free_design/{oscillator}.tsv"
-    cache: SHARED
-    conda:
-        "../envs/impact-damper.yaml"
-    threads: 1
-    params:
-        **parts(free_design_job, "free_design"),
-    message:
-        "Harmonic balance of the free oscillator {wildcards.oscillator}"
-    script:
-        "../scripts/free_harmonic_balance.py"
-
-
 rule harmonic_balance:
     input:
-        code=code("harmonic_balance.py"),
+        code=code("harmonic_balance"),
     output:
-        "<results>/design/{curve}.nc",
+        "<results>/harmonic_balance/{name}.nc",
     log:
-        "<logs>/design/{curve}.log",
-    benchmark:
-        "<benchmarks>/design/{curve}.tsv"
+        "<logs>/harmonic_balance/{name}.log",
     cache: SHARED
     conda:
-        "../envs/impact-damper.yaml"
-    threads: 1
+        ENVIRONMENT
     params:
-        **parts(design_job, "design"),
+        **parameters("harmonic_balance"),
     message:
-        "Harmonic balance and suppression band of the curve {wildcards.curve}"
+        "Harmonic balance of the curve {wildcards.name}"
     script:
         "../scripts/harmonic_balance.py"
 
 
 rule design_orbit:
     input:
-        code=code("design_orbit.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        code=code("design_orbit"),
+        kernels=KERNELS,
     output:
-        "<results>/design_orbit/{curve}.nc",
+        "<results>/design_orbit/{name}.nc",
     log:
-        "<logs>/design_orbit/{curve}.log",
-    benchmark:
-        "<benchmarks>/design_orbit/{curve}.tsv"
+        "<logs>/design_orbit/{name}.log",
     cache: SHARED
     conda:
-        "../envs/impact-damper.yaml"
-    threads: 1
+        ENVIRONMENT
     params:
-        **parts(design_orbit_job, "design_orbit"),
+        **parameters("design_orbit"),
     message:
-        "True quiet orbit at the design point of the curve {wildcards.curve}"
+        "Exact quiet orbit at the design point of the curve {wildcards.name}"
     script:
         "../scripts/design_orbit.py"
+
+
+rule harmonic_convergence:
+    input:
+        code=code("harmonic_convergence"),
+        kernels=KERNELS,
+    output:
+        "<results>/harmonic_convergence/{name}.nc",
+    log:
+        "<logs>/harmonic_convergence/{name}.log",
+    cache: SHARED
+    conda:
+        ENVIRONMENT
+    params:
+        **parameters("harmonic_convergence"),
+    message:
+        "Harmonic balance with many harmonics against the exact orbit, for {wildcards.name}"
+    script:
+        "../scripts/harmonic_convergence.py"

@@ -1,26 +1,37 @@
 rule migration:
     input:
-        data("migration"),
-
-
-rule migration_trials:
-    input:
-        code=code("migration_trials.py"),
-        kernels=ancient("<results>/kernels.compiled"),
+        code=code("migration"),
+        kernels=KERNELS,
     output:
-        "<results>/migration/{run}.nc",
+        "<results>/migration/{name}.nc",
     log:
-        "<logs>/migration/{run}.log",
-    benchmark:
-        "<benchmarks>/migration/{run}.tsv"
+        "<logs>/migration/{name}.log",
     cache: SHARED
     priority: 1
     conda:
-        "../envs/impact-damper.yaml"
-    threads: 1
+        ENVIRONMENT
     params:
-        **parts(migration_job, "migration"),
+        **parameters("migration"),
     message:
-        "Migration control, the case {wildcards.run}"
+        "Migration control, the case {wildcards.name}"
     script:
-        "../scripts/migration_trials.py"
+        "../scripts/migration.py"
+
+
+rule release_scan:
+    input:
+        code=code("release_scan"),
+        kernels=KERNELS,
+    output:
+        "<results>/release_scan/{name}.nc",
+    log:
+        "<logs>/release_scan/{name}.log",
+    cache: SHARED
+    conda:
+        ENVIRONMENT
+    params:
+        **parameters("release_scan"),
+    message:
+        "Motions that releases lead to over frequency, the scan {wildcards.name}"
+    script:
+        "../scripts/release_scan.py"

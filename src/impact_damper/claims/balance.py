@@ -17,7 +17,7 @@ def small_motion(datasets):
     From harmonic balance of the designs by (19), and from the exact orbits of the dampers of
     figures 5 and 8.
     """
-    designs = extract.select(datasets, "design", extract.RULES)
+    designs = extract.select(datasets, "harmonic_balance", extract.RULES)
     vanishing = []
     for design in designs:
         peak = float(design.peak_frequency)
@@ -30,7 +30,7 @@ def small_motion(datasets):
     orbits = []
     for name in extract.ELASTIC:
         branches, free = exact_orbits.of_curve(datasets, name)
-        peak = float(extract.get(datasets, "design", name).peak_frequency)
+        peak = float(extract.get(datasets, "harmonic_balance", name).peak_frequency)
         small = exact_orbits.smallest(exact_orbits.quiet(branches, free), peak)["size"]
         orbits.append(small.min() / exact_orbits.resonance_fold(free)[1])
     return {
@@ -47,9 +47,9 @@ def rigid_against_elastic(datasets):
 
     The smallest solution at each frequency is left out. Exact orbits are compared as well.
     """
-    designs = datasets.get("design", {}).values()
+    designs = extract.damped(datasets, "harmonic_balance").values()
     if not designs:
-        raise Missing("There is no dataset of the stage design")
+        raise Missing("There is no dataset of the stage harmonic_balance with a damper")
     errors, alike = [], []
     for design in designs:
         impacting = design.kind == flag("kind", "impacting")
@@ -65,7 +65,8 @@ def rigid_against_elastic(datasets):
     pairs = pd.concat(
         [
             exact_orbits.counterparts(
-                extract.get(datasets, "design", name), exact_orbits.of_curve(datasets, name)[0]
+                extract.get(datasets, "harmonic_balance", name),
+                exact_orbits.of_curve(datasets, name)[0],
             )
             for name in extract.ELASTIC
         ]
@@ -86,7 +87,7 @@ def quiet_and_high(datasets):
     By the solutions of (7) for all omega_l, and by exact orbits.
     """
     reach, beside, bands = [], [], []
-    for design in extract.select(datasets, "design", (*extract.CAPTIONS, *extract.RULES)):
+    for design in extract.select(datasets, "harmonic_balance", (*extract.CAPTIONS, *extract.RULES)):
         peak = float(design.peak_frequency)
         half = exact_orbits.HALF * float(design.peak_amplitude)
         frequency = design.frequency.values
@@ -130,7 +131,7 @@ def _quiet_and_high_orbits(datasets):
     reach, beside, pairs = [], [], []
     for name in extract.ELASTIC:
         branches, free = exact_orbits.of_curve(datasets, name)
-        design = extract.get(datasets, "design", name)
+        design = extract.get(datasets, "harmonic_balance", name)
         peak = float(design.peak_frequency)
         around = [
             min(peak - lower, upper - peak)

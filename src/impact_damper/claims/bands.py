@@ -15,9 +15,9 @@ def growth(widths):
 
 def widening(datasets):
     """Measures of claim 4: the band widens with omega_l, with rm and with lower e."""
-    captions = extract.select(datasets, "design", extract.CAPTIONS)
-    rules = extract.select(datasets, "design", extract.RULES)
-    masses = extract.select(datasets, "design", extract.BY_MASS)
+    captions = extract.select(datasets, "harmonic_balance", extract.CAPTIONS)
+    rules = extract.select(datasets, "harmonic_balance", extract.RULES)
+    masses = extract.select(datasets, "harmonic_balance", extract.BY_MASS)
     existing = [suppression_band(datasets, name) for name in extract.BY_MASS]
     steps = [
         wider.least_width / band.width for band, wider in zip(existing, existing[1:], strict=False)
@@ -38,7 +38,7 @@ def accuracy(datasets):
     """Measures of claim 16: amplitude and width of the band by harmonic balance are accurate."""
     widths, shares, ratios, harmonics = [], [], [], []
     for name in extract.ELASTIC:
-        design = extract.get(datasets, "design", name)
+        design = extract.get(datasets, "harmonic_balance", name)
         branches, free = exact_orbits.of_curve(datasets, name)
         lower, upper = extract.band_edges(design)
         band = suppression_band(datasets, name)
@@ -73,7 +73,7 @@ def amplitude_by_mass(datasets):
 
     At the frequencies that lie in the bands of all dampers.
     """
-    designs = extract.select(datasets, "design", extract.BY_MASS)
+    designs = extract.select(datasets, "harmonic_balance", extract.BY_MASS)
     lower, upper = (
         np.max([extract.band_edges(design)[0] for design in designs]),
         np.min([extract.band_edges(design)[1] for design in designs]),

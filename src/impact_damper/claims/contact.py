@@ -29,7 +29,7 @@ def model(datasets):
     used = [
         extract.parameter(data, "restitution")
         for stage in ("response", "optimum")
-        for data in datasets.get(stage, {}).values()
+        for data in extract.damped(datasets, stage).values()
     ]
     used = [value for value in used if value < 1]
     if not used:

@@ -19,10 +19,10 @@ INTERPOLATED = ("frequency", "size", "amplitude", "loose")
 def free_of(datasets, data):
     """Return the branches without damper of the oscillator of a dataset, or raise Missing."""
     wanted = oscillator_of(data)
-    for free in datasets.get("free_branches", {}).values():
+    for free in extract.free(datasets, "branches").values():
         if oscillator_of(free) == wanted:
             return free
-    raise Missing(f"There is no dataset of the stage free_branches with h = {wanted.damping:g}")
+    raise Missing(f"There is no dataset of branches without a damper for h = {wanted.damping:g}")
 
 
 def of_curve(datasets, name):

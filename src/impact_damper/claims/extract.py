@@ -6,7 +6,7 @@ For the claims and the tables. Exact orbits have a module of their own, `exact_o
 import numpy as np
 
 from impact_damper.claims.claim import Missing
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import flag, has_damper, parameters_of
 from impact_damper.data.variables import VARIABLES
 
 # Names of curves of the configuration. CAPTIONS: by ascending omega_l, with the clearances of the
@@ -25,6 +25,16 @@ def get(datasets, stage, name):
         return datasets[stage][name]
     except KeyError:
         raise Missing(f"There is no dataset {stage}/{name}") from None
+
+
+def damped(datasets, stage) -> dict:
+    """Datasets of a stage that have a damper, by name."""
+    return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
+
+
+def free(datasets, stage) -> dict:
+    """Datasets of a stage without a damper, by name."""
+    return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
 
 
 def parameter(data, name):

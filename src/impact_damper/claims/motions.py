@@ -12,7 +12,7 @@ def quiet_contacts(datasets):
     """Measures of claim 5: the low-amplitude motion has two symmetric impacts per cycle."""
     shares, skew, multipliers = [], [], []
     for name in extract.ELASTIC:
-        lower, upper = extract.band_edges(extract.get(datasets, "design", name))
+        lower, upper = extract.band_edges(extract.get(datasets, "harmonic_balance", name))
         quiet = exact_orbits.quiet(*exact_orbits.of_curve(datasets, name))
         in_band = quiet[(quiet.upper > lower) & (quiet.lower < upper)]
         not_two = in_band[(in_band.fewest != 2) | (in_band.contacts != 2)]
@@ -37,7 +37,7 @@ def high_and_chaotic(datasets):
         contacts.append(response.contacts.values[high_motions(response, free).values])
         high = exact_orbits.high(branches, free)
         fewest.append(high.fewest.min())
-        design = extract.get(datasets, "design", name)
+        design = extract.get(datasets, "harmonic_balance", name)
         level = exact_orbits.HALF * exact_orbits.resonance(free, design.frequency)
         estimate = np.abs(extract.stable_impacting(design)).max("solution").to_series()
         crossings = exact_orbits.crossings(high, design.frequency)

@@ -72,7 +72,7 @@ def restitution(datasets):
     """Measures of claim 11: lower e widens the band and lowers and flattens the optimum d0."""
     names = (extract.BY_MASS[1], extract.INELASTIC)
     bands = [suppression_band(datasets, name) for name in names]
-    design = extract.get(datasets, "design", extract.BY_MASS[1])
+    design = extract.get(datasets, "harmonic_balance", extract.BY_MASS[1])
     frequency = extract.within(design, *extract.band_edges(design)).frequency
     sharp, soft = (
         quiet_orbits(*exact_orbits.of_curve(datasets, name), frequency)["size"].to_numpy()

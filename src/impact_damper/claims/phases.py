@@ -13,7 +13,7 @@ def phases(datasets):
     """
     below, above, turns, balance, loose_below, loose_above, loose_turns = ([] for _ in range(7))
     for name in extract.BY_MASS:
-        design = extract.get(datasets, "design", name)
+        design = extract.get(datasets, "harmonic_balance", name)
         peak = float(design.peak_frequency)
         around = extract.quiet_balance(design).sel(frequency=slice(0.75 * peak, None))
         near = exact_orbits.smallest(

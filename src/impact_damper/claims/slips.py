@@ -23,7 +23,7 @@ def formula_peak(data):
 
 def penetration(datasets):
     """Measures of S1: expansion of the contact force B for a small penetration b - d0."""
-    design = extract.get(datasets, "design", extract.CAPTIONS[0])
+    design = extract.get(datasets, "harmonic_balance", extract.CAPTIONS[0])
     mass_ratio, clearance, stiffness = (
         extract.parameter(design, name) for name in ("mass_ratio", "clearance", "contact_stiffness")
     )
@@ -53,7 +53,7 @@ def captions(datasets):
     printed, ruled = (
         [
             extract.parameter(design, "clearance")
-            for design in extract.select(datasets, "design", names[1:])
+            for design in extract.select(datasets, "harmonic_balance", names[1:])
         ]
         for names in (extract.CAPTIONS, extract.RULES)
     )
@@ -72,7 +72,7 @@ def state_size(datasets):
 
 def design_point(datasets):
     """Measures of S4: rm W^2 d0 at W = 2 for figure 5 (a)."""
-    design = extract.get(datasets, "design", extract.CAPTIONS[0])
+    design = extract.get(datasets, "harmonic_balance", extract.CAPTIONS[0])
     return {
         "inertia": extract.parameter(design, "mass_ratio")
         * 4
@@ -83,7 +83,7 @@ def design_point(datasets):
 def peaks(datasets):
     """Measures of S5: peak frequencies by the formula and by exact orbits."""
     numbers = {}
-    for free in datasets.get("free_branches", {}).values():
+    for free in extract.free(datasets, "branches").values():
         damping = oscillator_of(free).damping
         if oscillator_of(free) == Oscillator(damping) and damping in PRINTED_PEAKS:
             name = f"{damping:g}"
@@ -91,7 +91,7 @@ def peaks(datasets):
             numbers[f"end_{name}"] = exact_orbits.resonance_fold(free)[0]
     missing = [value for value in PRINTED_PEAKS if f"formula_{value:g}" not in numbers]
     if missing:
-        raise Missing(f"There is no dataset of the stage free_branches with h = {missing[0]:g}")
+        raise Missing(f"There is no dataset of branches without a damper for h = {missing[0]:g}")
     return numbers | {
         "worst": max(
             abs(numbers[f"end_{value:g}"] / printed - 1) for value, printed in PRINTED_PEAKS.items()
@@ -101,7 +101,7 @@ def peaks(datasets):
 
 def unprinted(datasets):
     """Measures of S6: the parameters chosen where the paper prints none."""
-    design = extract.get(datasets, "design", "figure_08")
+    design = extract.get(datasets, "harmonic_balance", "figure_08")
     inertia = extract.parameter(design, "mass_ratio") * float(design.peak_frequency) ** 2
     ratios = [
         extract.parameter(sweep, "frequency") / formula_peak(sweep)

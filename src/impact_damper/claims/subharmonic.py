@@ -21,7 +21,7 @@ def reappearance(datasets):
     for name in (*LIGHT, HEAVY):
         branches, free = exact_orbits.of_curve(datasets, name)
         part = exact_orbits.stable_subharmonics(branches)
-        lower, upper = extract.band_edges(extract.get(datasets, "design", name))
+        lower, upper = extract.band_edges(extract.get(datasets, "harmonic_balance", name))
         in_band.append(exact_orbits.covered(part, lower, upper))
         anywhere.append(exact_orbits.covered(part, *exact_orbits.subharmonic_range(free)))
         inside = part.frequency.between(lower, upper) if name == HEAVY else slice(None)

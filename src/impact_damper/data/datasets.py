@@ -109,6 +109,11 @@ def damper_of(data, **others) -> Damper:
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 
+def has_damper(data) -> bool:
+    """Whether a dataset is of an oscillator with a damper."""
+    return "mass_ratio" in parameters_of(data)
+
+
 def save(data, path) -> None:
     """Write a dataset to NetCDF; the file appears only when it is complete.
 

@@ -5,12 +5,12 @@ from impact_damper.figures.style import axis_label, figure, legend, letter_panel
 
 
 @style()
-def draw_free(*, free_branches):
+def draw_free(*, branches):
     """Largest displacement of the free orbits against forcing frequency, a panel for each.
 
     Parameters
     ----------
-    free_branches : list of xarray.Dataset
+    branches : list of xarray.Dataset
         Of `complete_branches` without a damper.
 
     Returns
@@ -18,13 +18,13 @@ def draw_free(*, free_branches):
     matplotlib.figure.Figure
     """
     drawn = figure("double", 3.4)
-    panels = drawn.subplots(1, len(free_branches), squeeze=False)[0]
-    for axes, branches in zip(panels, free_branches, strict=True):
-        draw_free_orbits(axes, branches)
-        value = branches["followed_value"].values
+    panels = drawn.subplots(1, len(branches), squeeze=False)[0]
+    for axes, free in zip(panels, branches, strict=True):
+        draw_free_orbits(axes, free)
+        value = free["followed_value"].values
         axes.set(
             xlabel="Forcing frequency, $\\Omega$",
-            ylabel=axis_label(branches["orbit_displacement"]),
+            ylabel=axis_label(free["orbit_displacement"]),
             xlim=(value.min(), value.max()),
         )
         axes.set_ylim(bottom=0)

@@ -8,21 +8,21 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 
 @style()
-def draw_design(*, design):
+def draw_harmonic_balance(*, harmonic_balance):
     """Amplitude by harmonic balance against forcing frequency, a panel for each damper.
 
     Parameters
     ----------
-    design : list of xarray.Dataset
-        Of `harmonic_balance_response` with a damper, merged with its `suppression_band`.
+    harmonic_balance : list of xarray.Dataset
+        Of `harmonic_balance`, with a damper.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
     drawn = figure("double", 3.2)
-    panels = drawn.subplots(1, len(design), sharey=True, squeeze=False)[0]
-    for axes, balance in zip(panels, design, strict=True):
+    panels = drawn.subplots(1, len(harmonic_balance), sharey=True, squeeze=False)[0]
+    for axes, balance in zip(panels, harmonic_balance, strict=True):
         draw_band(axes, balance)
         stable = balance["free_stability"].values == flag("free_stability", "stable")
         draw_amplitudes(axes, balance, "free_amplitude", stable, ROLES["free_stable"])

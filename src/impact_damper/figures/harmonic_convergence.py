@@ -31,12 +31,12 @@ COLD = {
 
 
 @style()
-def draw_harmonics(*, harmonics):
+def draw_harmonic_convergence(*, harmonic_convergence):
     """Errors of max |Z1|, of the harmonics kept and of the multipliers; what cold starts came to.
 
     Parameters
     ----------
-    harmonics : list of xarray.Dataset
+    harmonic_convergence : list of xarray.Dataset
         Of `harmonic_convergence`, five at most.
 
     Returns
@@ -47,11 +47,11 @@ def draw_harmonics(*, harmonics):
     panels = drawn.subplots(2, 2, sharex=True)
     letter_panels(panels.flat)
     for axes, (measure, words) in zip(panels.flat, PANELS.items(), strict=False):
-        draw_errors(axes, harmonics, measure)
+        draw_errors(axes, harmonic_convergence, measure)
         axes.set(xscale="log", yscale="log", ylabel=words, ylim=(FLOOR / 2, 10))
-    draw_cold(panels[1, 1], harmonics)
+    draw_cold(panels[1, 1], harmonic_convergence)
     for axes in panels[1]:
-        axes.set_xlabel(axis_label(harmonics[0]["highest_harmonic"]))
+        axes.set_xlabel(axis_label(harmonic_convergence[0]["highest_harmonic"]))
     legend(drawn, 3)
     return drawn
 

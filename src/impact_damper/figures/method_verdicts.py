@@ -34,19 +34,19 @@ ROLES = {
 
 
 @style()
-def draw_verdicts(*, verdicts):
+def draw_method_verdicts(*, method_verdicts):
     """Map of verdicts, a panel for each method: scenes by tolerance or steps.
 
     Parameters
     ----------
-    verdicts : list of xarray.Dataset
-        One, of `verdicts.verdicts`.
+    method_verdicts : list of xarray.Dataset
+        One, of `method_verdicts`.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
-    (data,) = verdicts
+    (data,) = method_verdicts
     labels = data["verdict_method"].values
     rows = -(-len(labels) // 4)
     drawn = figure("double", 0.8 + 2.0 * rows)

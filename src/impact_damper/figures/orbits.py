@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import flag, has_damper
 from impact_damper.figures.style import (
     BLACK,
     BLUE,
@@ -45,24 +45,24 @@ PERIODS = [
 
 
 @style()
-def draw_branches(*, free_branches, branches):
+def draw_branches(*, branches):
     """Largest displacement of the orbits against forcing frequency, a panel for each damper.
 
     Parameters
     ----------
-    free_branches : list of xarray.Dataset
-        Of `complete_branches` without a damper.
     branches : list of xarray.Dataset
-        Of the same with one.
+        Of `complete_branches`; those without a damper are drawn in every panel.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
-    drawn = figure("double", 4.6 * len(branches))
-    panels = drawn.subplots(len(branches), squeeze=False)[:, 0]
-    for axes, data in zip(panels, branches, strict=True):
-        for each in free_branches:
+    damped = [data for data in branches if has_damper(data)]
+    free = [data for data in branches if not has_damper(data)]
+    drawn = figure("double", 4.6 * len(damped))
+    panels = drawn.subplots(len(damped), squeeze=False)[:, 0]
+    for axes, data in zip(panels, damped, strict=True):
+        for each in free:
             for value, size, stable in runs(each, lambda period: True):
                 role = ROLES["free_stable" if stable else "free_unstable"]
                 axes.plot(value, size, **role | {"linewidth": 0.7})

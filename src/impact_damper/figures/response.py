@@ -1,6 +1,6 @@
 """Frequency responses with and without a damper: figures 5, 8 and 10."""
 
-from impact_damper.data.datasets import flag, is_settled, parameters_of
+from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.figures.branches import branch_lines, draw_lines
 from impact_damper.figures.harmonic_balance import draw_balance, draw_band
 from impact_damper.figures.orbits import draw_free_orbits, runs
@@ -11,18 +11,18 @@ STATUSES = ("chaotic", "non_colliding", "unresolved")
 
 
 @style()
-def draw_response(*, response, design, subharmonic, branches, free_branches):
+def draw_response(*, response, harmonic_balance, subharmonic, branches):
     """Largest displacement against forcing frequency, all of one oscillator in one plot.
 
     Parameters
     ----------
     response : list of xarray.Dataset
         Of `frequency_response` with a damper, elastic or inelastic.
-    design : list of xarray.Dataset
+    harmonic_balance : list of xarray.Dataset
         Harmonic balance of the elastic dampers and their suppression bands.
     subharmonic : list of xarray.Dataset
         Of `suppression`.
-    branches, free_branches : list of xarray.Dataset
+    branches : list of xarray.Dataset
         Of `complete_branches` with and without a damper.
 
     Returns
@@ -31,11 +31,12 @@ def draw_response(*, response, design, subharmonic, branches, free_branches):
     """
     drawn = figure("double", 5.0)
     axes = drawn.subplots()
-    for orbits in free_branches:
+    free = [orbits for orbits in branches if not has_damper(orbits)]
+    for orbits in free:
         draw_free_orbits(axes, orbits)
-    for orbits in branches:
+    for orbits in filter(has_damper, branches):
         draw_unstable_orbits(axes, orbits)
-    for balance in design:
+    for balance in harmonic_balance:
         draw_band(axes, balance)
         draw_balance(axes, balance)
     for motions in response:

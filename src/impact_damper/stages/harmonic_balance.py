@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.system.bounds import MASS_RATIO_RANGE, check_number
@@ -36,6 +37,15 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     check_oscillator(oscillator)
     mass_ratio = check_number("mass_ratio", mass_ratio, **MASS_RATIO_RANGE)
     return rule_clearance(oscillator, mass_ratio)
+
+
+def harmonic_balance(oscillator, damper, frequencies):
+    """Return `harmonic_balance_response`, with a damper merged with its `suppression_band`."""
+    response = harmonic_balance_response(oscillator, damper, frequencies)
+    if damper is None:
+        return response
+    band = suppression_band(oscillator, damper)
+    return xr.merge([response, band], combine_attrs="override")
 
 
 def harmonic_balance_response(oscillator, damper, frequencies):

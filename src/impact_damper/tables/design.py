@@ -28,7 +28,7 @@ COLD_STARTS = {
 def harmonic_balance(datasets) -> pd.DataFrame:
     """Rule (19), harmonic balance and the exact quiet orbit of each curve at its peak frequency."""
     rows = []
-    for name, data in datasets.get("design", {}).items():
+    for name, data in extract.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
         parameters = parameter_columns(
             data, "damping", "linear_frequency", "mass_ratio", "clearance"
@@ -75,7 +75,7 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
     """Harmonics that each motion needs, observed and predicted decay of errors, and cold starts."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
-        for name, data in datasets.get("harmonics", {}).items()
+        for name, data in datasets.get("harmonic_convergence", {}).items()
     )
 
 

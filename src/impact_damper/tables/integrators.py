@@ -9,7 +9,7 @@ from impact_damper.data.shares import missed_share
 from impact_damper.rivals.methods import METHODS
 
 
-def grazing(datasets) -> pd.DataFrame:
+def missed_contacts(datasets) -> pd.DataFrame:
     """Return the contacts that each method finds and misses near grazing, summed over depths."""
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
@@ -41,7 +41,7 @@ def grazing(datasets) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def steps(datasets) -> pd.DataFrame:
+def stable_steps(datasets) -> pd.DataFrame:
     """Return the largest stable steps of fixed-step methods by stiffness."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
@@ -74,14 +74,14 @@ def steps(datasets) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def verdicts(datasets) -> pd.DataFrame:
+def method_verdicts(datasets) -> pd.DataFrame:
     """Return the loosest tolerance, or fewest steps, from which on each method's verdict is right.
 
     Where there is none, words: the method was not run on the scene, was never right, or was right,
     but not at the strictest tolerance.
     """
     rows = []
-    for data in datasets.get("verdicts", {}).values():
+    for data in datasets.get("method_verdicts", {}).values():
         for scene in data.scene.values:
             of = data.sel(scene=scene)
             rows.append(

@@ -14,7 +14,8 @@ DAMPER = ("mass_ratio", "clearance", "restitution")
 
 def bands(datasets) -> pd.DataFrame:
     """Suppression band of each curve, by harmonic balance and by the motions that exist."""
-    designs, responses = datasets.get("design", {}), datasets.get("response", {})
+    designs = extract.damped(datasets, "harmonic_balance")
+    responses = extract.damped(datasets, "response")
     rows = []
     for name in dict.fromkeys([*designs, *responses]):
         row = {"curve": name} | parameter_columns(
@@ -81,7 +82,7 @@ def subharmonic(datasets) -> pd.DataFrame:
         {"data": name, "damper": "off"}
         | parameter_columns(free, "damping", "linear_frequency")
         | _free_subharmonic(free)
-        for name, free in datasets.get("free_branches", {}).items()
+        for name, free in extract.free(datasets, "branches").items()
     ]
     for name, curve in datasets.get("subharmonic", {}).items():
         head = {"data": name, "damper": "on"} | parameter_columns(
@@ -161,9 +162,9 @@ def orbits(datasets) -> pd.DataFrame:
 
 def _branches(datasets):
     """Name, parameter columns and dataset of all branches, those without a damper first."""
-    for stage in ("free_branches", "branches"):
-        for name, data in datasets.get(stage, {}).items():
-            yield name, parameter_columns(data, "damping", *DAMPER), data
+    free, damped = (choose(datasets, "branches") for choose in (extract.free, extract.damped))
+    for name, data in (free | damped).items():
+        yield name, parameter_columns(data, "damping", *DAMPER), data
 
 
 def _stable_ranges(value, stable):

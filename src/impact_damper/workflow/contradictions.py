@@ -5,28 +5,10 @@ import math
 import reprlib
 
 from impact_damper.data.variables.studies import AXES
+from impact_damper.workflow.registry import KINDS, section_of
 
 # Section in which a figure's data are found, by the figure's kind.
-SECTIONS = {
-    "free": "oscillators",
-    "design": "curves",
-    "response": "curves",
-    "branches": "curves",
-    "motion": "motions",
-    "optimum": "optima",
-    "migration": "migration",
-    "release": "migration",
-    "contact_model": "contact_model",
-    "rigid_limit": "rigid_limit",
-    "design_rules": "design_rules",
-    "harmonics": "harmonics",
-    "missed_contacts": "missed_contacts",
-    "stable_steps": "stable_steps",
-    "verdicts": "verdicts",
-    "balance_map": "balance_map",
-    "accuracy": "scenes",
-    "studies": "studies",
-}
+SECTIONS = {kind: section_of(kind) for kind in KINDS if section_of(kind)}
 
 # What a figure of the kind `schematic` may name instead.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
@@ -34,18 +16,18 @@ SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm
 # Sections whose entries name an oscillator.
 WITH_OSCILLATOR = (
     "curves",
-    "motions",
+    "motion",
     "collisions",
-    "optima",
+    "optimum",
     "migration",
-    "release_scans",
-    "harmonics",
+    "release_scan",
+    "harmonic_convergence",
     "design_rules",
     "contact_model",
     "rigid_limit",
     "missed_contacts",
     "stable_steps",
-    "verdicts",
+    "method_verdicts",
     "scenes",
     "studies",
 )
@@ -53,23 +35,16 @@ WITH_OSCILLATOR = (
 # Ranges of the entries of a section, that ascend.
 RANGES = {
     "oscillators": ("frequencies",),
-    "optima": ("clearances",),
-    "release_scans": ("frequencies",),
+    "optimum": ("clearances",),
+    "release_scan": ("frequencies",),
     "rigid_limit": ("frequencies", "stiffnesses"),
     "missed_contacts": ("depths", "tolerances", "steps"),
     "stable_steps": ("stiffnesses", "scaled_steps"),
-    "verdicts": ("tolerances", "steps"),
+    "method_verdicts": ("tolerances", "steps"),
 }
 
-# Most entries that a figure draws, where they are fewer than the schema allows.
-MOST_DRAWN = {
-    "schematic": 1,
-    "balance_map": 1,
-    "missed_contacts": 1,
-    "verdicts": 1,
-    "harmonics": 5,
-    "studies": 1,
-}
+# Most entries that a figure draws.
+MOST_DRAWN = {kind.name: kind.most for kind in KINDS.values()}
 
 # What may change over a map, and its bounds.
 MAPPED = {
@@ -117,18 +92,18 @@ def contradictions(config):
             path = ["missed_contacts", name, "implicit_passages"]
             yield problem(path, entry["implicit_passages"], reason)
         yield from _close_steps(["missed_contacts", name, "steps"], entry)
-    for name, entry in config["verdicts"].items():
-        yield from _close_steps(["verdicts", name, "steps"], entry)
-        yield from _wrong_verdicts(["verdicts", name], entry)
+    for name, entry in config["method_verdicts"].items():
+        yield from _close_steps(["method_verdicts", name, "steps"], entry)
+        yield from _wrong_verdicts(["method_verdicts", name], entry)
     for name, study in config["studies"].items():
         yield from _wrong_study(["studies", name], study, config["chunks"])
     for name, entry in config["balance_map"].items():
         yield from _wrong_map(["balance_map", name], entry)
     for name, curve in config["curves"].items():
         yield from _wrong_stages(["curves", name], curve, config["search"]["starts"])
-    for name, scene in config["harmonics"].items():
+    for name, scene in config["harmonic_convergence"].items():
         keys = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
-        yield from _part_of_damper(["harmonics", name], scene, keys)
+        yield from _part_of_damper(["harmonic_convergence", name], scene, keys)
     for name, figure in config["figures"].items():
         yield from _wrong_data(["figures", name, "data"], figure, config)
 
@@ -166,11 +141,19 @@ def _wrong_stages(path, curve, starts):
     if "branches" in curve["stages"] and "response" not in curve["stages"]:
         reason = "must hold response with branches (orbits are followed from the motions found)"
         yield problem([*path, "stages"], curve["stages"], reason)
-    if "design" in curve["stages"] and curve["restitution"] != 1:
-        reason = "must be 1 with the stage design (harmonic balance knows elastic contact only)"
+    yield from _part_of_damper(path, curve, ("mass_ratio", "clearance", "restitution"))
+    damped = sorted({"design_orbit", "subharmonic"} & set(curve["stages"]))
+    if damped and "mass_ratio" not in curve:
+        reason = f"must not hold {damped[0]} without mass_ratio (there is no damper)"
+        yield problem([*path, "stages"], curve["stages"], reason)
+    if "harmonic_balance" in curve["stages"] and curve.get("restitution", 1) != 1:
+        reason = "must be 1 with the stage harmonic_balance (it knows elastic contact only)"
         yield problem([*path, "restitution"], curve["restitution"], reason)
-    if curve["clearance"] == "rule" and set(curve["stages"]) - {"design", "design_orbit"}:
-        reason = "must be a number with stages beside design and design_orbit (see table design)"
+    if curve.get("clearance") == "rule" and set(curve["stages"]) - {
+        "harmonic_balance",
+        "design_orbit",
+    }:
+        reason = "must be a number with stages beside harmonic_balance and design_orbit"
         yield problem([*path, "clearance"], curve["clearance"], reason)
 
 
@@ -268,15 +251,20 @@ def _wrong_data(path, figure, config):
         yield problem(path, figure["data"], reason)
     for place, name in enumerate(figure["data"]):
         yield from _unknown([*path, place], name, known)
-        if (
-            kind in ("design", "response", "branches")
-            and name in known
-            and kind not in known[name]["stages"]
-        ):
-            reason = f"must hold {kind} (what {'.'.join(path[:2])} draws)"
-            yield problem(["curves", name, "stages"], known[name]["stages"], reason)
+        if known is config["curves"] and name in known:
+            yield from _wrong_curve(["curves", name], known[name], kind, path)
         elif kind == "studies" and name in known:
             yield from _not_drawable(["studies", name], known[name], path)
+
+
+def _wrong_curve(path, curve, kind, figure):
+    stage, figure = KINDS[kind].stages[0], ".".join(figure[:2])
+    if stage not in curve["stages"]:
+        reason = f"must hold {stage} (what {figure} draws)"
+        yield problem([*path, "stages"], curve["stages"], reason)
+    if KINDS[kind].damper != ("mass_ratio" in curve):
+        reason = "with" if KINDS[kind].damper else "without"
+        yield f"{figure}.data: {path[1]} must be a curve {reason} a damper (kind {kind})"
 
 
 def _not_drawable(path, study, figure):

@@ -1,53 +1,161 @@
-"""What every job of the workflow begins with: its log, its tie to the run, and its last words."""
+"""A job of the workflow: its log, its end, its timing, and its parameters as objects.
 
+Every script makes a `Job` of what Snakemake gives it before it computes anything.
+"""
+
+import atexit
 import os
+import resource
 import sys
 import threading
 import time
+from collections import ChainMap
 from contextlib import suppress
+from functools import cached_property
+from pathlib import Path
 
-from impact_damper.workflow.job_client import LOOK
-
-# Whether this process is to have the kernels loaded and has not yet (`warm`).
-kernels_missing = False
-
-
-class KernelsMissing(BaseException):
-    """Ends a job that needs the kernels where they are missing; it begins again with them."""
+# Seconds between two looks whether Snakemake is alive: less than a new run takes to start a job.
+LOOK = 0.5
+# Units of `ru_maxrss` in a megabyte: bytes on macOS, kilobytes elsewhere.
+MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
 
 
-def begin(job) -> None:
-    """Send what the job prints to its log, end it with its run, and tell files that stop it.
-
-    A job outlives a Snakemake that is killed. It could then write what an older configuration
-    gives over the results of a newer run, so it ends soon after the process that started it.
-
-    An error that concerns a file says all in one line. It goes to the terminal too, for on a
-    full disk nothing comes to the log.
+class Entry:
+    """Parameters of one entry of the configuration as objects.
 
     Parameters
     ----------
-    job : object
-        With the attributes `log` and `input` of Snakemake's scripts.
+    given : mapping
+        Parameters by key, as a function of the registry returns them.
+    output : str
+        File of the dataset.
     """
+
+    def __init__(self, given, output):
+        self.given, self.output = given, output
+
+    def __getitem__(self, key):
+        return self.given[key]
+
+    @property
+    def oscillator(self):
+        """The oscillator, a `system.parameters.Oscillator`."""
+        from impact_damper.system.parameters import Oscillator
+
+        return Oscillator(**self["oscillator"])
+
+    @property
+    def damper(self):
+        """The damper, or None without one; the clearance `rule` becomes that of equation (19)."""
+        from impact_damper.system.parameters import Damper
+        from impact_damper.theory.design_rule import rule_clearance
+
+        given = self["damper"]
+        if given is None:
+            return None
+        if given["clearance"] == "rule":
+            given = given | {"clearance": rule_clearance(self.oscillator, given["mass_ratio"])}
+        return Damper(**given)
+
+    @property
+    def settling(self):
+        """How long and how closely motions are run, a `motions.ensemble.Settling`."""
+        from impact_damper.motions.ensemble import Settling
+
+        return Settling(**self["settling"])
+
+    def grid(self, key):
+        """Evenly spaced values of a range that is given as first, last and count."""
+        import numpy as np
+
+        return np.linspace(*self[key])
+
+    def powers(self, key):
+        """Values of a range with a constant ratio, given as first, last and count."""
+        import numpy as np
+
+        return np.geomspace(*self[key])
+
+    def counts(self, key):
+        """The values of `powers` as whole numbers."""
+        return [int(value) for value in self.powers(key).round()]
+
+    def save(self, data):
+        """Write a dataset to the output."""
+        from impact_damper.data.datasets import save
+
+        save(data, self.output)
+
+
+class Job(Entry):
+    """A job that Snakemake has started.
+
+    From here on all that the job prints goes to its log, and it ends soon after Snakemake has
+    ended. An error about a file is reported in one line, in the log and on the terminal, because on
+    a full disk nothing reaches the log. When the job ends, its time and memory are written into
+    `timings`, at the same place as its log in `logs`.
+
+    Parameters
+    ----------
+    snakemake : object
+        The variable `snakemake` of a script.
+    """
+
+    def __init__(self, snakemake):
+        super().__init__(ChainMap(*snakemake.params), snakemake.output[0])
+        self.snakemake = snakemake
+        log = Path(snakemake.log[0])
+        depth = log.parts[::-1].index("logs")
+        self.results = log.parents[depth]
+        end_with_parent()
+        _report_file_errors()
+        sys.stdout = sys.stderr = open(log, "w", buffering=1)
+        timing = self.results / "timings" / log.relative_to(self.results / "logs")
+        atexit.register(_write_timing, timing.with_suffix(".tsv"))
+
+    @property
+    def running(self):
+        """Keywords for functions that use threads and show their progress."""
+        return {"workers": self.snakemake.threads, "progress": self["name"]}
+
+    def entries(self):
+        """Entries of a job that computes several; the first folder of outputs has their files."""
+        for name, given in self.given.items():
+            path = Path(self.output).with_name(f"{name}.nc")
+            yield Entry(given, path)
+
+    @cached_property
+    def datasets(self):
+        """All datasets among the inputs, by stage and name of the entry."""
+        from impact_damper.data.datasets import load
+
+        found = {}
+        for path in map(Path, self.snakemake.input):
+            if path.suffix == ".nc":
+                found.setdefault(path.parent.name, {})[path.stem] = load(path)
+        return found
+
+
+def _report_file_errors():
+    """Report errors about files in one line, on the terminal and in the log."""
     terminal, show = sys.stderr, sys.excepthook
 
-    def tell(kind, error, trace):
+    def report(kind, error, trace):
         if not issubclass(kind, OSError):
             return show(kind, error, trace)
         for place in (terminal, sys.stderr):
             with suppress(OSError):
                 print(f"Error: {error}", file=place)
 
-    end_with_parent()
-    if kernels_missing and "kernels" in job.input.keys():
-        raise KernelsMissing
-    sys.excepthook = tell
-    sys.stdout = sys.stderr = open(job.log[0], "w", buffering=1)
+    sys.excepthook = report
 
 
 def end_with_parent() -> None:
-    """End this process soon after the one that started it."""
+    """End this process soon after the process that started it has ended.
+
+    A job outlives a Snakemake that was killed. It could then overwrite the results of a newer run
+    with those of an older configuration.
+    """
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
 
 
@@ -55,3 +163,32 @@ def _end_with(parent):
     while os.getppid() == parent:
         time.sleep(LOOK)
     os._exit(1)
+
+
+def _write_timing(path):
+    """Write what this process and its children took: seconds, CPU seconds, and memory in MB."""
+    import psutil
+
+    process = psutil.Process()
+    seconds = time.time() - process.create_time()
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    cpu = sum(each.ru_utime + each.ru_stime for each in used)
+    with suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        numbers = "\t".join(f"{value:.3f}" for value in (seconds, cpu, peak_memory()))
+        path.write_text(f"seconds\tcpu_seconds\tpeak_memory_mb\n{numbers}\n")
+
+
+def peak_memory() -> float:
+    """Return the peak memory in MB of this process or of the child that took the most.
+
+    On Linux `ru_maxrss` of a process starts at the value of the process that started it, here
+    Snakemake, so the peak of this process is read from `/proc` there.
+    """
+    own, children = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
+    peak, largest_child = (resource.getrusage(who).ru_maxrss / MEGABYTE for who in (own, children))
+    status = Path("/proc/self/status")
+    if status.exists():
+        lines = status.read_text().splitlines()
+        (peak,) = (int(line.split()[1]) / 2**10 for line in lines if line.startswith("VmHWM:"))
+    return max(peak, largest_child)

@@ -1,0 +1,71 @@
+"""Figures and tables of a chapter of the report, each in two formats and with its caption."""
+
+from importlib import import_module
+
+import jinja2
+
+from impact_damper.data.whole_files import whole
+from impact_damper.workflow.registry import KINDS, TABLES
+
+
+def make_table(name, datasets, path) -> None:
+    """Write a table as CSV and Markdown, with its caption.
+
+    Parameters
+    ----------
+    name : str
+        Name of a table in the registry.
+    datasets : dict
+        By stage and entry; stages that the table does not read are not passed on.
+    path : pathlib.Path
+        Name of the files, without suffix.
+    """
+    from impact_damper.data import table_files
+
+    table = TABLES[name]
+    module = import_module(f"impact_damper.{table.module}")
+    read = {stage: datasets.get(stage, {}) for stage in table.stages}
+    frame = getattr(module, name)(read)
+    # A module may have a layout of its own for Markdown.
+    document = getattr(module, "document", None)
+    table_files.save(frame, f"{path}.csv", f"{path}.md", document)
+    _write(f"{path}.rst", table.caption)
+
+
+def draw_figure(figure, datasets, path, template) -> None:
+    """Draw a figure as PDF and PNG, and write its caption.
+
+    Parameters
+    ----------
+    figure : dict
+        As `selection.figure_values` returns it.
+    datasets : dict
+        By stage and entry.
+    path : pathlib.Path
+        Name of the files, without suffix.
+    template : str
+        Jinja template of the caption, for the variable `figure`.
+    """
+    from impact_damper.figures.style import save
+
+    kind = KINDS[figure["kind"]]
+    module = import_module(f"impact_damper.{kind.source}")
+    if kind.stages:
+        draw = getattr(module, f"draw_{kind.name}")
+        drawing = draw(
+            **{
+                stage: [datasets[stage][name] for name in names]
+                for stage, names in figure["drawn"].items()
+            }
+        )
+    else:
+        (name,) = figure["data"]
+        drawing = getattr(module, name)()
+    save(drawing, path)
+    caption = jinja2.Template(template, undefined=jinja2.StrictUndefined)
+    _write(f"{path}.rst", caption.render(figure=figure))
+
+
+def _write(path, text):
+    with whole(path) as part:
+        part.write_text(text + "\n")

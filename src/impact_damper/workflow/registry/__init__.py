@@ -1,0 +1,35 @@
+"""The registry: one record for each stage, table and kind of figure, by chapter of the report.
+
+Rules, targets, scripts, the checks of the configuration and the tests take their lists from here.
+It is imported at every dry run, so it imports nothing that takes long.
+"""
+
+from impact_damper.workflow.registry import (
+    claims,
+    clearance,
+    design,
+    methods,
+    migration,
+    responses,
+    schematics,
+)
+
+# One job draws the figures and makes the tables of a chapter.
+CHAPTERS = {
+    "schematics": schematics,
+    "design": design,
+    "responses": responses,
+    "clearance": clearance,
+    "migration": migration,
+    "methods": methods,
+    "claims": claims,
+}
+STAGES = {stage.name: stage for chapter in CHAPTERS.values() for stage in chapter.STAGES}
+KINDS = {kind.name: kind for chapter in CHAPTERS.values() for kind in chapter.KINDS}
+TABLES = {table.name: table for chapter in CHAPTERS.values() for table in chapter.TABLES}
+
+
+def section_of(kind) -> str | None:
+    """Section of the configuration whose entries a kind of figure draws; None for schematics."""
+    stages = KINDS[kind].stages
+    return STAGES[stages[0]].section if stages else None

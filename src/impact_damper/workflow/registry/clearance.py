@@ -1,0 +1,74 @@
+"""Chapter of the report: optimum clearance."""
+
+import math
+
+from impact_damper.data.variables.studies import AXES
+from impact_damper.workflow.registry.records import Kind, Stage, Table
+from impact_damper.workflow.registry.values import axis, grid, oscillator, search, settling, system
+
+
+def optimum(config, name):
+    entry = config["optimum"][name]
+    return system(config, entry) | {
+        "frequency": entry["frequency"],
+        "clearances": grid(entry["clearances"], config["points"]["clearances"]),
+        "search": search(config, "sweep_starts"),
+        "settling": settling(config),
+    }
+
+
+def design_rules(config, name):
+    entry = config["design_rules"][name]
+    axes = ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        "grid": [entry[key] for key in axes],
+    }
+
+
+def studies(config, name):
+    entry = config["studies"][name]
+    axes = {key: axis(entry[key]) for key in AXES}
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        "axes": axes,
+        "cells": [0, math.prod(points for _, _, points in axes.values())],
+        "contact_stiffness": config["contact_stiffness"],
+        "search": search(config, "study_starts"),
+        "settling": settling(config),
+    }
+
+
+def study_chunk(config, name, chunk):
+    """As `studies`, with the cells of a chunk, which is numbered as "2-of-4"."""
+    given = studies(config, name)
+    number, count = map(int, chunk.split("-of-"))
+    _, cells = given["cells"]
+    return given | {"cells": [cells * (number - 1) // count, cells * number // count]}
+
+
+TITLE = "Optimum clearance"
+STAGES = (
+    Stage("optimum", "optimum", optimum),
+    Stage("design_rules", "design_rules", design_rules),
+    Stage("studies", "studies", studies),
+)
+KINDS = (
+    Kind("optimum", ("optimum",)),
+    Kind("design_rules", ("design_rules",), named=True),
+    Kind("studies", ("studies",), most=1),
+)
+TABLES = (
+    Table(
+        "optimum",
+        "tables.clearance",
+        ("optimum",),
+        "Optimum clearances by simulation against equation (19).",
+    ),
+    Table(
+        "design_rules",
+        "tables.clearance",
+        ("design_rules", "optimum"),
+        "How often each rule for the clearance comes within a few per cent of the optimum.",
+    ),
+)

@@ -1,0 +1,49 @@
+"""Chapter of the report: harmonic balance."""
+
+from impact_damper.workflow.registry.records import Kind, Stage, Table
+from impact_damper.workflow.registry.values import frequencies, search, settling, system
+
+
+def harmonic_balance(config, name):
+    curve = config["curves"][name]
+    return system(config, curve) | {"frequencies": frequencies(config, curve, "harmonic_balance")}
+
+
+def design_orbit(config, name):
+    return system(config, config["curves"][name]) | {
+        "search": search(config, "sweep_starts"),
+        "settling": settling(config),
+    }
+
+
+def harmonic_convergence(config, name):
+    entry = config["harmonic_convergence"][name]
+    return system(config, entry) | {
+        key: entry[key] for key in ("frequency", "highest", "highest_cold")
+    }
+
+
+TITLE = "Harmonic balance"
+STAGES = (
+    Stage("harmonic_balance", "curves", harmonic_balance),
+    Stage("design_orbit", "curves", design_orbit),
+    Stage("harmonic_convergence", "harmonic_convergence", harmonic_convergence),
+)
+KINDS = (
+    Kind("harmonic_balance", ("harmonic_balance",)),
+    Kind("harmonic_convergence", ("harmonic_convergence",), most=5),
+)
+TABLES = (
+    Table(
+        "harmonic_balance",
+        "tables.design",
+        ("harmonic_balance", "design_orbit"),
+        "What equation (19) and harmonic balance give for each curve.",
+    ),
+    Table(
+        "harmonic_convergence",
+        "tables.design",
+        ("harmonic_convergence",),
+        "How many harmonics the balance needs, its observed order, and cold starts counted.",
+    ),
+)

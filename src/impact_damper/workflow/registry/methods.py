@@ -1,0 +1,172 @@
+"""Chapter of the report: methods compared."""
+
+from impact_damper.system.parameters import Damper, Oscillator, pick
+from impact_damper.workflow.registry.records import Kind, Stage, Table
+from impact_damper.workflow.registry.values import (
+    axis,
+    damper,
+    grid,
+    oscillator,
+    settling,
+    system,
+)
+
+
+def balance_map(config, name):
+    entry = config["balance_map"][name]
+    given = pick(Oscillator, entry) | pick(Damper, entry)
+    # `balance_map` follows rule (19) in each row if it is given no clearance.
+    fixed = {key: value for key, value in given.items() if value != "rule"}
+    return {
+        "parameter": entry["parameter"],
+        "values": grid(entry["values"], config["points"]["map_values"]),
+        "frequency_ratios": grid(entry["frequency_ratios"], config["points"]["map_frequencies"]),
+        "fixed": {"contact_stiffness": config["contact_stiffness"]} | fixed,
+        "settling": settling(config),
+    }
+
+
+def contact_model(config, name):
+    entry = config["contact_model"][name]
+    cells = entry["cells"]
+    return system(config, entry) | {
+        "frequencies": entry["frequencies"],
+        "used": entry["restitutions"],
+        "periods": entry["periods"],
+        "starts": config["search"]["scan_starts"],
+        "seed": config["seed"],
+        "restitutions": [entry["smallest_restitution"], 1, cells["restitutions"]],
+        "loads": [entry["largest_load"], cells["loads"]],
+        "settling": settling(config),
+    }
+
+
+def rigid_limit(config, name):
+    entry = config["rigid_limit"][name]
+    return system(config, entry) | {
+        "frequency": entry["frequency"],
+        "frequencies": grid(entry["frequencies"], entry["cells"]["frequencies"]),
+        "stiffnesses": grid(entry["stiffnesses"], entry["cells"]["stiffnesses"]),
+        "starts": config["search"]["scan_starts"],
+        "seed": config["seed"],
+        "settling": settling(config),
+    }
+
+
+def missed_contacts(config, name):
+    entry = config["missed_contacts"][name]
+    keys = ("frequency", "passages", "implicit_passages", "radius")
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        **{key: entry[key] for key in keys},
+        "depths": axis(entry["depths"]),
+        "tolerances": axis(entry["tolerances"]),
+        "steps": grid(entry["steps"], entry["tolerances"]["points"]),
+        "seed": config["seed"],
+    }
+
+
+def stable_steps(config, name):
+    entry = config["stable_steps"][name]
+    return system(config, entry) | {
+        **{key: entry[key] for key in ("frequency", "most_steps", "periods")},
+        "stiffnesses": axis(entry["stiffnesses"]),
+        "scaled_steps": axis(entry["scaled_steps"]),
+    }
+
+
+def method_verdicts(config, name):
+    entry = config["method_verdicts"][name]
+    scenes = {
+        scene: {key: value for key, value in given.items() if key not in pick(Damper, given)}
+        | {"damper": damper(config, given)}
+        for scene, given in (entry["damped"] | entry["free"]).items()
+    }
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        "tolerances": axis(entry["tolerances"]),
+        "steps": grid(entry["steps"], entry["tolerances"]["points"]),
+        "scenes": scenes,
+    }
+
+
+def accuracy(config, name):
+    entry = config["scenes"][name]
+    return system(config, entry) | {
+        **{key: entry[key] for key in ("frequency", "state", "periods", "motion", "accuracy")},
+        "tolerance": entry.get("tolerance"),
+        "settings": config["comparison"],
+    }
+
+
+TITLE = "Methods compared"
+STAGES = (
+    Stage("balance_map", "balance_map", balance_map),
+    Stage("contact_model", "contact_model", contact_model),
+    Stage("rigid_limit", "rigid_limit", rigid_limit),
+    Stage("missed_contacts", "missed_contacts", missed_contacts),
+    Stage("stable_steps", "stable_steps", stable_steps),
+    Stage("method_verdicts", "method_verdicts", method_verdicts),
+    Stage("accuracy", "scenes", accuracy),
+)
+KINDS = (
+    Kind("balance_map", ("balance_map",), most=1),
+    Kind("contact_model", ("contact_model",)),
+    Kind("rigid_limit", ("rigid_limit",)),
+    Kind("missed_contacts", ("missed_contacts",), most=1),
+    Kind("stable_steps", ("stable_steps",)),
+    Kind("method_verdicts", ("method_verdicts",), most=1),
+    Kind("accuracy", ("accuracy",), named=True),
+)
+TABLES = (
+    Table(
+        "balance_map",
+        "tables.balance_map",
+        ("balance_map",),
+        "Where harmonic balance is right about stability, counted over the maps.",
+    ),
+    Table(
+        "contact_model",
+        "tables.contact",
+        ("contact_model",),
+        "What the contact model comes to without load, and counts of the map's cells.",
+    ),
+    Table(
+        "contact_motions",
+        "tables.contact",
+        ("contact_model",),
+        "Contacts of simulated motions: loads, restitution, and the rule for their end.",
+    ),
+    Table(
+        "rigid_limit",
+        "tables.contact",
+        ("rigid_limit",),
+        "How wrong rigid impacts are, their order in r1, and counts of the map's cells.",
+    ),
+    Table(
+        "missed_contacts",
+        "tables.integrators",
+        ("missed_contacts",),
+        "Contacts near grazing that integrators find and miss, counted.",
+    ),
+    Table(
+        "stable_steps",
+        "tables.integrators",
+        ("stable_steps",),
+        "Largest steps with which fixed-step methods keep the quiet motion.",
+    ),
+    Table(
+        "method_verdicts",
+        "tables.integrators",
+        ("method_verdicts",),
+        "The loosest tolerance, or fewest steps, from which on the verdict of each method is "
+        "right, or why there is none.",
+    ),
+    Table(
+        "models",
+        "tables.accuracy",
+        ("accuracy",),
+        "Error and counted work of every method and model on each scene, and the cheapest that "
+        "meets the accuracy it states.",
+    ),
+)

@@ -1,0 +1,50 @@
+"""Chapter of the report: migration control."""
+
+from impact_damper.workflow.registry.records import Kind, Stage, Table
+from impact_damper.workflow.registry.values import grid, search, settling, system
+
+
+def migration(config, name):
+    entry = config["migration"][name]
+    return system(config, entry) | {
+        "frequency": entry["frequency"],
+        "controller": config["controller"] | {"longest_hold": entry["longest_hold"]},
+        "seed": config["seed"],
+        "settling": settling(config),
+    }
+
+
+def release_scan(config, name):
+    entry = config["release_scan"][name]
+    return system(config, entry) | {
+        "frequencies": grid(entry["frequencies"], config["points"]["scanned"]),
+        "search": search(config, "scan_starts"),
+        "releases": config["controller"]["releases"],
+        "lifetime": entry["lifetime"],
+        "settling": settling(config),
+    }
+
+
+TITLE = "Migration control"
+STAGES = (
+    Stage("migration", "migration", migration),
+    Stage("release_scan", "release_scan", release_scan),
+)
+KINDS = (
+    Kind("migration", ("migration",)),
+    Kind("release", ("migration",), module="figures.migration"),
+)
+TABLES = (
+    Table(
+        "migration",
+        "tables.migration",
+        ("migration",),
+        "Outcomes of migration control, switchings and times.",
+    ),
+    Table(
+        "release_scan",
+        "tables.migration",
+        ("release_scan",),
+        "At which frequencies releases of each damped motion lead where.",
+    ),
+)

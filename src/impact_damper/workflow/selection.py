@@ -1,0 +1,100 @@
+"""Entries of a configuration that each stage, figure, table and chapter takes, by the registry."""
+
+from impact_damper.workflow.captions import in_words
+from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES, section_of
+from impact_damper.workflow.registry.values import oscillator
+
+# Parameters of which an entry holds several values, by the key that has them.
+SWEPT = {
+    "mass_ratios": "mass_ratio",
+    "clearances": "clearance",
+    "restitutions": "restitution",
+    "contact_stiffnesses": "contact_stiffness",
+    "stiffnesses": "contact_stiffness",
+    "frequencies": "frequency",
+}
+
+
+def entries(config, stage) -> list:
+    """Names of the entries that go through a stage."""
+    section = config[STAGES[stage].section]
+    return [name for name, entry in section.items() if stage in entry.get("stages", [stage])]
+
+
+def read_by(config, stage, name) -> dict:
+    """Entries whose datasets the job of an entry reads, by stage."""
+    return {earlier: [name] for earlier in STAGES[stage].reads if name in entries(config, earlier)}
+
+
+def table_data(config, table) -> dict:
+    """Entries whose datasets a table condenses, by stage."""
+    return {stage: entries(config, stage) for stage in TABLES[table].stages}
+
+
+def figure_data(config, name) -> dict:
+    """Entries that a figure draws, by stage: those it names, and their free oscillators."""
+    figure = config["figures"][name]
+    kind, found = KINDS[figure["kind"]], {}
+    for stage in kind.stages:
+        drawn = list(figure["data"])
+        if stage == "branches" and kind.damper:
+            drawn += _free_curves(config, drawn)
+        found[stage] = [each for each in drawn if each in entries(config, stage)]
+    return found
+
+
+def _free_curves(config, chosen):
+    """Curves without a damper of the oscillators that some curves have."""
+    curves = config["curves"]
+    wanted = {curves[name]["oscillator"] for name in chosen}
+    return [
+        name
+        for name, curve in curves.items()
+        if curve["oscillator"] in wanted and "mass_ratio" not in curve
+    ]
+
+
+def figures_of(config, chapter) -> list:
+    """Names of the figures of a chapter."""
+    kinds = {kind.name for kind in CHAPTERS[chapter].KINDS}
+    return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
+
+
+def figure_values(config, name) -> dict:
+    """Values that a figure draws and its caption states.
+
+    Its entry in the configuration, under `cases` the parameters of what it draws in words, and
+    under `drawn` the entries of `figure_data`.
+    """
+    figure = config["figures"][name]
+    cases = "; ".join(_case(config, figure["kind"], each) for each in figure["data"])
+    return figure | {"cases": cases, "drawn": figure_data(config, name)}
+
+
+def _case(config, kind, name):
+    """Parameters of an entry in words; a schematic has none."""
+    section = section_of(kind)
+    if section is None:
+        return ""
+    entry = config[section][name]
+    values = oscillator(config, entry["oscillator"]) if "oscillator" in entry else {}
+    values |= entry | {swept: entry[key] for key, swept in SWEPT.items() if key in entry}
+    words = in_words(values)
+    return f"{name.replace('_', ' ')}: {words}" if KINDS[kind].named else words
+
+
+def chapter_data(config, chapter) -> dict:
+    """Entries whose datasets a chapter takes, by stage."""
+    parts = [figure_data(config, name) for name in figures_of(config, chapter)]
+    parts += [table_data(config, table.name) for table in CHAPTERS[chapter].TABLES]
+    stages = dict.fromkeys(stage for part in parts for stage in part)
+    return {
+        stage: sorted({name for part in parts for name in part.get(stage, [])}) for stage in stages
+    }
+
+
+def chapter_modules(config, chapter) -> list:
+    """Modules that draw the figures and make the tables of a chapter, in the package."""
+    drawn = {config["figures"][name]["kind"] for name in figures_of(config, chapter)}
+    sources = {KINDS[kind].source for kind in drawn}
+    return sorted(sources | {table.module for table in CHAPTERS[chapter].TABLES})

@@ -1,0 +1,32 @@
+rule figures:
+    input:
+        expand("<results>/figures/{name}.{kind}", name=config["figures"], kind=["pdf", "png", "rst"]),
+
+
+rule tables:
+    input:
+        expand("<results>/tables/{name}.{kind}", name=TABLES, kind=["csv", "md", "rst"]),
+
+
+# One job for a chapter: starting a process for each figure and table would take longer than they do.
+for chapter in filter(chapter_files, CHAPTERS):
+
+    rule:
+        name:
+            f"chapter_{chapter}"
+        input:
+            **data_by_stage(selection.chapter_data(config, chapter)),
+            templates=chapter_templates(chapter),
+            code=code("chapter", *selection.chapter_modules(config, chapter)),
+        output:
+            chapter_files(chapter),
+        log:
+            f"<logs>/chapters/{chapter}.log",
+        conda:
+            ENVIRONMENT
+        params:
+            **chapter_parameters(chapter),
+        message:
+            f"Figures and tables of the chapter {chapter}"
+        script:
+            "../scripts/chapter.py"

@@ -1,0 +1,16 @@
+"""Errors of methods against counted work, on one scene."""
+
+import json
+from pathlib import Path
+
+from impact_damper.rivals.comparison_scenes import ComparisonScene
+from impact_damper.stages.accuracy import error_against_work
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+references = json.loads(Path(snakemake.input.references).read_text())
+keys = ("name", "frequency", "state", "periods", "motion", "accuracy", "tolerance")
+scene = ComparisonScene(
+    oscillator=job.oscillator, damper=job.damper, **{key: job[key] for key in keys}
+)
+job.save(error_against_work(scene, job["settings"], references.get(scene.name)))

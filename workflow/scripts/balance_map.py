@@ -1,0 +1,16 @@
+"""Where harmonic balance fails, over frequency and another parameter."""
+
+from impact_damper.stages.balance_map import balance_map
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    balance_map(
+        job["parameter"],
+        job.grid("values"),
+        job.grid("frequency_ratios"),
+        job["fixed"],
+        settling=job.settling,
+        **job.running,
+    )
+)

@@ -1,0 +1,20 @@
+"""The contact model over restitution and load, and contacts of motions in it."""
+
+from impact_damper.stages.contact_model import contact_model, spread_loads
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    contact_model(
+        job.oscillator,
+        job.damper,
+        job["frequencies"],
+        job.grid("restitutions"),
+        spread_loads(*job["loads"]),
+        used=job["used"],
+        starts=job["starts"],
+        periods=job["periods"],
+        seed=job["seed"],
+        settling=job.settling,
+    )
+)

@@ -1,0 +1,17 @@
+"""Runs of the migration controller (section 5, figures 13 to 16)."""
+
+from impact_damper.stages.migration import trials
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    trials(
+        job.oscillator,
+        job.damper,
+        job["frequency"],
+        **job["controller"],
+        seed=job["seed"],
+        settling=job.settling,
+        **job.running,
+    )
+)

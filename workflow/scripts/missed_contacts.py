@@ -1,0 +1,19 @@
+"""Contacts near grazing that integrators miss, counted over random passages."""
+
+from impact_damper.stages.missed_contacts import missed_contacts
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    missed_contacts(
+        job.oscillator,
+        job["frequency"],
+        passages=job["passages"],
+        implicit_passages=job["implicit_passages"],
+        radius=job["radius"],
+        depths=job.powers("depths"),
+        tolerances=job.powers("tolerances"),
+        steps=job.counts("steps"),
+        seed=job["seed"],
+    )
+)

@@ -1,0 +1,18 @@
+"""A steady motion over its period (figure 4)."""
+
+from impact_damper.motions.simulate import steady_orbit
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+# The three numbers under figure 4, and no relative velocity. From rest nothing would collide.
+start = (1.0, 0.5, 0.0, 0.0)
+job.save(
+    steady_orbit(
+        job.oscillator,
+        job.damper,
+        job["frequency"],
+        start,
+        samples=4000,
+        settling=job.settling,
+    )
+)

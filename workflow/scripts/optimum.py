@@ -1,0 +1,17 @@
+"""Largest displacement against clearance, and its optimum (figures 6, 7 and 11)."""
+
+from impact_damper.stages.optimum import clearance_sweep
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    clearance_sweep(
+        job.oscillator,
+        job["damper"],
+        job["frequency"],
+        job.grid("clearances"),
+        **job["search"],
+        settling=job.settling,
+        **job.running,
+    )
+)

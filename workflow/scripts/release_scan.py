@@ -1,0 +1,18 @@
+"""Motions that releases of the damper lead to, over frequency (section 5, figure 14)."""
+
+from impact_damper.stages.release_scan import release_scan
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    release_scan(
+        job.oscillator,
+        job.damper,
+        job.grid("frequencies"),
+        **job["search"],
+        releases=job["releases"],
+        lifetime=job["lifetime"],
+        settling=job.settling,
+        **job.running,
+    )
+)

@@ -1,0 +1,16 @@
+"""Motions over frequency, from random starts (figures 2, 5, 8 and 10)."""
+
+from impact_damper.stages.response import frequency_response
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    frequency_response(
+        job.oscillator,
+        job.damper,
+        job.grid("frequencies"),
+        **job["search"],
+        settling=job.settling,
+        **job.running,
+    )
+)

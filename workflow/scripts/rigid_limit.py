@@ -1,0 +1,19 @@
+"""Rigid impacts against compliant contact over frequency and contact stiffness."""
+
+from impact_damper.stages.rigid_limit import rigid_limit
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+for entry in job.entries():
+    entry.save(
+        rigid_limit(
+            entry.oscillator,
+            entry.damper,
+            entry["frequency"],
+            entry.grid("frequencies"),
+            entry.powers("stiffnesses"),
+            starts=entry["starts"],
+            seed=entry["seed"],
+            settling=entry.settling,
+        )
+    )

@@ -1,0 +1,17 @@
+"""What becomes of the quiet motion with fixed steps, over stiffness and step."""
+
+from impact_damper.stages.stable_steps import stable_steps
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    stable_steps(
+        job.oscillator,
+        job.damper,
+        job["frequency"],
+        stiffnesses=job.powers("stiffnesses"),
+        scaled_steps=job.powers("scaled_steps"),
+        most_steps=job["most_steps"],
+        periods=job["periods"],
+    )
+)

@@ -1,0 +1,30 @@
+"""A study over mass ratio, clearance, frequency and restitution: its chunks as one file.
+
+Without chunks the whole study is computed here, as a single chunk.
+"""
+
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from impact_damper.data.datasets import save
+from impact_damper.stages.studies import study_chunk
+from impact_damper.stages.study_grid import gather_chunks
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+chunks = list(snakemake.input.chunks)
+with TemporaryDirectory() as folder:
+    if not chunks:
+        chunk = study_chunk(
+            job.oscillator,
+            {name: np.linspace(*ends) for name, ends in job["axes"].items()},
+            job["cells"],
+            contact_stiffness=job["contact_stiffness"],
+            **job["search"],
+            settling=job.settling,
+            **job.running,
+        )
+        chunks = [f"{folder}/1-of-1.nc"]
+        save(chunk, chunks[0])
+    gather_chunks(chunks, job.output)

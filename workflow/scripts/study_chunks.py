@@ -1,0 +1,19 @@
+"""A chunk of a study over mass ratio, clearance, frequency and restitution."""
+
+import numpy as np
+
+from impact_damper.stages.studies import study_chunk
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    study_chunk(
+        job.oscillator,
+        {name: np.linspace(*ends) for name, ends in job["axes"].items()},
+        job["cells"],
+        contact_stiffness=job["contact_stiffness"],
+        **job["search"],
+        settling=job.settling,
+        **job.running,
+    )
+)

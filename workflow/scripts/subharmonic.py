@@ -1,0 +1,16 @@
+"""Runs from the one-third subharmonic with the damper switched on (figures 5 and 8)."""
+
+from impact_damper.stages.subharmonic import subharmonic_suppression
+from impact_damper.workflow.job import Job
+
+job = Job(snakemake)
+job.save(
+    subharmonic_suppression(
+        job.oscillator,
+        job.damper,
+        job.grid("frequencies"),
+        **job["search"],
+        settling=job.settling,
+        **job.running,
+    )
+)
