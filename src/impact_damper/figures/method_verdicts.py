@@ -60,6 +60,8 @@ def draw_method_verdicts(*, method_verdicts):
         x = data["verdict_steps"].values if fixed else data["method_tolerance"].values
         cells = data["verdict"].sel(verdict_method=name).values
         run = (cells != meanings["not_run"]).any(axis=0)
+        if not run.any():
+            run[:] = True
         flags(axes, edges(x[run]), scenes, cells[:, run], meanings, ROLES)
         axes.set_xscale("log")
         if not fixed:

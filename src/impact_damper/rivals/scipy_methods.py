@@ -27,8 +27,8 @@ COMBINING = {
 FACTORISING = {"DOP853": 0, "LSODA": 2 * SIZE**3 // 3, "Radau": (2 + 8) * SIZE**3 // 3 // 2}
 # Side that has the position choose the wall.
 BY_POSITION = 2
-# Evaluations of the rate after which a run over some forcing periods is given up, a period.
-EVALUATIONS = 2000
+# Evaluations of the rate after which a run is given up: a forcing period, and in a timed run.
+EVALUATIONS, MOST_TIMED = 2000, 200_000
 UNLIMITED = 2**62
 
 
@@ -180,7 +180,7 @@ class SciPy(Integrator):
 
     def end(self, p, start, begin, periods, tolerance, locate):
         """As of the base class, without the states after each period, which take time."""
-        left, end = np.array([EVALUATIONS * periods]), begin + periods * 2 * math.pi / p[FREQUENCY]
+        left, end = np.array([MOST_TIMED]), begin + periods * 2 * math.pi / p[FREQUENCY]
         locate = locate and p[CLEARANCE] < math.inf
         try:
             *_, last = pieces(self.method, p, start, begin, end, tolerance, locate, left)
