@@ -40,7 +40,7 @@ def test_a_file_that_is_cut_off_is_told_and_made_again(finished):
     os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
     code, told = finished.run(targets=[FILE])
     assert code == 1 and "Traceback" not in told
-    assert f"{FILE} has {len(whole) - 1} bytes in place of {len(whole)}: {DELETE}." in told
+    assert f"{FILE} has {len(whole) - 1} bytes instead of {len(whole)}: {DELETE}." in told
     path.unlink()
     code, told = finished.run(targets=[FILE])
     assert code == 0, told

@@ -1,1 +1,1 @@
-"""Figures of the paper: each function draws a dataset, or a scheme, and computes nothing."""
+"""Figures, a module for each kind. A figure draws datasets or a schematic and computes nothing."""

@@ -1,4 +1,4 @@
-"""Maps of where harmonic balance agrees with the true motions and where it does not."""
+"""Maps of the agreement between harmonic balance and the exact motions (kind balance_map)."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -30,7 +30,7 @@ PARAMETERS = {
     "clearance": "Clearance, $d_0$",
     "restitution": "Coefficient of restitution, $e$",
 }
-# What the balance says and what is true, colour and hatching of each class.
+# Legend text, colour and hatching of each verdict.
 QUIET = {
     "stable_stable": ("balance stable, orbit stable", PALE_SKY, ""),
     "stable_unstable": ("balance stable, orbit unstable", VERMILION, "////"),
@@ -60,12 +60,12 @@ HIGH = {
 
 @style()
 def draw_balance_map(*, balance_map):
-    """The quiet motion and the high one, a panel each.
+    """Draw the verdicts on the quiet motion (a) and on the high motion (b).
 
     Parameters
     ----------
     balance_map : list of xarray.Dataset
-        One, of `balance_map`.
+        One dataset of the stage balance_map.
 
     Returns
     -------
@@ -97,22 +97,22 @@ def draw_balance_map(*, balance_map):
 
 
 def _draw_classes(axes, data, name, classes):
-    """Cells in the colours of their classes, hatched where these have a hatching."""
+    """Draw the cells in the colours and hatchings of their verdicts."""
     grid = data["frequency_ratio"].values, data["map_value"].values
     values = data[name].values
     for meaning, (label, color, hatch) in classes.items():
-        here = values == flag(name, meaning)
-        if here.any():
-            cells = np.ma.masked_where(~here, values)
+        chosen = values == flag(name, meaning)
+        if chosen.any():
+            cells = np.ma.masked_where(~chosen, values)
             axes.pcolormesh(*grid, cells, cmap=ListedColormap([color]), rasterized=True)
             look = {"hatch": hatch, "edgecolor": GREY}
             if hatch:
-                hatch_cells(axes, *grid, here, linewidth=0, **look)
+                hatch_cells(axes, *grid, chosen, linewidth=0, **look)
             axes.fill([], [], facecolor=color, label=label, linewidth=0.4, **look)
 
 
 def _draw_edge(axes, verdict):
-    """Edge of the cells in which the balance has a stable solution."""
+    """Draw the boundary of the cells with a stable solution of harmonic balance."""
     stable = verdict == flag(verdict.name, "stable")
     if stable.any() and not stable.all():
         line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}
@@ -121,7 +121,7 @@ def _draw_edge(axes, verdict):
 
 
 def _draw_ends(axes, data):
-    """Where the true quiet orbits end within the map, and where they would for rigid walls."""
+    """Draw the ends of the exact quiet orbits within the map, and their ends for rigid walls."""
     inside = data["quiet_end_event"] != flag("quiet_end_event", "map_ends")
     for end in data["quiet_end"].where(inside).values.T:
         axes.plot(end, data["map_value"], color=BLACK, linewidth=1.6)
@@ -133,7 +133,7 @@ def _draw_ends(axes, data):
 
 
 def _draw_chaos(axes, data):
-    """Cells in which a start at the quiet solution of the balance leads to chaos."""
+    """Dot the cells in which a start at the quiet solution of the balance leads to chaos."""
     kinds = [flag("quiet_run_motion", name) for name in ("low_chaotic", "high_chaotic")]
     row, column = np.nonzero(np.isin(data["quiet_run_motion"], kinds))
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]

@@ -1,4 +1,4 @@
-"""The contact model over restitution and load, with the contacts of real motions."""
+"""Maps of the contact model, with the contacts of simulated motions (kind contact_model)."""
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
@@ -21,7 +21,7 @@ from impact_damper.figures.style import (
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LINES = {0.01: "solid", 0.05: "dotted"}
 TIMES = {0.95: "solid", 1.05: "solid", 0.5: "dotted", 1.5: "dotted"}
-# Below this load the axis is linear.
+# The load axis is linear below this value and logarithmic above.
 LINEAR = 1e-3
 MOTIONS = (
     {"color": BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
@@ -31,12 +31,12 @@ MOTIONS = (
 
 @style()
 def draw_contact_model(*, contact_model):
-    """Error of the realised restitution and time in contact, for both exit rules.
+    """Draw the error of the realised restitution and the time in contact, for both exit rules.
 
     Parameters
     ----------
     contact_model : list of xarray.Dataset
-        Of `contact_model`, whose maps are the same; the contacts of all are drawn.
+        Datasets of the stage contact_model. Their maps are equal; the contacts of all are drawn.
 
     Returns
     -------
@@ -64,8 +64,8 @@ def draw_contact_model(*, contact_model):
         drawn.colorbar(cells, ax=panels[row], label=name, extend="both" if row == 0 else "max")
     for axes, words in zip(panels[0], RULES.values(), strict=True):
         axes.set_title(words)
-    for given in contact_model:
-        draw_contacts(panels[0, 0], given)
+    for case in contact_model:
+        draw_contacts(panels[0, 0], case)
     for axes, lines, words in (
         (panels[0, 0], LINES, "error of 1 % (solid) and 5 % (dotted)"),
         (panels[1, 0], TIMES, "time off by 5 % (solid) and 50 % (dotted)"),
@@ -83,7 +83,7 @@ def draw_contact_model(*, contact_model):
 
 
 def draw_contacts(axes, data):
-    """Contacts of the motions, at the restitution of their damper."""
+    """Draw the contacts of the simulated motions, at the restitution of their damper."""
     used = data["used"].values[data["contact_used"].values]
     size = data["contact_size"].values
     load = data["contact_load"].values

@@ -1,4 +1,4 @@
-"""Rules for the clearance against the optimum of the motion."""
+"""Rules for the clearance and optima of the exact motion (kind design_rules)."""
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from impact_damper.figures.style import (
     figure,
     legend,
     letter_panels,
+    parameter_label,
     points,
     style,
 )
@@ -44,13 +45,13 @@ LOOKS = {
 
 @style()
 def draw_design_rules(*, design_rules):
-    """Optima over each parameter that is swept with the rules, and the errors of all.
+    """Draw optima and rules over each swept parameter, and the distribution of all errors.
 
     Parameters
     ----------
     design_rules : list of xarray.Dataset
-        Of `design_rules`. One with a single swept parameter beside the mass ratio has a row of
-        panels; the others count in the last row only.
+        Datasets of the stage design_rules. A dataset with one swept parameter beside the mass
+        ratio gets a row of panels. All datasets count in the last row, the errors.
 
     Returns
     -------
@@ -74,12 +75,12 @@ def draw_design_rules(*, design_rules):
 
 
 def swept(data):
-    """Parameters beside the mass ratio with more than one value."""
+    """Names of the parameters, beside the mass ratio, with more than one value."""
     return [name for name in SWEPT if data.sizes[name] > 1]
 
 
 def draw_sweep(axes, data, name):
-    """Optima against one parameter for each mass ratio, with rules as lines."""
+    """Draw the optima over one parameter for each mass ratio, and the rules as lines."""
     data = data.squeeze([other for other in SWEPT if other != name], drop=True)
     unstable = data["best_stability"] == flag("best_stability", "unstable")
     for index, mass_ratio in enumerate(data["mass_ratio"].values):
@@ -104,8 +105,7 @@ def draw_sweep(axes, data, name):
         markersize=5.5,
         label="motion unstable there",
     )
-    given = parameters_of(data)
-    words = f"$h = {given['damping']:g}$, $\\omega_l = {given['linear_frequency']:g}$"
+    words = parameter_label(parameters_of(data), "damping", "linear_frequency")
     axes.set(
         xlabel=f"{axis_label(data[name])} ({words})",
         xscale=SWEPT[name],
@@ -114,7 +114,7 @@ def draw_sweep(axes, data, name):
 
 
 def draw_errors(axes, datasets):
-    """Share of the optima that each rule predicts within an error."""
+    """Draw the share of the optima that each rule predicts within an error."""
     for rule, words in RULES.items():
         errors = np.concatenate(
             [

@@ -1,6 +1,6 @@
-"""Primitives of the schematics: springs, dashpots, masses, dimensions, boxes of flow charts.
+"""Parts of the schematics: springs, dashpots, masses, dimensions, boxes of flow charts.
 
-A sheet is measured in inches from its lower left corner.
+Coordinates are in inches from the lower left corner of the sheet.
 """
 
 import numpy as np
@@ -21,7 +21,7 @@ from impact_damper.figures.style import (
 
 
 def sheet(column, height):
-    """Axes that fill an empty figure of a column's width, one unit an inch."""
+    """Axes that fill an empty figure, one data unit per inch; `column` as in `style.figure`."""
     page = figure(column, height)
     page.set_layout_engine("none")
     axes = page.add_axes((0, 0, 1, 1))
@@ -30,9 +30,9 @@ def sheet(column, height):
     return axes
 
 
-def stroke(axes, points, width="outline", **others):
+def stroke(axes, points, width="outline", **changes):
     """Line through points."""
-    keywords = {"color": BLACK, "solid_capstyle": "round", "solid_joinstyle": "round"} | others
+    keywords = {"color": BLACK, "solid_capstyle": "round", "solid_joinstyle": "round"} | changes
     axes.plot(*np.transpose(points), linewidth=STROKES[width], **keywords)
 
 
@@ -57,9 +57,9 @@ def arrow(axes, start, end, width="detail", head="-|>", color=BLACK):
     )
 
 
-def letter(axes, x, y, symbol, **others):
+def letter(axes, x, y, symbol, **changes):
     """Symbol centred on a point."""
-    axes.text(x, y, symbol, **{"ha": "center", "va": "center", "size": LETTER_SIZE} | others)
+    axes.text(x, y, symbol, **{"ha": "center", "va": "center", "size": LETTER_SIZE} | changes)
 
 
 def spring(axes, start, end, y, turns=5, height=0.16):

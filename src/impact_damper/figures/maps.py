@@ -1,4 +1,4 @@
-"""What maps of cells share: values and flags in colour, cells without a result told apart."""
+"""Shared by maps: cells coloured by value or flag, hatching, contour lines, legend entries."""
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -12,7 +12,7 @@ COLOURS = "cividis_r"
 
 
 def mesh(axes, x, y, values, norm):
-    """Cells in colour, over a hatched ground that shows where a value is NaN."""
+    """Draw cells coloured by value; cells with NaN show a hatched background."""
     axes.set_facecolor(PALE)
     axes.patch.set(hatch="////", edgecolor=GREY, linewidth=0)
     return axes.pcolormesh(
@@ -21,19 +21,19 @@ def mesh(axes, x, y, values, norm):
 
 
 def marked(axes, x, y, where, colour):
-    """Cells of one plain colour."""
+    """Draw the cells of a mask in one colour."""
     values = np.where(where, 1.0, np.nan)
     cells = ListedColormap([colour])
     axes.pcolormesh(x, y, values, cmap=cells, vmin=0, vmax=2, shading="nearest", rasterized=True)
 
 
 def span(centres):
-    """Outer edges of the first and the last cell of an even grid."""
+    """Outer edges of the first and the last cell of a uniform grid of cell centres."""
     return centres[0] - np.diff(centres)[0] / 2, centres[-1] + np.diff(centres)[-1] / 2
 
 
 def hatch(axes, x, y, where, **look):
-    """Hatching over cells as one path; cell by cell it would take longer than all the rest."""
+    """Hatch the cells of a mask, as a single path: one path per cell would be slow."""
     x, y = (np.linspace(*span(centres), len(centres) + 1) for centres in (x, y))
     cells = [
         Path.unit_rectangle().transformed(
@@ -46,13 +46,13 @@ def hatch(axes, x, y, where, **look):
 
 
 def contours(axes, x, y, values, level, line):
-    """Contour lines of one level, where there are any."""
+    """Draw the contour lines of one level, if the values cross the level."""
     if np.nanmin(values) < level < np.nanmax(values):
         axes.contour(x, y, values, [level], colors=BLACK, linewidths=0.8, linestyles=line)
 
 
 def key(axes, label, colour, hatch=None):
-    """Entry of the legend for cells of one look."""
+    """Add a legend entry for cells of one appearance."""
     axes.add_patch(
         Rectangle(
             (np.nan, np.nan), 0, 0, facecolor=colour, edgecolor=GREY, hatch=hatch, label=label
@@ -61,7 +61,7 @@ def key(axes, label, colour, hatch=None):
 
 
 def edges(values):
-    """Edges of the cells around the values of a logarithmic grid; a lone cell is a decade wide."""
+    """Cell edges of a logarithmic grid of cell centres; a single cell is one decade wide."""
     logarithms = np.log(values)
     if len(logarithms) == 1:
         return np.exp(logarithms[0] + np.log(10) * np.array([-0.5, 0.5]))
@@ -71,18 +71,19 @@ def edges(values):
 
 
 def flags(axes, x, y, values, meanings, roles):
-    """Cells of flags in the colours of their roles.
+    """Draw cells with a flag in the colours of its meanings, with legend entries.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     x, y : array
         Edges of the cells.
-    values : array
-    meanings : dict
-        Value of each flag by its meaning.
+    values : array, shape (len(y) - 1, len(x) - 1)
+        Values of the flag.
+    meanings : dict of int
+        Value of each meaning of the flag.
     roles : dict
-        Colour and words of each meaning.
+        Colour and legend text of each meaning.
     """
     shown = sorted(meanings, key=meanings.get)
     bounds = np.append([meanings[name] for name in shown], meanings[shown[-1]] + 1) - 0.5

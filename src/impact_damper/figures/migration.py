@@ -1,4 +1,4 @@
-"""Migration control: a run against time, and where releases lead (figures 13 to 16)."""
+"""Migration control: a run over time, and releases by destination (figures 13 to 16)."""
 
 import numpy as np
 
@@ -13,7 +13,8 @@ from impact_damper.figures.style import (
     style,
 )
 
-AROUND = -15, 25  # forcing periods around a release
+AROUND = -15, 25  # forcing periods drawn before and after the last release
+# Role of each destination, and title of the panel of each damped motion.
 DESTINATIONS = {
     "non_resonance": "non_resonance",
     "subharmonic": "subharmonic",
@@ -29,14 +30,14 @@ MOTIONS = {
 }
 
 
-@style({"axes.titley": None})  # letters stand clear of the axis above
+@style({"axes.titley": None})  # keeps the letters clear of the upper axis
 def draw_migration(*, migration):
-    """Displacement of the primary mass in the stored run: all of it, and its last release.
+    """Draw the displacement in the stored run of each case: the whole run, and its last release.
 
     Parameters
     ----------
     migration : list of xarray.Dataset
-        Of `trials`.
+        Datasets of the stage migration.
 
     Returns
     -------
@@ -60,7 +61,7 @@ def draw_migration(*, migration):
 
 
 def draw_run(axes, run, span, width):
-    """A run of the controller over a span of time, with its switchings."""
+    """Draw a run of the controller over a span of time, with its switchings."""
     axes.plot(run["time"], run["displacement"], color=BLACK, linewidth=width)
     on, off = (run[name].values[np.isfinite(run[name])] for name in ("on_time", "off_time"))
     for begin, end in zip(on, off, strict=True):
@@ -74,12 +75,12 @@ def draw_run(axes, run, span, width):
 
 @style()
 def draw_release(*, migration):
-    """States of each damped motion at which it was released, marked by where that leads.
+    """Draw the states at which each damped motion is released, marked by destination.
 
     Parameters
     ----------
     migration : list of xarray.Dataset
-        Of `trials`.
+        Datasets of the stage migration.
 
     Returns
     -------
@@ -99,7 +100,7 @@ def draw_release(*, migration):
 
 
 def draw_releases(axes, releases):
-    """Releases of one damped motion."""
+    """Draw the releases of one damped motion."""
     for destination, role in DESTINATIONS.items():
         value = flag("release_destination", destination)
         chosen = releases["release_destination"].values == value

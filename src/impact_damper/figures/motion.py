@@ -1,4 +1,4 @@
-"""Phase plots of steady motions: figure 4."""
+"""Phase plots of steady motions: figure 4 (kind motion)."""
 
 import numpy as np
 
@@ -21,12 +21,12 @@ WALLS = {
 
 @style()
 def draw_motion(*, motion):
-    """Velocity against displacement of the primary mass, with its contacts, a panel for each.
+    """Draw velocity over displacement of the primary mass with its contacts, one panel a motion.
 
     Parameters
     ----------
     motion : list of xarray.Dataset
-        Of `simulate`.
+        Datasets of the stage motion.
 
     Returns
     -------
@@ -47,7 +47,7 @@ def draw_motion(*, motion):
 
 
 def in_contact(traced, wall):
-    """True at the times of contact with a wall; a contact without an end lasts."""
+    """Mask of the times of contact with a wall; a contact without an end lasts to the last time."""
     time = traced["time"].values[:, None]
     chosen = traced["contact_wall"].values == wall
     begin = traced["contact_begin"].values[chosen]

@@ -1,21 +1,31 @@
-"""Largest displacement against clearance, with its optimum: figures 6, 7 and 11."""
+"""Largest displacement over clearance, with the optimum: figures 6, 7 and 11 (kind optimum)."""
 
 import numpy as np
 
 from impact_damper.data.datasets import parameters_of
-from impact_damper.figures.style import ROLES, axis_label, curve, figure, legend, points, style
+from impact_damper.figures.style import (
+    ROLES,
+    axis_label,
+    curve,
+    figure,
+    legend,
+    parameter_label,
+    points,
+    style,
+)
 
-SYMBOLS = {"damping": "h", "frequency": r"\Omega", "restitution": "e", "mass_ratio": "r_m"}
+# Parameters named in the legend, if they differ between the curves.
+VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
 
 @style()
 def draw_optimum(*, optimum):
-    """Largest displacement of the quiet motion against clearance, all curves in one plot.
+    """Draw the largest displacement of the quiet motion over clearance, all sweeps in one plot.
 
     Parameters
     ----------
     optimum : list of xarray.Dataset
-        Of `clearance_sweep`.
+        Datasets of the stage optimum.
 
     Returns
     -------
@@ -43,7 +53,7 @@ def draw_optimum(*, optimum):
 
 
 def line_of(sweep, elastic):
-    """Clearance and |a| of equations (7), or the simulated displacement, with its optimum."""
+    """Clearances and |a| by (7) for elastic contact, else max |Z1|, with the optimum inserted."""
     if elastic:
         names, least = ("analytical_amplitude", "analytical_optimum"), 0
     else:
@@ -55,14 +65,11 @@ def line_of(sweep, elastic):
 
 
 def titles(sweeps):
-    """What tells the curves apart: those of the parameters that are not the same in all."""
+    """Legend texts of sweeps: the mass ratio, and all parameters that differ between sweeps."""
     parameters = [parameters_of(sweep) for sweep in sweeps]
-    differing = [
+    names = [
         name
-        for name in SYMBOLS
-        if name == "mass_ratio" or len({given[name] for given in parameters}) > 1
+        for name in VARIED
+        if name == "mass_ratio" or len({values[name] for values in parameters}) > 1
     ]
-    return [
-        ", ".join(f"${SYMBOLS[name]} = {given[name]:g}$" for name in differing)
-        for given in parameters
-    ]
+    return [parameter_label(values, *names) for values in parameters]

@@ -1,4 +1,4 @@
-"""How wrong rigid impacts are, over contact stiffness and frequency."""
+"""Errors of rigid impacts over contact stiffness and frequency (kind rigid_limit)."""
 
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -16,22 +16,23 @@ from impact_damper.figures.style import (
     figure,
     legend,
     letter_panels,
+    parameter_label,
     style,
 )
 
-SMALLEST = 1e-4
+SMALLEST = 1e-4  # lower end of the colour scale
 THRESHOLDS = ("solid", "dotted")
 OWN = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (6, 3))}
 
 
 @style()
 def draw_rigid_limit(*, rigid_limit):
-    """Maps of the errors of displacement and decay, a column for each damper, and their order.
+    """Draw maps of the errors of max |Z1| and of decay for each damper, and their order in r1.
 
     Parameters
     ----------
     rigid_limit : list of xarray.Dataset
-        Of `rigid_limit`.
+        Datasets of the stage rigid_limit.
 
     Returns
     -------
@@ -66,7 +67,7 @@ def draw_rigid_limit(*, rigid_limit):
 
 
 def draw_map(axes, data, values, norm):
-    """One map, with the frequency along x and the stiffness along y."""
+    """Draw one map of an error, with frequency along x and stiffness along y."""
     x, y = data["frequency"].values, data["stiffness"].values
     error = np.abs(values.values.T)
     cells = mesh(axes, x, y, np.where(error < SMALLEST, SMALLEST, error), norm)
@@ -87,7 +88,7 @@ def draw_map(axes, data, values, norm):
 
 
 def draw_orders(axes, rigid_limit):
-    """Errors of max |Z1| against stiffness at the frequency of the design, and their slopes."""
+    """Draw the errors of max |Z1| over stiffness at the design frequency, with guiding slopes."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, line = data["stiffness"], curve(index)
@@ -116,7 +117,4 @@ def draw_orders(axes, rigid_limit):
 
 def title(data):
     """Parameters of a damper."""
-    given = parameters_of(data)
-    return (
-        f"$r_m={given['mass_ratio']:g}$, $d_0={given['clearance']:g}$, $e={given['restitution']:g}$"
-    )
+    return parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")

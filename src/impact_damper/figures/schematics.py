@@ -1,4 +1,4 @@
-"""The five schemes of the paper, drawn from primitives: figures 1, 9, 12, 17 and B1."""
+"""The schematics of the paper: figures 1, 9, 12, 17 and B1."""
 
 from itertools import pairwise
 
@@ -34,7 +34,7 @@ from impact_damper.figures.style import (
 
 
 def carriage(axes):
-    """Primary mass on its rail, held by springs and a dashpot, forced from the right."""
+    """Draw the primary mass on its rail, with springs and dashpot on the left and the force."""
     ground(axes, (0.35, 2.5), (0.35, 0.3))
     ground(axes, (0.35, 0.3), (6.75, 0.3))
     mass(axes, 2.05, 0.46, 3.9, 1.86)
@@ -52,7 +52,7 @@ def carriage(axes):
 
 
 def slot(axes, contact):
-    """Slot with the loose mass midway between two contacts, each drawn by `contact`."""
+    """Draw the slot with the loose mass midway between two contacts, each drawn by `contact`."""
     mass(axes, 2.5, 0.66, 3.0, 1.46, WHITE)
     wheels(axes, (3.85, 4.15), 0.66, 0.04)
     mass(axes, 3.68, 0.74, 0.64, 0.90, PALE_SKY)
@@ -67,13 +67,13 @@ def slot(axes, contact):
 
 
 def elastic_contact(axes, wall, plate):
-    """Contact spring k2 from a wall of the slot to its plate."""
+    """Draw a contact spring k2 between a wall of the slot and a plate."""
     spring(axes, wall, plate, 1.19, 4)
     letter(axes, (wall + plate) / 2, 1.41, "$k_2$")
 
 
 def inelastic_contact(axes, wall, plate):
-    """Contact spring k2 and dashpot c2 side by side from a wall of the slot to their plate."""
+    """Draw a contact spring k2 and a dashpot c2 in parallel between a wall and a plate."""
     spring(axes, wall, plate, 1.39, 4)
     dashpot(axes, wall, plate, 0.99, 0.16)
     letter(axes, (wall + plate) / 2, 1.59, "$k_2$")
@@ -99,25 +99,28 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Points of the sheet, shape (n, 2): u to the right and v into the page, in a level plane."""
+    """Sheet coordinates, shape (n, 2), of points of a horizontal plane seen in perspective.
+
+    u points to the right, v into the page; `level` is the height of the plane.
+    """
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
 
 
 def region(axes, u, v, level, color):
-    """Filled region of a plane."""
+    """Draw a filled region of a plane."""
     axes.add_patch(Polygon(place(u, v, level), **filled(color)))
 
 
-def attractor(axes, centre, radius, level, color, **others):
-    """Closed orbit, a circle in its plane."""
+def attractor(axes, centre, radius, level, color, **keywords):
+    """Draw a closed orbit: a circle in a plane."""
     angle = np.linspace(0, 2 * np.pi, 200)
     points = place(centre[0] + radius * np.cos(angle), centre[1] + radius * np.sin(angle), level)
-    stroke(axes, points, color=color, **others)
+    stroke(axes, points, color=color, **keywords)
 
 
-def approach(axes, start, centre, radius, level, color, rate, **others):
-    """Motion from a start that winds onto a circle, with an arrow head on its way."""
+def approach(axes, start, centre, radius, level, color, rate, **keywords):
+    """Draw a trajectory that spirals from a start onto a circle, with an arrow head."""
     offset = np.subtract(start, centre)
     turned = np.linspace(0, 2 * np.pi, 300)
     angle = np.arctan2(offset[1], offset[0]) + turned
@@ -125,12 +128,12 @@ def approach(axes, start, centre, radius, level, color, rate, **others):
     points = place(
         centre[0] + distance * np.cos(angle), centre[1] + distance * np.sin(angle), level
     )
-    stroke(axes, points, "detail", color=color, **others)
+    stroke(axes, points, "detail", color=color, **keywords)
     arrow(axes, points[44], points[50], color=color)
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Switching between two states one above the other, dashed under the edge of a plane."""
+    """Draw a switching between two states at one place of both planes, dashed where hidden."""
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
@@ -139,13 +142,13 @@ def passage(axes, low, high, edge, words, upward):
 
 
 def state(axes, position, symbol, shift):
-    """Named state of the oscillator."""
+    """Draw a state of the oscillator with its symbol."""
     axes.add_patch(Circle(position, 0.032, color=BLACK, zorder=4))
     letter(axes, *np.add(position, shift), symbol)
 
 
 def triad(axes, x, y):
-    """Directions of the planes and of the height between them."""
+    """Draw the axes of the planes and the vertical axis."""
     for end, symbol, shift in (
         ((x + 0.34, y), "$Z_1$", (0.12, 0)),
         ((x + 0.2, y + 0.24), "$Z_1\u2032$", (0.09, 0.09)),
@@ -156,7 +159,7 @@ def triad(axes, x, y):
 
 
 def planes(axes, off, on):
-    """States without the damper, in two basins, and above them those with it, in one."""
+    """Draw the plane of states without the damper, two basins, and the plane with damper, one."""
     right = 5.3
     v = np.linspace(0, 2, 100)
     border = 2.5 + 0.22 * np.sin(2.6 * v)
@@ -179,7 +182,7 @@ def planes(axes, off, on):
 
 @style()
 def migration_scheme():
-    """Figure 12: from one attractor of the free oscillator to another by way of the damped one."""
+    """Figure 12: migration from one attractor of the free oscillator to another."""
     axes = sheet("double", 3.6)
     off, on = 0.15, 2.1
     bad, goal, damped = (1.35, 1.0), (4.35, 1.0), (2.95, 1.0)

@@ -1,4 +1,4 @@
-"""Maps of the largest displacement over mass ratio and clearance."""
+"""Maps of the largest displacement over mass ratio and clearance (kind studies)."""
 
 from itertools import product
 
@@ -9,18 +9,18 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.maps import hatch, mesh, span
 from impact_damper.figures.style import BLACK, ROLES, axis_label, figure, legend, style
 
-# Of the hatching: cells in which not all starts settled.
+# Hatching of the cells in which not all starts settled.
 UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
 
 
 @style()
 def draw_studies(*, studies):
-    """A panel for each pair of a frequency, along a row, and a restitution.
+    """Draw one panel for each restitution (row) and frequency (column).
 
     Parameters
     ----------
     studies : list of xarray.Dataset
-        One, of `gather_chunks`.
+        One dataset of the stage studies.
 
     Returns
     -------

@@ -1,7 +1,7 @@
-"""One look for all figures: fonts, colours, roles of curves, sizes, and how a figure is saved.
+"""Common style of all figures: fonts, colours, roles of curves, sizes, labels, saving.
 
-The palette is that of Okabe and Ito, which colour-blind readers can tell apart.
-Roles that meet in one figure differ in marker or line as well, for grey print.
+The palette of Okabe and Ito can be distinguished by colour-blind readers. Roles that occur in the
+same figure also differ in marker or line style, for grey print.
 """
 
 import io
@@ -35,7 +35,8 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # At a set height, titles are not kept clear of ticks, which takes a fifth of the drawing.
+    # With a fixed title height matplotlib does not search for a position clear of the ticks, which
+    # would take a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -54,11 +55,11 @@ STYLE = {
 }
 
 
-def _line(label, color, **others):
-    return {"label": label, "color": color, **others}
+def _line(label, color, **keywords):
+    return {"label": label, "color": color, **keywords}
 
 
-def _points(label, color, marker, filled=False, **others):
+def _points(label, color, marker, filled=False, **keywords):
     face = color if filled else "none"
     return {
         "label": label,
@@ -66,7 +67,7 @@ def _points(label, color, marker, filled=False, **others):
         "marker": marker,
         "linestyle": "none",
         "markerfacecolor": face,
-        **others,
+        **keywords,
     }
 
 
@@ -74,7 +75,8 @@ def _shading(label, color):
     return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
 
 
-# Keywords for `plot` (the last two for `axvspan`); merge to change one: ROLES[name] | {...}.
+# Keywords of `plot`, for the last two of `axvspan`, by the role of a curve. To change a keyword in
+# one figure: ROLES[name] | {...}.
 ROLES = {
     "free_stable": _line("free, stable", BLACK, zorder=2.2),
     "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
@@ -131,7 +133,7 @@ ROLES = {
     "band": _shading("suppression band (harmonic balance)", PALE_YELLOW),
 }
 
-# Colour, dashes and marker of the curves of one figure that differ in a parameter.
+# Colour, dashes and marker of curves that differ in a parameter.
 CURVES = [
     (BLUE, "-", "o"),
     (VERMILION, (0, (5, 2)), "s"),
@@ -142,12 +144,12 @@ CURVES = [
 
 
 def style(*changes):
-    """The common style, with changes to it, for a block or as a decorator of a drawing function."""
+    """Context manager or decorator that applies the common style, with optional changes."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
 
 def figure(column, height) -> Figure:
-    """Empty figure of a column's width.
+    """Empty figure with the width of one or two columns of a page.
 
     Parameters
     ----------
@@ -159,7 +161,7 @@ def figure(column, height) -> Figure:
     Raises
     ------
     ValueError
-        If there is no such column.
+        If `column` is another word.
     """
     if column not in COLUMNS:
         raise ValueError(f"column = {column!r}: must be one of {', '.join(COLUMNS)}")
@@ -167,24 +169,41 @@ def figure(column, height) -> Figure:
 
 
 def curve(index) -> dict:
-    """Keywords for `plot`: the line of curve `index`, counted from 0 (see `CURVES`)."""
+    """Keywords of `plot`: line of the curve `index` in `CURVES`, counted from 0."""
     color, dashes, _ = CURVES[index]
     return {"color": color, "linestyle": dashes}
 
 
 def points(index) -> dict:
-    """Keywords for `plot`: the open markers that belong to the line of curve `index`."""
+    """Keywords of `plot`: open markers that go with the line of the curve `index`."""
     color, _, marker = CURVES[index]
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 
 
+# Mathtext of parameters.
+SYMBOLS = {
+    "damping": "h",
+    "linear_frequency": r"\omega_l",
+    "mass_ratio": "r_m",
+    "clearance": "d_0",
+    "restitution": "e",
+    "contact_stiffness": "r_1",
+    "frequency": r"\Omega",
+}
+
+
+def parameter_label(parameters, *names, separator=", ") -> str:
+    """Symbols and values of parameters, as "$r_m = 0.12$, $e = 1$"."""
+    return separator.join(f"${SYMBOLS[name]} = {parameters[name]:g}$" for name in names)
+
+
 def axis_label(variable) -> str:
-    """Words, symbol and units of a dataset's variable, as "Forcing frequency, $\\Omega$".
+    """Axis label of a variable: description, symbol, units, as "Forcing frequency, $\\Omega$".
 
     Parameters
     ----------
     variable : xarray.DataArray
-        With the attributes `long_name`, `units` and, where it has one, `symbol`.
+        With the attributes `long_name`, `units` and optionally `symbol` of the registry.
     """
     words, units = variable.attrs["long_name"], variable.attrs["units"]
     label = words[0].upper() + words[1:]
@@ -194,7 +213,7 @@ def axis_label(variable) -> str:
 
 
 def tex(symbol) -> str:
-    """Mathtext of a registered symbol: words as commands and digits as indices.
+    """Mathtext of a symbol of the registry: words become commands, digits become indices.
 
     "Omega_p" becomes "\\Omega _p", and "max |Z1|" becomes "\\max\\,|Z_{1}|".
     """
@@ -204,13 +223,13 @@ def tex(symbol) -> str:
 
 
 def letter_panels(panels) -> None:
-    """Letter the axes (a), (b), ... at their upper left corners, outside the frame."""
+    """Label the axes (a), (b), ... at their upper left corners, outside the frame."""
     for letter, axes in zip(string.ascii_lowercase, panels, strict=False):
         axes.set_title(f"({letter})", loc="left")
 
 
 def legend(figure, columns) -> None:
-    """One legend below all axes of the figure; a label that several axes share is shown once."""
+    """Add one legend below all axes of a figure; each label is listed once."""
     entries = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
@@ -228,11 +247,11 @@ def draw_first() -> None:
 
 
 def save(figure, path) -> None:
-    """Write `path`.pdf and `path`.png, whole or not at all, the same bytes at every run.
+    """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
 
-    The layout is settled first and then kept, so that both files and any later
-    ones show the same picture. With the engine taken off, and not replaced by "none",
-    matplotlib does not draw all of it once more before it writes a file.
+    The layout is computed once and then fixed, so that both files show the same picture. Removing
+    the layout engine, instead of setting it to "none", saves matplotlib a second drawing before
+    each file.
     """
     with style():
         if figure.get_layout_engine() is not None:
