@@ -7,6 +7,7 @@ import numpy as np
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals.averages import STATISTICS
 from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import Damper, Oscillator, pick
 
 # Quantities of which an accuracy is asked: of a motion that can be followed, and of a chaotic one.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
@@ -80,8 +81,10 @@ def reference_of(scene, stored):
     """
     p, begin = scene.p, strobe_time(scene.p)
     end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
-    given = [value if value is not None else np.inf for value in stored["parameters"]]
-    same = np.array_equal(given, p) and stored["first"] == list(scene.state)
+    given = stored["parameters"]
+    damper = Damper(**pick(Damper, given)) if "mass_ratio" in given else None
+    system = pack(Oscillator(**pick(Oscillator, given)), damper, given["frequency"])
+    same = np.array_equal(system, p) and stored["first"] == list(scene.state)
     if not same or abs(stored["end"] - end) > 1e-9:
         raise ValueError(
             "reference: belongs to other parameters, another start or another number of periods "

@@ -103,7 +103,7 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     ----------
     method : int
         Number in `NAMES`.
-    p : array, shape (7,)
+    p : array, shape (packed.COUNT,)
         Packed parameters (`parameters.pack`).
     start : array, shape (4,)
     t : float

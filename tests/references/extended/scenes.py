@@ -8,7 +8,7 @@ keeps them, plain `json.loads` rounds to doubles. For each scene, a chaotic one 
 no method can follow to its end:
 
 parameters
-    The seven doubles of `parameters.pack`, so that a changed scene is noticed.
+    Parameters of oscillator and damper, and the frequency, so that a changed scene is noticed.
 start, end
     Times of the run, doubles: W T = pi/2, and `start + periods * (2 pi/W)` in double arithmetic.
 first, state
@@ -37,7 +37,7 @@ import numpy as np
 import yaml
 
 from impact_damper.system.packed import pack
-from impact_damper.system.parameters import Damper, Oscillator, pick
+from impact_damper.system.parameters import Damper, Oscillator, describe, pick
 from references import extended
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -45,7 +45,7 @@ FILE = ROOT / "workflow" / "resources" / "references.json"
 
 
 def configured_scenes():
-    """Yield name, packed parameters, state and periods of each scene that is not chaotic."""
+    """Yield name, parameters, state and periods of each scene that is not chaotic."""
     config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
     for name, scene in config["scenes"].items():
         if scene["motion"] == "chaotic":
@@ -54,12 +54,15 @@ def configured_scenes():
         if "mass_ratio" in scene:
             damper = Damper(**pick(Damper, config | scene))
         oscillator = Oscillator(**pick(Oscillator, config["oscillators"][scene["oscillator"]]))
-        p = pack(oscillator, damper, scene["frequency"])
-        yield name, p, np.array(scene["state"], float), scene["periods"]
+        parameters = describe(oscillator, damper) | {"frequency": scene["frequency"]}
+        yield name, parameters, np.array(scene["state"], float), scene["periods"]
 
 
-def reference(p, state, periods):
+def reference(parameters, state, periods):
     """What the file holds of one scene."""
+    damper = Damper(**pick(Damper, parameters)) if "mass_ratio" in parameters else None
+    oscillator = Oscillator(**pick(Oscillator, parameters))
+    p = pack(oscillator, damper, parameters["frequency"])
     period, start = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
     times = start + period * np.arange(1, periods + 1)
     run = extended.run(p, state, start, times)
@@ -71,7 +74,7 @@ def reference(p, state, periods):
         for name in ("states", "extremes", "contacts")
     }
     return {
-        "parameters": p,
+        "parameters": parameters,
         "start": start,
         "end": times[-1],
         "first": state,
@@ -87,7 +90,11 @@ def reference(p, state, periods):
 
 
 def _text(value):
-    """JSON of a number or of an array of numbers."""
+    """JSON of a number, or of an array or a dictionary of numbers."""
+    if isinstance(value, dict):
+        return (
+            f"{{{', '.join(f'{json.dumps(key)}: {_text(part)}' for key, part in value.items())}}}"
+        )
     if np.ndim(value):
         return f"[{', '.join(_text(part) for part in value)}]"
     if not np.isfinite(value):
