@@ -11,9 +11,9 @@ from impact_damper.motions import ensemble, strobe_map
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.quiet_orbits import (
     PHASE,
+    find_quiet_orbit,
+    follow_quiet_orbits,
     is_symmetric_pair,
-    land,
-    quiet_orbits,
     straight_flight_end,
 )
 from impact_damper.orbits.shooting import STROBE, shoot
@@ -32,7 +32,7 @@ def row(damper, frequencies, oscillator=PAPER):
 def seeded(parameters, state, column=-1):
     states = np.full((*parameters.shape[:2], 4), np.nan)
     states[0, column] = state
-    return quiet_orbits(parameters, states)
+    return follow_quiet_orbits(parameters, states)
 
 
 def at_phase(p, state):
@@ -45,8 +45,8 @@ def orbit_at(damper, frequency, design_orbit):
     y, p = at_phase(design_orbit.parameters, design_orbit.state), design_orbit.parameters
     for q in (pack(PAPER, damper, 2.0), pack(PAPER, damper, frequency)):
         for share in np.linspace(0, 1, 201)[1:]:
-            orbit, hindrance = land((1 - share) * p + share * q, y)
-            assert hindrance == ""
+            orbit, status = find_quiet_orbit((1 - share) * p + share * q, y)
+            assert status == "found"
             y = orbit.state
         p = q
     return orbit
@@ -59,13 +59,13 @@ def settled(orbit, push):
 
 
 def test_multipliers_are_squares_of_those_of_the_root(design_orbit):
-    orbit, hindrance = land(
+    orbit, status = find_quiet_orbit(
         design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state)
     )
     _, _, multiplier = strobe_map.polish(
         design_orbit.parameters, design_orbit.state.copy(), 1, 0.1, 1e-12
     )
-    assert hindrance == ""
+    assert status == "found"
     found = seeded(design_orbit.parameters[None, None], design_orbit.state).multiplier[0, 0]
     assert abs(found**2) == pytest.approx(abs(multiplier), abs=1e-9)
     decay = np.exp(-0.215 * np.pi / 2.0)
@@ -75,7 +75,9 @@ def test_multipliers_are_squares_of_those_of_the_root(design_orbit):
 def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
     frequencies = np.arange(1.0, 2.01, 0.04)
     found = seeded(row(DESIGN, frequencies), design_orbit.state)
-    orbit, _ = land(design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state))
+    orbit, _ = find_quiet_orbit(
+        design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state)
+    )
     branch = follow_branch(lambda w: pack(PAPER, DESIGN, w), orbit, 2.0, (1.0, 2.0))
     folds = [event.point.value for _, event in branch.events if event.kind == "fold"]
     end = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
@@ -118,11 +120,13 @@ def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design_orbit):
     grid = np.concatenate([row(replace(DESIGN, clearance=d), frequencies) for d in clearances])
     states = np.full((3, 6, 4), np.nan)
     states[2, -1] = design_orbit.state
-    first = quiet_orbits(grid, states)
-    corner, _ = land(grid[0, 1], orbit_at(replace(DESIGN, clearance=1.6), 1.2, design_orbit).state)
+    first = follow_quiet_orbits(grid, states)
+    corner, _ = find_quiet_orbit(
+        grid[0, 1], orbit_at(replace(DESIGN, clearance=1.6), 1.2, design_orbit).state
+    )
     states = np.full((3, 6, 4), np.nan)
     states[0, 1] = corner.strobe_states[0]
-    second = quiet_orbits(grid, states)
+    second = follow_quiet_orbits(grid, states)
     assert np.isnan(first.displacement[:, 0]).all() and np.isfinite(first.displacement[:, 1:]).all()
     assert np.allclose(first.displacement, second.displacement, atol=1e-9, equal_nan=True)
 
@@ -157,11 +161,11 @@ def test_straight_flight_end():
 
 
 def test_a_row_without_a_known_orbit_is_said_to_have_none():
-    found = quiet_orbits(row(DESIGN, [1.9, 2.0]), np.full((1, 2, 4), np.nan))
+    found = follow_quiet_orbits(row(DESIGN, [1.9, 2.0]), np.full((1, 2, 4), np.nan))
     assert (found.end_event == flag("quiet_end_event", "no_orbit")).all()
     assert np.isnan(found.end).all()
 
 
 def test_shapes_are_checked():
     with pytest.raises(ValueError, match="must be of shapes"):
-        quiet_orbits(np.zeros((2, 3, packed.COUNT)), np.zeros((3, 2, 4)))
+        follow_quiet_orbits(np.zeros((2, 3, packed.COUNT)), np.zeros((3, 2, 4)))

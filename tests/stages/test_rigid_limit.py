@@ -1,7 +1,6 @@
 """The quiet motion between rigid walls, mended walls and compliant ones."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,8 +10,9 @@ from numpy.testing import assert_allclose
 from impact_damper.contact.rigid_orbits import mended_orbit, rigid_orbit
 from impact_damper.data.datasets import flag
 from impact_damper.figures.rigid_limit import draw_rigid_limit
-from impact_damper.orbits.grid_following import flood, march
-from impact_damper.stages.rigid_limit import compliant_orbit, rigid_limit
+from impact_damper.orbits.compliant_orbits import compliant_orbit
+from impact_damper.stages.rigid_limit import rigid_limit
+from impact_damper.system.packed import pack
 from impact_damper.tables.contact import rigid_limit as table
 
 NEAR = 0.2
@@ -28,8 +28,8 @@ def test_orders(damper, name):
     errors = []
     for stiffness in (1e5, 1e6):
         each = replace(damper, contact_stiffness=stiffness)
-        soft, status = compliant_orbit(PAPER, each, 2.0, guess, NEAR)
-        assert status == 0
+        soft, status = compliant_orbit(pack(PAPER, each, 2.0), guess, NEAR)
+        assert status == "found"
         plain, _ = rigid_orbit(PAPER, each, 2.0, guess, NEAR)
         mended, _ = mended_orbit(PAPER, each, 2.0, plain, NEAR)
         errors.append([np.max(np.abs(each.state - soft.state)) for each in (plain, mended)])
@@ -44,32 +44,6 @@ def test_an_orbit_repeats_and_is_symmetric():
     mirrored, _ = rigid_orbit(PAPER, INELASTIC, 2.0, -orbit.state, NEAR)
     # the mirror image half a period on is the same motion, at the strobe another state
     assert mirrored is None
-
-
-def grid(lost):
-    """Flood of five times five points from a corner, without the points that are lost."""
-
-    def solve(point, _):
-        return (None, 1) if lost(*point) else (SimpleNamespace(state=point), 0)
-
-    axes = np.arange(5.0), np.arange(5.0)
-    first = SimpleNamespace(state=np.zeros(2))
-    return solve, first, *flood(solve, axes, (0, 0), first, 9)
-
-
-def test_a_flood_goes_round_a_slit():
-    solve, first, found, status = grid(lambda x, y: abs(x - 2) < 0.2 and y < 3)
-    assert [tuple(cell) for cell in np.argwhere(status)] == [(2, 0), (2, 1), (2, 2)]
-    assert len(found) == 22
-    assert march(solve, np.zeros(2), np.array([2.0, 0.0]), first) == (None, 1)
-    assert_allclose(march(solve, np.zeros(2), np.array([1.0, 4.0]), first)[0].state, [1, 4])
-
-
-def test_a_flood_stops_at_a_wall():
-    _, _, found, status = grid(lambda x, y: x > 1.5)
-    assert len(found) == 10
-    assert_allclose(status[2], 1)
-    assert_allclose(status[3:], 9)
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +77,7 @@ def test_stiffness_needed(limit):
             continue
         each = replace(INELASTIC, contact_stiffness=float(r1))
         guess = polished_orbit("inelastic").state
-        soft, _ = compliant_orbit(PAPER, each, 1.95, guess, NEAR)
+        soft, _ = compliant_orbit(pack(PAPER, each, 1.95), guess, NEAR)
         assert float(row.rigid_displacement) / soft.displacement - 1 == pytest.approx(level, 0.05)
 
 

@@ -14,19 +14,19 @@ from impact_damper.system.parameters import Damper
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
 def test_orbits_return_by_heyoka(damper, heyoka_references):
-    found = steps.quiet_orbits(PAPER, damper, 2.0, [100.0, 2000.0, 1e5])
+    found = steps.orbits_over_stiffness(PAPER, damper, 2.0, [100.0, 2000.0, 1e5])
     for orbit in found:
         begin = 0.25 * math.pi
         run = heyoka_references[0].run(orbit.parameters, orbit.state, begin, [begin + math.pi])
         assert len(run.contacts) == 2
         assert_allclose(run.states[-1], orbit.state, atol=1e-8)
-        assert orbit.multiplier < 1
+        assert abs(orbit.multiplier) < 1
 
 
 def test_the_displacement_tends_to_that_of_rigid_walls():
     """At rate r1^(-1/2), with which the time in contact goes to zero."""
     r1 = 10.0 ** np.array([4.0, 5.0, 6.0, 7.0])
-    found = steps.quiet_orbits(PAPER, DESIGN, 2.0, r1)
+    found = steps.orbits_over_stiffness(PAPER, DESIGN, 2.0, r1)
     sizes = np.array([orbit.displacement for orbit in found])
     differences = np.diff(sizes)
     assert_allclose(differences[:-1] / differences[1:], math.sqrt(10), rtol=0.1)
@@ -71,4 +71,4 @@ def test_cells_are_what_the_deviation_says():
 
 def test_no_quiet_motion_is_told():
     with pytest.raises(ArithmeticError, match="has no quiet motion"):
-        steps.quiet_orbits(PAPER, Damper(0.12, 0.3), 1.0, [1000.0])
+        steps.orbits_over_stiffness(PAPER, Damper(0.12, 0.3), 1.0, [1000.0])

@@ -13,7 +13,6 @@ import numpy as np
 
 from impact_damper.contact.contact_law import damping_ratio, natural_frequency
 from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rigid_map
-from impact_damper.data.datasets import flag
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE, DASHPOT, pack
 
@@ -65,8 +64,9 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
     Returns
     -------
     orbit : RigidOrbit or None
-    status : int
-        Flag of `rigid_status`.
+    status : str
+        "found"; "not_followed" if Newton's method fails; "other_contacts" if the orbit has not two
+        symmetric impacts a period; "chatter" if impacts follow each other without end.
     """
     p = pack(oscillator, damper, frequency)
     return _solve(p, damper.restitution, guess, reach)
@@ -82,21 +82,21 @@ def _solve(p, restitution, guess, reach):
             p, restitution, y, POLISH_TOLERANCE
         )
         if impacts == MOST_IMPACTS:
-            return None, flag("rigid_status", "chatter")
+            return None, "chatter"
         if impacts == 0:
             break
         change = np.linalg.solve(np.eye(4) - matrix, state - y)
         if np.max(np.abs(change)) < CONVERGED:
             if impacts != IMPACTS or abs(first[0] - slowest) > SAME_SPEED * first[0]:
-                return None, flag("rigid_status", "other_contacts")
+                return None, "other_contacts"
             values = np.linalg.eigvals(matrix)
             largest_value = values[np.argmax(np.abs(values))]
             dominant = complex(largest_value.real, abs(largest_value.imag))
-            return RigidOrbit(y, dominant, largest, *first, k + 1), flag("rigid_status", "found")
+            return RigidOrbit(y, dominant, largest, *first, k + 1), "found"
         y = y + change
         if not np.max(np.abs(y - guess)) < reach:
             break
-    return None, flag("rigid_status", "not_followed")
+    return None, "not_followed"
 
 
 def mended(oscillator, damper, orbit):

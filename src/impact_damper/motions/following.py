@@ -1,8 +1,8 @@
 """Follow an orbit from one value of a parameter to another, by prediction and correction.
 
-This is the only following over given values; `orbits.continuation` follows a branch by its
-arclength, past folds. A prediction extrapolates the last two orbits. The correction, by Newton's
-method, is the caller's. A step that fails is halved.
+All following over given values is done here; `orbits.continuation` follows a branch by its
+arclength, past folds. A step predicts the state at the next value and corrects it by Newton's
+method, which the caller supplies. A step that fails is halved.
 """
 
 import math
@@ -70,7 +70,16 @@ class StrobeOrbit(NamedTuple):
 
 
 def follow(
-    correct: Callable, start, target, orbit, *, shortest, growth=GROWTH, reach=math.inf, behind=None
+    correct: Callable,
+    start,
+    target,
+    orbit,
+    *,
+    shortest,
+    growth=GROWTH,
+    reach=math.inf,
+    extrapolating=True,
+    behind=None,
 ) -> Followed:
     """Follow an orbit from one value of a parameter to another, or as far as it goes.
 
@@ -89,9 +98,11 @@ def follow(
         Factor by which a step grows after success.
     reach : float
         A step also fails if Z1, Z1' or Z2 changes by as much: it may lead to another orbit.
+    extrapolating : bool
+        Whether predictions extrapolate the last two orbits; otherwise the prediction is the state
+        of the last orbit.
     behind : optional
-        Orbit at 2 start - target, from which the first prediction extrapolates. Without it the
-        first prediction is the state at the start.
+        Orbit at 2 start - target, with which the first prediction extrapolates too.
 
     Returns
     -------
@@ -104,7 +115,7 @@ def follow(
             step = target - value
         ahead = target if step == target - value else value + step
         state = orbit.state.copy()
-        if behind is not None:
+        if extrapolating and behind is not None:
             extrapolate(state, behind.state, step / last_step)
         found, status = correct(ahead, state)
         if found is not None and np.max(np.abs(found.state - orbit.state)[:3]) < reach:

@@ -1,86 +1,135 @@
-"""Orbits over a grid of parameters, followed from cell to cell."""
+"""Orbits over a grid of parameters, each followed from a neighbouring cell."""
 
 from collections import deque
 
 import numpy as np
 
-# Between neighbouring cells a step is halved down to this part of their distance.
+from impact_damper.data.datasets import flag
+from impact_damper.motions.following import Followed, follow
+
+# Between neighbouring cells a step that fails is halved down to this share of their distance.
 SHORTEST = 1 / 32
 
 
-def march(solve, start, goal, orbit):
-    """Follow an orbit from point to point, its steps halved down to SHORTEST where it must be.
+def follow_line(
+    correct, first, last, orbit, *, shortest=SHORTEST, extrapolating=False, behind=None
+) -> Followed:
+    """Follow an orbit along the straight line from one point in the parameters to another.
 
     Parameters
     ----------
-    solve : callable
-        Maps a point and a guess of the state to an orbit or None, and a status.
-    start, goal : array
+    correct : callable
+        Maps a point and a predicted state to an orbit with the attribute `state`, or None, and a
+        status, which is "found" for an orbit.
+    first, last : array, shape (m,)
         Points.
-    orbit : Orbit or RigidOrbit
-        At the start.
+    orbit
+        Orbit at the first point.
+    shortest : float
+        Shortest step tried, as a share of the distance.
+    extrapolating : bool
+        Whether predictions extrapolate. Only then does a step grow again after a success, because
+        without it a longer step that has failed would fail again.
+    behind : optional
+        Orbit at 2 first - last, with which the first prediction extrapolates too.
 
     Returns
     -------
-    orbit : or None
-        At the goal.
-    status : int
-        Of the last solution sought.
+    Followed
+        Its values are shares of the distance, from 0 to 1.
     """
-    gone, step = 0.0, 1.0
-    while gone < 1.0:
-        ahead = min(1.0, gone + step)
-        found, status = solve(start + ahead * (goal - start), orbit.state)
-        if found is not None:
-            gone, orbit = ahead, found
-        elif step > SHORTEST:
-            step /= 2
-        else:
-            return None, status
-    return orbit, status
+
+    def correct_at(share, guess):
+        return correct((1 - share) * first + share * last, guess)
+
+    return follow(
+        correct_at,
+        0.0,
+        1.0,
+        orbit,
+        shortest=shortest,
+        growth=2.0 if extrapolating else 1.0,  # exact in binary, so that shares add up to 1
+        extrapolating=extrapolating,
+        behind=behind,
+    )
 
 
-def flood(solve, axes, cell, orbit, unseen):
-    """Orbits over a grid, from one cell to its neighbours and on, as far as they can be followed.
+class Grid:
+    """The orbits found so far in the cells of a grid.
 
     Parameters
     ----------
-    solve
-        As in `march`.
-    axes : sequence of array
-        Coordinates of the cells along each dimension.
-    cell : tuple of int
-        Where the orbit is.
-    orbit : Orbit or RigidOrbit
-    unseen : int
-        Status of cells of which no neighbour has an orbit.
+    points : array, shape (*shape, m)
+        Parameters of the cells.
+    correct, shortest
+        As of `follow_line`.
+    axes : sequence of int, optional
+        Axes of the grid in the order in which orbits are followed along them; by default the
+        first axis first.
+    extrapolating : bool
+        As of `follow_line`; the orbit behind is that of the cell on the other side.
 
-    Returns
-    -------
-    found : dict
-        Orbits by cell.
-    status : array of int
+    Attributes
+    ----------
+    orbits : dict
+        Orbits by cell, a tuple of indices.
+    status : dict
+        Status of the search in each cell to which an orbit was followed.
     """
-    status = np.full([len(axis) for axis in axes], unseen)
-    found, status[cell] = {cell: orbit}, 0
-    queue = deque([cell])
-    while queue:
-        here = queue.popleft()
-        for dimension in range(len(axes)):
-            for step in (-1, 1):
-                there = tuple(np.add(here, step * np.eye(len(axes), dtype=int)[dimension]))
-                inside = 0 <= there[dimension] < len(axes[dimension])
-                if not inside or there in found:
+
+    def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
+        self.points, self.correct = points, correct
+        self.shortest, self.extrapolating = shortest, extrapolating
+        self.shape = points.shape[:-1]
+        axes = range(len(self.shape)) if axes is None else axes
+        unit = np.eye(len(self.shape), dtype=int)
+        self._directions = [turn * unit[axis] for axis in axes for turn in (-1, 1)]
+        self.orbits, self.status = {}, {}
+
+    def put(self, cell, orbit):
+        """Enter a known orbit."""
+        self.orbits[cell], self.status[cell] = orbit, "found"
+
+    def spread(self):
+        """Follow orbits into neighbouring cells until no further cell is reached.
+
+        Cells are visited in the order in which their orbits were entered, so that cells near to
+        known orbits come first.
+        """
+        queue = deque(self.orbits)
+        while queue:
+            cell = queue.popleft()
+            for direction in self._directions:
+                target = self.beside(cell, direction)
+                if target is None or target in self.orbits:
                     continue
-                next_orbit, status[there] = march(
-                    solve, point_of(axes, here), point_of(axes, there), found[here]
-                )
-                if next_orbit is not None:
-                    found[there] = next_orbit
-                    queue.append(there)
-    return found, status
+                followed = self.follow(cell, direction)
+                self.status[target] = followed.status
+                if followed.arrived:
+                    self.orbits[target] = followed.orbit
+                    queue.append(target)
 
+    def beside(self, cell, direction):
+        """Return the neighbour of a cell in a direction, or None beyond the grid."""
+        target = tuple(int(i) for i in np.add(cell, direction))
+        inside = all(0 <= i < size for i, size in zip(target, self.shape, strict=True))
+        return target if inside else None
 
-def point_of(axes, cell):
-    """Coordinates of a cell."""
-    return np.array([axis[i] for axis, i in zip(axes, cell, strict=True)])
+    def follow(self, cell, direction) -> Followed:
+        """Follow the orbit of a cell to the neighbour in a direction, as `follow_line` does."""
+        return follow_line(
+            self.correct,
+            self.points[cell],
+            self.points[self.beside(cell, direction)],
+            self.orbits[cell],
+            shortest=self.shortest,
+            extrapolating=self.extrapolating,
+            behind=self.orbits.get(self.beside(cell, np.negative(direction))),
+        )
+
+    def flags(self, variable):
+        """Status of all cells as flags of a variable, not_attempted where there is none."""
+        flags = np.full(self.shape, flag(variable, "not_attempted"))
+        for cell, status in self.status.items():
+            flags[cell] = flag(variable, status)
+        return flags

@@ -12,21 +12,20 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.orbits.shooting import STROBE, Orbit, shoot
+from impact_damper.orbits.compliant_orbits import CONTACTS, SYMMETRIC
+from impact_damper.orbits.grid_following import Grid
+from impact_damper.orbits.shooting import STROBE, shoot
 from impact_damper.system import packed
 
-CONTACTS = 2
-SYMMETRIC = 1e-6
 # Phase W T of the states: contacts lie from about -0.2 to pi/2, and half a period on.
 PHASE = 0.75 * np.pi
 ITERATIONS = 10
-# A step of following that takes an orbit further from its guess fails; steps that fail are
-# halved down to this share of a cell.
+# Newton's method fails where it leads further than this from its guess. A step between cells is
+# halved down to SHORTEST, a share of their distance.
 REACH = 0.05
 SHORTEST = 2.0**-12
-# It is a fold that ends a row if its law foretells one within so many shortest steps.
+# A row ends at a fold if the law of a fold predicts one within this number of shortest steps.
 NEAR = 4
-NEIGHBOURS = ((0, -1), (0, 1), (-1, 0), (1, 0))
 
 
 class QuietOrbits(NamedTuple):
@@ -76,16 +75,13 @@ def is_symmetric_pair(records):
     return two & (records["asymmetry"] < SYMMETRIC)
 
 
-def quiet_orbits(parameters, states) -> QuietOrbits:
-    """Quiet orbits in the cells of a grid, followed from those that are known.
-
-    They are followed from each cell to its neighbours until no further cell is reached, by
-    Newton's method from a linear guess, in steps that are halved where it fails.
+def follow_quiet_orbits(parameters, states) -> QuietOrbits:
+    """Quiet orbits in the cells of a grid, followed from the known ones to all cells they reach.
 
     Parameters
     ----------
     parameters : array, shape (rows, columns, packed.COUNT)
-        Packed parameters of the cells; along a row the frequency changes alone.
+        Packed parameters of the cells; along a row only the frequency changes.
     states : array, shape (rows, columns, 4)
         States of known orbits at W T = pi/2, NaN where none is known.
 
@@ -104,11 +100,14 @@ def quiet_orbits(parameters, states) -> QuietOrbits:
             f"{parameters.shape} and {states.shape} given"
         )
     rows, columns = states.shape[:2]
-    grid = _Grid(parameters)
+    grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
-        grid.begin(cell, states[cell])
+        at_strobe, _ = shoot(parameters[cell], states[cell], 1, STROBE)
+        orbit, _ = find_quiet_orbit(parameters[cell], at_strobe.at(PHASE))
+        if orbit is not None:
+            grid.put(cell, orbit)
     grid.spread()
-    ends, events = zip(*map(grid.row_ends, range(rows)), strict=True)
+    ends, events = zip(*(_row_ends(grid, row) for row in range(rows)), strict=True)
     multiplier = np.full((rows, columns), complex(np.nan, np.nan))
     displacement, harmonic = np.full((2, rows, columns), np.nan)
     for cell, orbit in grid.orbits.items():
@@ -118,124 +117,71 @@ def quiet_orbits(parameters, states) -> QuietOrbits:
     return QuietOrbits(multiplier, displacement, harmonic, np.array(ends), np.array(events))
 
 
-def land(p, guess):
+def find_quiet_orbit(p, guess):
     """Newton's method onto the quiet orbit near a guess of its state at W T = 3 pi/4.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    guess : array, shape (4,)
 
     Returns
     -------
-    Orbit
-        The last one tried.
-    str
-        What hinders it: "" if nothing, not_converged or contacts_change.
+    orbit : Orbit or None
+    status : str
+        "found", "not_converged" or "contacts_change".
     """
     state = guess
     for _ in range(ITERATIONS):
         orbit, end = shoot(p, state, 1, PHASE, symmetric=True)
         if orbit.converged:
-            return orbit, "" if orbit.record["contacts"] == CONTACTS else "contacts_change"
+            if orbit.record["contacts"] != CONTACTS:
+                return None, "contacts_change"
+            return orbit, "found"
         try:
             state = state + np.linalg.solve(np.eye(4) - orbit.root, end - state)
         except np.linalg.LinAlgError:
             break
         if not np.max(np.abs(state - guess)) < REACH:
             break
-    return orbit, "not_converged"
+    return None, "not_converged"
 
 
 def _dominant(orbit):
+    """Multiplier of the root of largest modulus, its imaginary part not negative."""
     values = np.linalg.eigvals(orbit.root)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
 
-class _Walk(NamedTuple):
-    """The last two orbits on the way to a neighbour, at shares of it; what stopped it, if so."""
-
-    shares: tuple
-    orbits: tuple
-    event: str
-
-    def fold(self):
-        """Share at which it ended, and the event: a fold if its law foretells one just there.
-
-        Towards a fold, det(1 - root) falls as the root of the distance from it.
-        """
-        before, share = self.shares
-        gaps = [np.linalg.det(np.eye(4) - each.root) ** 2 for each in self.orbits]
-        if gaps[1] < gaps[0]:
-            ahead = (share - before) * gaps[1] / (gaps[0] - gaps[1])
-            if ahead < NEAR * SHORTEST:
-                return share + ahead, "fold"
-        return share, self.event
+def _row_ends(grid, row):
+    """Columns, as decimals, at which the orbits of a row end, and flags of `quiet_end_event`."""
+    columns = [column for first, column in grid.orbits if first == row]
+    if not columns:
+        return [np.nan] * 2, [flag("quiet_end_event", "no_orbit")] * 2
+    places, events = [], []
+    for column, turn in ((min(columns), -1), (max(columns), 1)):
+        share, event = 0.0, "map_ends"
+        if grid.beside((row, column), (0, turn)) is not None:
+            share, event = _end(grid.follow((row, column), (0, turn)))
+        places.append(column + turn * share)
+        events.append(flag("quiet_end_event", event))
+    return places, events
 
 
-class _Grid:
-    """The orbits found so far, by cell."""
+def _end(followed):
+    """Share of the way at which following ended, and the event there.
 
-    def __init__(self, parameters):
-        self.parameters = parameters
-        self.orbits: dict[tuple, Orbit] = {}
-
-    def begin(self, cell, state):
-        """Take a cell's orbit from its state at W T = pi/2, if it is the quiet one."""
-        p = self.parameters[cell]
-        motion, _ = shoot(p, state, 1, STROBE)
-        orbit, event = land(p, motion.at(PHASE))
-        if event == "":
-            self.orbits[cell] = orbit
-
-    def spread(self):
-        """Follow orbits into the cells beside them, those nearest to known ones first."""
-        front = list(self.orbits)
-        while front:
-            reached = []
-            for cell in front:
-                for direction in NEIGHBOURS:
-                    target = self.beside(cell, direction)
-                    if target is None or target in self.orbits:
-                        continue
-                    walk = self.follow(cell, direction)
-                    if walk.event == "":
-                        self.orbits[target] = walk.orbits[1]
-                        reached.append(target)
-            front = reached
-
-    def beside(self, cell, direction):
-        """The neighbour of a cell, or None beyond the grid."""
-        row, column = cell[0] + direction[0], cell[1] + direction[1]
-        rows, columns = self.parameters.shape[:2]
-        return (row, column) if 0 <= row < rows and 0 <= column < columns else None
-
-    def follow(self, cell, direction):
-        """Follow the orbit of a cell to a neighbour; the one behind foretells its change."""
-        first, last = self.parameters[cell], self.parameters[self.beside(cell, direction)]
-        behind = self.orbits.get(self.beside(cell, (-direction[0], -direction[1])))
-        share, orbit = 0.0, self.orbits[cell]
-        slope = np.zeros(4) if behind is None else orbit.state - behind.state
-        before, step, event = (share, orbit), 1.0, ""
-        while share < 1 and step >= SHORTEST:
-            step = min(step, 1 - share)
-            p = (1 - share - step) * first + (share + step) * last
-            trial, event = land(p, orbit.state + step * slope)
-            if event == "":
-                before = share, orbit
-                slope = (trial.state - orbit.state) / step
-                share, orbit = share + step, trial
-                step *= 2
-            else:
-                step /= 2
-        return _Walk((before[0], share), (before[1], orbit), event)
-
-    def row_ends(self, row):
-        """Columns, in parts of one, at which the orbits of a row end, and what ends them."""
-        columns = [column for first, column in self.orbits if first == row]
-        if not columns:
-            return [np.nan] * 2, [flag("quiet_end_event", "no_orbit")] * 2
-        places, events = [], []
-        for column, turn in ((min(columns), -1), (max(columns), 1)):
-            share, event = 0.0, "map_ends"
-            if self.beside((row, column), (0, turn)) is not None:
-                share, event = self.follow((row, column), (0, turn)).fold()
-            places.append(column + turn * share)
-            events.append(flag("quiet_end_event", event))
-        return places, events
+    Towards a fold, det(1 - root) falls with the square root of the distance from the fold. The
+    event is a fold if this law, through the last two orbits, predicts one close to the last.
+    """
+    if followed.arrived:  # only because the cell behind was not known yet in `spread`
+        return 0.0, "not_converged"
+    before, share = followed.values
+    gaps = [np.linalg.det(np.eye(4) - each.root) ** 2 for each in followed.orbits]
+    if gaps[1] < gaps[0]:
+        ahead = (share - before) * gaps[1] / (gaps[0] - gaps[1])
+        if ahead < NEAR * SHORTEST:
+            return share + ahead, "fold"
+    return share, followed.status

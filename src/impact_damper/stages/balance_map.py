@@ -15,7 +15,11 @@ from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import check_settling
-from impact_damper.orbits.quiet_orbits import is_symmetric_pair, quiet_orbits, straight_flight_end
+from impact_damper.orbits.quiet_orbits import (
+    follow_quiet_orbits,
+    is_symmetric_pair,
+    straight_flight_end,
+)
 from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system import packed
 from impact_damper.system.bounds import check_number
@@ -87,7 +91,8 @@ def balance_map(
     )
     quiet_kind, high_kind = (_kinds(runs, said.resonance) for runs in (quiet_runs, high_runs))
     landed = quiet_kind == flag("quiet_run_motion", "quiet")
-    orbits = quiet_orbits(parameters, np.where(landed[..., None], quiet_runs["state"], np.nan))
+    known = np.where(landed[..., None], quiet_runs["state"], np.nan)
+    orbits = follow_quiet_orbits(parameters, known)
     data = {
         "map_frequency": parameters[..., FREQUENCY],
         "map_clearance": [row.damper.clearance for row in rows],

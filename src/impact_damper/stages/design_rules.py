@@ -12,7 +12,9 @@ from scipy.optimize import minimize_scalar
 from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.motions import records, strobe_map
+from impact_damper.motions.records import trace
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
+from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper, describe
@@ -176,17 +178,12 @@ class QuietMotion:
             return absent
         p = self._parameters.copy()
         p[CLEARANCE] = ratio * self._unit
-        y = np.array([np.interp(ratio, self._ratios, each) for each in self._states])
-        found, _, multiplier = strobe_map.polish(
-            p, y, 1, p[CLEARANCE] / 2, strobe_map.POLISH_TOLERANCE
-        )
-        if not found:
+        guess = np.array([np.interp(ratio, self._ratios, each) for each in self._states])
+        orbit, _ = compliant_orbit(p, guess, p[CLEARANCE] / 2, asymmetry=SAME * p[CLEARANCE])
+        if orbit is None:
             return absent
-        record = records.measured(p, y, 1, strobe_map.POLISH_TOLERANCE)
-        if record["contacts"] != 2 or not record["asymmetry"] < SAME * p[CLEARANCE]:
-            return absent
-        size = record["maximum_displacement"], abs(first_harmonic(p, y))
-        return *(p[FREQUENCY] ** 2 * each for each in size), abs(multiplier)
+        sizes = orbit.displacement, abs(first_harmonic(p, orbit.state))
+        return *(p[FREQUENCY] ** 2 * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
         """The ratio where a size is least, and the kind of minimum; downhill from a guess.
@@ -227,8 +224,8 @@ def first_harmonic(p, y) -> complex:
     From SAMPLES of a period by the trapezoidal rule, whose error for a kink in Z1 is of second
     order: below 1e-5 of what an impact adds.
     """
-    start = strobe_map.strobe_time(p)
+    start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
     states, log = np.empty((SAMPLES + 1, 4)), np.empty((0, 5))
-    records.trace(p, y.copy(), start, times, strobe_map.POLISH_TOLERANCE, states, log)
+    trace(p, y.copy(), start, times, POLISH_TOLERANCE, states, log)
     return 2 * np.mean(states[:-1, 0] * np.exp(-1j * p[FREQUENCY] * times[:-1]))

@@ -6,54 +6,25 @@ or not; the two are compared cell by cell.
 """
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from impact_damper.contact.logged_contacts import extreme_motions
-from impact_damper.contact.rigid_orbits import IMPACTS, mended_orbit, rigid_orbit
+from impact_damper.contact.rigid_orbits import mended_orbit, rigid_orbit
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.motions import records, strobe_map
 from impact_damper.motions.simulate import check_settling
-from impact_damper.orbits.grid_following import flood, march, point_of
+from impact_damper.orbits.compliant_orbits import compliant_orbit
+from impact_damper.orbits.grid_following import Grid, follow_line
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_frequencies, check_frequency, check_increasing
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 
 THRESHOLDS = (0.01, 0.1)
+# Largest distance of an orbit from its prediction.
 REACH = 0.1
-SAME = 1e-6
 # The order is observed where the contact is short.
 STIFF = 1e4
-
-
-class Orbit(NamedTuple):
-    """A symmetric orbit with two compliant contacts; see `RigidOrbit`."""
-
-    state: np.ndarray
-    multiplier: complex
-    displacement: float
-
-
-def compliant_orbit(oscillator, damper, frequency, guess, reach):
-    """Newton's method onto an orbit with compliant contact; arguments as of `rigid_orbit`.
-
-    Returns
-    -------
-    orbit : Orbit or None
-    status : int
-        Flag of `compliant_status`.
-    """
-    p, y = pack(oscillator, damper, frequency), np.array(guess, float)
-    found, _, multiplier = strobe_map.polish(p, y, 1, reach, strobe_map.POLISH_TOLERANCE)
-    if not found:
-        return None, flag("compliant_status", "not_followed")
-    record = records.measured(p, y, 1, strobe_map.POLISH_TOLERANCE)
-    if record["contacts"] != IMPACTS or not record["asymmetry"] < SAME:
-        return None, flag("compliant_status", "other_contacts")
-    orbit = Orbit(y, multiplier, float(record["maximum_displacement"]))
-    return orbit, flag("compliant_status", "found")
 
 
 def rigid_limit(
@@ -94,28 +65,33 @@ def rigid_limit(
     frequencies = check_frequencies(frequencies, "two")
     stiffnesses = check_increasing("stiffnesses", stiffnesses, "two")
     settling = check_settling(settling)
-    axes = frequencies, np.log(stiffnesses)
 
-    def soft(point, guess):
+    def compliant_at(point, guess):
         each = replace(damper, contact_stiffness=float(np.exp(point[1])))
-        return compliant_orbit(oscillator, each, point[0], guess, REACH)
+        return compliant_orbit(pack(oscillator, each, point[0]), guess, REACH)
 
-    def rigid(point, guess):
+    def rigid_at(point, guess):
         return rigid_orbit(oscillator, damper, point[0], guess, REACH)
 
-    here = np.array([frequency, np.log(damper.contact_stiffness)])
+    logarithms = np.log(stiffnesses)
+    own_point = np.array([frequency, np.log(damper.contact_stiffness)])
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
-    stiff = _reached(march(soft, here, np.array([frequency, axes[1][-1]]), quiet), "stiffnesses")
-    own = _reached(rigid(here, stiff.state), "stiffnesses")
-    cell = int(np.argmin(np.abs(axes[0] - here[0]))), int(np.argmin(np.abs(axes[1] - here[1])))
-    first = _reached(march(soft, here, point_of(axes, cell), quiet), "frequencies")
-    compliant = flood(soft, axes, cell, first, flag("compliant_status", "not_attempted"))
-    first = _reached(march(rigid, here[:1], axes[0][cell[0] : cell[0] + 1], own), "frequencies")
-    walls = flood(rigid, axes[:1], cell[:1], first, flag("rigid_status", "not_attempted"))
-    mended = _mended(oscillator, damper, frequencies, stiffnesses, walls[0])
+    stiffest = np.array([frequency, logarithms[-1]])
+    stiff = _reached(follow_line(compliant_at, own_point, stiffest, quiet), "stiffnesses")
+    own, _ = rigid_at(own_point, stiff.state)
+    if own is None:
+        raise ArithmeticError("stiffnesses: the rigid model has no orbit near the stiffest one")
+    row = int(np.argmin(np.abs(frequencies - own_point[0])))
+    column = int(np.argmin(np.abs(logarithms - own_point[1])))
+    points = np.stack(np.meshgrid(frequencies, logarithms, indexing="ij"), axis=-1)
+    compliant = _spread(compliant_at, points, (row, column), own_point, quiet)
+    rigid = _spread(rigid_at, frequencies[:, None], (row,), own_point[:1], own)
+    mended = _mended(oscillator, damper, frequencies, stiffnesses, rigid.orbits)
 
     data = (
-        _columns("compliant", *compliant) | _columns("rigid", *walls) | _columns("mended", *mended)
+        _columns("compliant", compliant.orbits, compliant.flags("compliant_status"))
+        | _columns("rigid", rigid.orbits, rigid.flags("rigid_status"))
+        | _columns("mended", *mended)
     )
     data |= _errors(data)
     data |= _needed(stiffnesses, data["rigid_error"])
@@ -144,7 +120,8 @@ def _quiet(oscillator, damper, frequency, starts, seed, settling):
     """The quiet motion's orbit from random starts."""
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
-        orbit, _ = compliant_orbit(oscillator, damper, frequency, motion["state"], REACH)
+        p = pack(oscillator, damper, frequency)
+        orbit, _ = compliant_orbit(p, motion["state"], REACH)
         if orbit is not None:
             return orbit
     raise ArithmeticError(
@@ -153,24 +130,34 @@ def _quiet(oscillator, damper, frequency, starts, seed, settling):
     )
 
 
-def _reached(result, key):
-    """The orbit that a march arrived at."""
-    if result[0] is None:
+def _spread(correct, points, cell, own_point, orbit):
+    """Return the `Grid` of all orbits that are reached from the one at `own_point` by a cell."""
+    grid = Grid(points, correct)
+    followed = follow_line(correct, own_point, points[cell], orbit)
+    grid.put(cell, _reached(followed, "frequencies"))
+    grid.spread()
+    return grid
+
+
+def _reached(followed, key):
+    """Return the orbit at which following arrived; otherwise raise an error that names a grid."""
+    if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
-    return result[0]
+    return followed.orbit
 
 
 def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
     """Orbits of the mended rigid model by cell, and the status of each."""
-    found = {}
-    status = np.full((len(frequencies), len(stiffnesses)), flag("mended_status", "not_attempted"))
+    orbits = {}
+    flags = np.full((len(frequencies), len(stiffnesses)), flag("mended_status", "not_attempted"))
     for (i,), orbit in rigid.items():
         for j, stiffness in enumerate(stiffnesses):
             each = replace(damper, contact_stiffness=float(stiffness))
-            mended, status[i, j] = mended_orbit(oscillator, each, frequencies[i], orbit, np.inf)
+            mended, status = mended_orbit(oscillator, each, frequencies[i], orbit, np.inf)
+            flags[i, j] = flag("mended_status", status)
             if mended is not None:
-                found[i, j] = mended
-    return found, status
+                orbits[i, j] = mended
+    return orbits, flags
 
 
 def _columns(name, found, status):

@@ -5,15 +5,19 @@ number of them in a forcing period. The linear stability of a method limits h om
 omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an undamped contact.
 """
 
+import itertools
 import math
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
-from impact_damper.motions import ensemble, records, strobe_map
+from impact_damper.motions import ensemble
 from impact_damper.motions.ensemble import Settling
+from impact_damper.motions.following import StrobeOrbit
+from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.orbits.compliant_orbits import compliant_orbit
+from impact_damper.orbits.grid_following import Grid
 from impact_damper.rivals.methods import COMPARED, integrators
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_increasing
@@ -26,29 +30,12 @@ ACCURACIES = (0.01, 0.1)
 # Following in r1: factor of r1 in one step, and how far an orbit may move in one.
 FACTOR = 10.0**0.0625
 REACH = 0.2
+# Local error allowed in the orbits, with which runs are compared.
+EXACT = 1e-13
 # A stable step is reported only if this many tested steps, down to the smallest, hold.
 CONFIRMED = 4
 # The slope in r1 is fitted from here on, where contacts are short against the forcing period.
 STIFF = 1e3
-
-
-class Orbit(NamedTuple):
-    """The quiet orbit at one stiffness, with its state at W T = pi/2.
-
-    Attributes
-    ----------
-    parameters : numpy.ndarray, shape (packed.COUNT,)
-    state : numpy.ndarray, shape (4,)
-    displacement : float
-        max |Z1|.
-    multiplier : float
-        Modulus of the dominant Floquet multiplier.
-    """
-
-    parameters: np.ndarray
-    state: np.ndarray
-    displacement: float
-    multiplier: float
 
 
 def quiet_state(p):
@@ -63,41 +50,59 @@ def quiet_state(p):
     return None
 
 
-def _polished(p, y):
-    """Return the orbit near a state, or None if Newton's method does not converge."""
-    state = y.copy()
-    found, _, multiplier = strobe_map.polish(p, state, 1, REACH, 1e-13)
-    if not found:
-        return None
-    size = records.measured(p, state, 1, 1e-13)["maximum_displacement"]
-    return Orbit(p, state, size, abs(multiplier))
+def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
+    """Quiet orbits at increasing stiffnesses r1, followed from the quiet motion of the damper.
 
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequency : float
+        W.
+    stiffnesses : sequence of float
+        Increasing values of r1.
 
-def quiet_orbits(oscillator, damper, frequency, stiffnesses) -> list:
-    """Return the quiet orbit at each stiffness r1, followed from the damper's, or None."""
-    start = quiet_state(pack(oscillator, damper, frequency))
-    if start is None:
+    Returns
+    -------
+    list of CompliantOrbit or None
+        None where following ended before.
+
+    Raises
+    ------
+    ArithmeticError
+        If the damper has no quiet motion.
+    """
+    state = quiet_state(pack(oscillator, damper, frequency))
+    if state is None:
         raise ArithmeticError(
             f"damper = {damper!r}: has no quiet motion at frequency = {frequency:g}, from which "
             "the stiffness is varied"
         )
-    found = [None] * len(stiffnesses)
-    upward = [i for i, value in enumerate(stiffnesses) if value >= damper.contact_stiffness]
-    downward = [i for i in reversed(range(len(stiffnesses))) if i not in upward]
-    for chain in (upward, downward):
-        here, y = damper.contact_stiffness, start
-        for i in chain:
-            count = math.ceil(abs(math.log(stiffnesses[i] / here)) / math.log(FACTOR))
-            for value in np.geomspace(here, stiffnesses[i], count + 1)[-max(count, 1) :]:
-                p = pack(oscillator, replace(damper, contact_stiffness=float(value)), frequency)
-                found[i] = _polished(p, y)
-                if found[i] is None:
-                    break
-                y = found[i].state
-            if found[i] is None:
-                break
-            here = stiffnesses[i]
-    return found
+
+    def correct(point, guess):
+        each = replace(damper, contact_stiffness=float(point[0]))
+        return compliant_orbit(pack(oscillator, each, frequency), guess, REACH, tolerance=EXACT)
+
+    own = damper.contact_stiffness
+    stiffer = [value for value in stiffnesses if value >= own]
+    softer = [value for value in stiffnesses[::-1] if value < own]
+    found = {}
+    for targets in (stiffer, softer):
+        cells = _in_steps(own, targets)
+        grid = Grid(cells[:, None], correct)
+        grid.put((0,), StrobeOrbit(state, complex(np.nan)))
+        grid.spread()
+        found |= {cells[cell]: orbit for cell, orbit in grid.orbits.items() if cell != (0,)}
+    return [found.get(value) for value in stiffnesses]
+
+
+def _in_steps(own, targets):
+    """Return `own` and then all targets in order, with steps between by at most FACTOR."""
+    cells = [np.array([own])]
+    for before, target in itertools.pairwise([own, *targets]):
+        count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
+        cells.append(np.geomspace(before, target, count + 1)[1:])
+    return np.concatenate(cells)
 
 
 def _verdict(largest, exact, bound):
@@ -183,7 +188,7 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
         "scaled_steps", [check_number("scaled_step", h, above=0.0) for h in scaled_steps]
     )
     scaled = scaled[::-1]
-    orbits = quiet_orbits(oscillator, damper, frequency, stiffnesses)
+    orbits = orbits_over_stiffness(oscillator, damper, frequency, stiffnesses)
     contact = np.sqrt(stiffnesses * (1 + 1 / damper.mass_ratio))
     period = 2 * math.pi / frequency
     counts = np.ceil(period * contact[:, None] / scaled).astype(int)
@@ -198,7 +203,7 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
         "linear_limit": np.array([method.stability_limit for method in methods]),
         "contact_frequency": contact,
         "reference_displacement": _of(orbits, "displacement"),
-        "orbit_multiplier": _of(orbits, "multiplier"),
+        "orbit_multiplier": [abs(each) for each in _of(orbits, "multiplier")],
         "free_bound": bound,
     }
     data |= _step_data(deviations, tested, period / counts, stiffnesses)
@@ -221,7 +226,7 @@ def _cells(methods, orbits, counts, tested, bound, periods):
         if orbit is None:
             verdicts[:, i] = flag("step_verdict", "no_orbit")
             continue
-        given = orbit.parameters, orbit.state, strobe_map.strobe_time(orbit.parameters), periods
+        given = orbit.parameters, orbit.state, strobe_time(orbit.parameters), periods
         for m, method in enumerate(methods):
             for j in np.flatnonzero(tested[i]):
                 largest = method.largest_displacements(*given, counts[i, j])

@@ -1,0 +1,67 @@
+"""Symmetric orbits of period 1 with two compliant contacts, by Newton's method at the strobe.
+
+The counterpart with rigid impacts is `contact.rigid_orbits`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.motions.records import measured
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
+
+CONTACTS = 2
+SYMMETRIC = 1e-6
+
+
+class CompliantOrbit(NamedTuple):
+    """A symmetric orbit with two contacts a forcing period, stable or not.
+
+    Attributes
+    ----------
+    parameters : numpy.ndarray, shape (COUNT,)
+        Packed parameters.
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at W T = pi/2.
+    multiplier : complex
+        Dominant Floquet multiplier, its imaginary part not negative.
+    displacement : float
+        max |Z1|.
+    """
+
+    parameters: np.ndarray
+    state: np.ndarray
+    multiplier: complex
+    displacement: float
+
+
+def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
+    """Newton's method onto a symmetric orbit with two contacts a forcing period.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    guess : array, shape (4,)
+        State near the orbit at W T = pi/2.
+    reach : float
+        Largest distance of the orbit from the guess, not counting Z2'.
+    tolerance : float
+        Local error allowed in a step of the integrator.
+    asymmetry : float
+        Largest difference between the states half a period apart, one of them mirrored.
+
+    Returns
+    -------
+    orbit : CompliantOrbit or None
+    status : str
+        "found", "not_followed" if Newton's method fails, or "other_contacts".
+    """
+    state = np.array(guess, float)
+    found, _, multiplier = polish(p, state, 1, reach, tolerance)
+    if not found:
+        return None, "not_followed"
+    record = measured(p, state, 1, tolerance)
+    if record["contacts"] != CONTACTS or not record["asymmetry"] < asymmetry:
+        return None, "other_contacts"
+    return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
