@@ -32,12 +32,16 @@ called = by_address(add)
 MODULE = """
 import numpy as np
 from impact_damper.kernel.by_address import by_address
-from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.memory import pointer
+
+@kernel_only
+def increment(x):
+    return x + 1.0
 
 @kernel
 def add(a):
-    a[0] += 1.0
+    a[0] = increment(a[0])
 
 called = by_address(add)
 
@@ -72,7 +76,7 @@ class Interrupt(event.Listener):
     def on_end(self, ended):
         pass
 
-event.register("impact_damper:compile", Interrupt())
+event.register("numba:compile", Interrupt())
 try:
     import module_of_kernels
 except KeyboardInterrupt:

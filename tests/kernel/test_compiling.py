@@ -33,11 +33,8 @@ assert before == (numba.config.CACHE_DIR, numba.config.CPU_FEATURES, numba.confi
 
 SLOW = """
 import time
-from impact_damper.kernel.progress import compiling, show_progress
-
-def compiled(seconds):
-    with compiling(dispatcher):
-        time.sleep(seconds)
+from numba.core import event
+from impact_damper.kernel.progress import show_progress
 
 class dispatcher:
     def py_func():
@@ -46,7 +43,8 @@ class dispatcher:
 dispatcher.py_func.__module__ = "MODULE"
 show_progress()
 for seconds in SECONDS:
-    compiled(seconds)
+    with event.trigger_event("numba:compile", data={"dispatcher": dispatcher}):
+        time.sleep(seconds)
 """
 
 

@@ -14,7 +14,6 @@ from numba import types
 from numba.extending import intrinsic
 
 from impact_damper.kernel.compiling import SETTINGS, own_cache
-from impact_damper.kernel.progress import compiling
 
 
 def signature_of(function):
@@ -36,7 +35,7 @@ def compiled(function):
     numba.core.ccallback.CFunc
         Its `address` is for `call_at`.
     """
-    with own_cache(), compiling(function):
+    with own_cache():
         return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
 
 

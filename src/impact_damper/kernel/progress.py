@@ -6,8 +6,6 @@ import time
 
 from numba.core import event
 
-# numba's event, and ours for what `by_address` compiles.
-NUMBA_EVENT, OWN_EVENT = "numba:compile", "impact_damper:compile"
 PATIENCE = 1.0  # seconds
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
 
@@ -56,13 +54,6 @@ def _is_own(compiled):
     return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
 
 
-def compiling(dispatcher):
-    """Return a context in which a kernel is compiled other than by a call."""
-    return event.trigger_event(OWN_EVENT, data={"dispatcher": dispatcher})
-
-
 def show_progress():
-    """Write MESSAGE from now on."""
-    listener = Progress()
-    for kind in (NUMBA_EVENT, OWN_EVENT):
-        event.register(kind, listener)
+    """Write MESSAGE from now on when compiling takes long."""
+    event.register("numba:compile", Progress())

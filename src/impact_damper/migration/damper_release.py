@@ -175,7 +175,7 @@ def watch(here, seeds, lifetime, settling, workers, progress):
             motion = motions[i : i + 1]
             lives[i] = _watch_one(here, draws[i], lifetime, settling, path, motion, entries[i])
 
-    ensemble.run_chunks(work, len(draws), workers, progress)
+    ensemble.run_chunks(work, len(draws), workers, progress, size=8)
     return lives, motions, entries
 
 

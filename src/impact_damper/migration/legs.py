@@ -12,7 +12,7 @@ import numpy as np
 
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import advance, assign, side_of, workspace
-from impact_damper.motions.records import UNRESOLVED, measure, trace
+from impact_damper.motions.records import NEVER, SETTLED, UNRESOLVED, measure, trace
 from impact_damper.motions.settling import NEAR, NEAREST, RING, land, nearby_period
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
@@ -20,9 +20,10 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # A run counts as captured by an orbit after the last strobe at which (Z1, Z1') is farther from
 # it than this.
 CAPTURE = 0.1
+# Forcing periods in one call of a kernel, a fraction of a second: Ctrl-C waits for its end.
+STROBES_AT_ONCE = 50_000
 
 
-@kernel
 def run(p, y, ahead, strobe, tolerance, limit, path, out):
     """Run for `limit` strobes, or until near a stable orbit.
 
@@ -30,18 +31,30 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
     numbered `strobe`, and at each strobe: at most limit + 2. To the record `out` go outcome,
     period, periods_run and, of a settled motion, its orbit.
     """
+    out["outcome"], out["period"], out["maximum_displacement"] = UNRESOLVED, 0, np.nan
+    path[0, 0], path[0, 1:] = strobe - ahead, y
+    t = strobe_time(p)
+    begin = t - ahead * 2.0 * math.pi / p[FREQUENCY]
+    side, near, ring = side_of(p, y), NEAR, np.empty((RING, 4))
+    side, _, _ = advance(p, y, np.empty((0, 4)), side, begin, t, tolerance, workspace())
+    for first in range(0, limit + 1, STROBES_AT_ONCE):
+        last = min(first + STROBES_AT_ONCE, limit + 1)
+        side, near = run_strobes(
+            p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out
+        )
+        if out["outcome"] == SETTLED:
+            break
+
+
+@kernel
+def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
+    """Go on with `run` from one strobe to before another.
+
+    Returns the wall in contact, and how near an orbit the motion must come.
+    """
     work = workspace()
     none = np.empty((0, 4))
-    ring = np.empty((RING, 4))
-    near = NEAR
-    t = strobe_time(p)
-    out.outcome, out.period, out.maximum_displacement = UNRESOLVED, 0, np.nan
-    path[0, 0] = strobe - ahead
-    assign(path[0, 1:], y)
-    side, _, _ = advance(
-        p, y, none, side_of(p, y), t - ahead * 2.0 * math.pi / p[FREQUENCY], t, tolerance, work
-    )
-    for k in range(limit + 1):
+    for k in range(first, last):
         path[k + 1, 0] = strobe + k
         assign(path[k + 1, 1:], y)
         assign(ring[k % RING], y)
@@ -55,6 +68,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
             near = max(0.1 * near, NEAREST)
         if k < limit:
             side, _, _ = one_period(p, y, none, side, tolerance, work)
+    return side, near
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
@@ -95,7 +109,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
     record = out[0]
     run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, record)
     if record["period"] > 0:
-        measure(after[None], tolerance, 0, out)
+        measure(after[None], tolerance, 0, out, NEVER)
     return strobe + record["periods_run"]
 
 

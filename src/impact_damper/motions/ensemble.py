@@ -54,16 +54,34 @@ class Settling:
         check_count("watched", self.watched, most=10**6)
 
 
-def run_chunks(work, count, workers, progress, size=CHUNK):
-    """Call `work(slice)` for slices that cover range(count), on `workers` threads."""
+def run_chunks(work, count, workers, progress, size=CHUNK, stop=None):
+    """Call `work(slice)` for slices that cover range(count), on `workers` threads.
+
+    Parameters
+    ----------
+    work : callable
+    count, workers : int
+    progress : str or None
+        Title of a progress bar.
+    size : int
+        Length of a slice. An error or Ctrl-C waits for the slices that have been begun.
+    stop : array of bool, shape (1,), optional
+        Set to true by an error or Ctrl-C, for `work` to end early.
+    """
     check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
     with (
         ThreadPoolExecutor(workers) as pool,
         tqdm(total=count, desc=progress, disable=progress is None, mininterval=1.0) as bar,
     ):
-        for part, _ in zip(slices, pool.map(work, slices), strict=True):
-            bar.update(part.stop - part.start)
+        try:
+            for part, _ in zip(slices, pool.map(work, slices), strict=True):
+                bar.update(part.stop - part.start)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            if stop is not None:
+                stop[0] = True
+            raise
 
 
 def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, progress=None):
@@ -100,7 +118,7 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
             f"parameters and states: must be of shapes (m, {packed.COUNT}) and (m, 4), "
             f"{parameters.shape} and {states.shape} given"
         )
-    found = np.zeros(len(states), MOTION)
+    found, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
         if from_strobe:
@@ -115,8 +133,11 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
             settling.patience,
             settling.limit,
             found[part],
+            stop,
         )
-        measure(parameters[part], settling.tolerance, settling.watched, found[part])
+        measure(parameters[part], settling.tolerance, settling.watched, found[part], stop)
 
-    run_chunks(work, len(states), workers, progress)
+    # Compiles in this thread, where Ctrl-C is heard.
+    work(slice(0, 0))
+    run_chunks(work, len(states), workers, progress, stop=stop)
     return found

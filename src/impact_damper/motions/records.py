@@ -11,6 +11,10 @@ from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 SAMPLES = 64
+# Steps of a trace in one call of its kernel, a fraction of a second.
+STEPS_AT_ONCE = 50_000
+# For `measure` where nothing stops it.
+NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
 UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = 0, 1, 2, 3, 4
@@ -65,7 +69,7 @@ def series_of_step(work, side, y, t):
 
 
 @inlined
-def measure_one(p, y, periods, tolerance, out):
+def measure_one(p, y, periods, tolerance, out, stop):
     """`measure` of one motion over so many forcing periods."""
     work = workspace()
     none = np.empty((0, 4))
@@ -80,11 +84,11 @@ def measure_one(p, y, periods, tolerance, out):
     largest, contacts, t, sample = abs(y[0]), 0, begin, 0
     first, second = 0.0j, 0.0j
     out.asymmetry = np.nan
-    while t < end:
-        stop = min(end, half) if t < half else end
+    while t < end and not stop[0]:
+        ahead = min(end, half) if t < half else end
         assign(start, state)
         before = side
-        length, side = step(p, state, none, side, t, stop - t, tolerance, work)
+        length, side = step(p, state, none, side, t, ahead - t, tolerance, work)
         order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
         largest = extremum(work[X:], order, length, largest)
         contacts += before == 0 and side != 0
@@ -96,7 +100,7 @@ def measure_one(p, y, periods, tolerance, out):
             first += x * turn
             second += z * turn
             sample += 1
-        t = stop if length >= stop - t else t + length
+        t = ahead if length >= ahead - t else t + length
         if t == half:
             out.asymmetry = distance(-state, y, speed_weight(p, side))
     out.maximum_displacement = largest
@@ -106,48 +110,80 @@ def measure_one(p, y, periods, tolerance, out):
 
 
 @kernel
-def measure(parameters, tolerance, watched, out):
+def measure(parameters, tolerance, watched, out, stop):
     """Add to records what is found from their states at a strobe on, unless they have diverged.
 
     Each is followed over its `period`, or over `watched` forcing periods where that is 0.
     `maximum_displacement` is the extremum of |Z1|; `contacts` is per forcing period;
     `asymmetry` the distance of the state half the time later from the mirrored start, which
     vanishes for a symmetric motion of odd period; the harmonics are complex amplitudes c of
-    Re(c exp(i W T)) in Z1 and Z2, by the trapezoidal rule.
+    Re(c exp(i W T)) in Z1 and Z2, by the trapezoidal rule. Once `stop[0]` is true nothing more
+    is done.
     """
     for i in range(len(out)):
         if out[i].outcome != DIVERGED:
             periods = out[i].period if out[i].period > 0 else watched
-            measure_one(parameters[i], out[i].state.copy(), periods, tolerance, out[i])
+            measure_one(parameters[i], out[i].state.copy(), periods, tolerance, out[i], stop)
 
 
 def measured(p, y, periods, tolerance):
     """Record of `measure` alone, over so many forcing periods from a state on an orbit."""
     records = np.zeros(1, MOTION)
     records["state"] = y
-    measure(p[None], tolerance, periods, records)
+    measure(p[None], tolerance, periods, records, NEVER)
     return records[0]
 
 
-@kernel
 def trace(p, y, t, times, tolerance, states, log):
-    """States (len(times), 4) at increasing times from t on, and a log of the contacts.
+    """Trace a motion: its states at given times, and a log of its contacts.
 
-    A row of `log` is a contact: wall, beginning, end, and Z2' at both. The last state is left
-    in y. Returns the number of contacts; those beyond the log's length are counted only.
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    y : array, shape (4,)
+        State at time t; replaced by the last state.
+    t : float
+    times : array, shape (n,)
+        Increasing times, none before t.
+    tolerance : float
+        Local error allowed.
+    states : array, shape (n, 4)
+        Gets the states.
+    log : array, shape (m, 5)
+        Gets a row for each contact: wall, beginning, end, and Z2' at both. Contacts beyond m are
+        counted only.
+
+    Returns
+    -------
+    int
+        Number of contacts.
+    """
+    t, side, contacts = float(t), side_of(p, y), 0
+    if side != 0:
+        log[:1] = [[side, t, np.nan, y[3], np.nan]]
+        contacts = 1
+    sample = int(np.searchsorted(times, t, side="right"))
+    states[:sample] = y
+    while sample < len(times):
+        t, side, sample, contacts = trace_steps(
+            p, y, t, side, sample, contacts, times, tolerance, states, log
+        )
+    return contacts
+
+
+@kernel
+def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
+    """Go on with `trace` for STEPS_AT_ONCE steps at most: Ctrl-C waits for the end of a kernel.
+
+    Returns the time, the wall in contact, and the numbers of samples and contacts so far.
     """
     work = workspace()
     none = np.empty((0, 4))
     start = y.copy()
-    side = side_of(p, y)
-    contacts = 0
-    if side != 0:
-        contacts = record_beginning(log, contacts, side, t, y[3])
-    sample = 0
-    while sample < len(times) and times[sample] <= t:
-        assign(states[sample], y)
-        sample += 1
-    while sample < len(times):
+    for _ in range(STEPS_AT_ONCE):
+        if sample == len(times):
+            break
         assign(start, y)
         before = side
         # the last sample is an end of a step, so that y is the state there
@@ -164,7 +200,7 @@ def trace(p, y, t, times, tolerance, states, log):
             contacts = record_beginning(log, contacts, side, t, y[3])
         elif before != 0 and side == 0 and contacts <= len(log):
             log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
-    return contacts
+    return t, side, sample, contacts
 
 
 @kernel_only

@@ -206,7 +206,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
 
 @kernel
-def settle_many(parameters, states, start, tolerance, patience, limit, out):
+def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
     """Run motions until each has settled, is certainly chaotic, or `limit` periods are gone.
 
     Parameters
@@ -220,6 +220,8 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out):
         As of `ensemble.Settling`.
     out : array of recording.MOTION, shape (m,)
         Gets what `watch` finds, and the last state at a strobe or that on the orbit.
+    stop : array of bool, shape (1,)
+        Once it is true, perhaps set by another thread, the motions are given up.
     """
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
@@ -230,7 +232,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out):
     following, left = size, len(out)
     for m in range(size):
         take(pool, m, m, parameters, states, start, tolerance, seen, out)
-    while left > 0:
+    while left > 0 and not stop[0]:
         for j in range(advance_some(pool, chosen, arrived)):
             m = arrived[j]
             i = seen[m].index

@@ -46,16 +46,15 @@ def distance(a, b, weight):
 
 
 @kernel
-def flow_map(p, y, begin, periods, half, tolerance):
-    """The map over whole forcing periods, and half a one more if asked for, from `begin` on.
+def flow(p, state, tangents, begin, periods, half, tolerance):
+    """Integrate over whole forcing periods from `begin` on, and half a one more if asked for.
 
-    Returns the state, its derivative (4, 4), the contacts begun and the time in contact.
+    The state and the tangents (rows) are replaced. Returns the contacts begun and the time in
+    contact. No array is returned: numba loses a Ctrl-C that arrives while it makes one.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
-    state = y.copy()
-    tangents = np.eye(4)
     work = workspace()
-    side = side_of(p, y)
+    side = side_of(p, state)
     contacts = 0
     touching = 0.0
     for k in range(periods + half):
@@ -63,15 +62,23 @@ def flow_map(p, y, begin, periods, half, tolerance):
         side, begun, time = advance(p, state, tangents, side, begin, end, tolerance, work)
         contacts += begun
         touching += time
-    return state, tangents.T.copy(), contacts, touching
+    return contacts, touching
+
+
+def flow_map(p, y, begin, periods, half, tolerance):
+    """Return what a state becomes by `flow`, the derivative (4, 4), and the time in contact."""
+    state, tangents = y.copy(), np.eye(4)
+    _, touching = flow(p, state, tangents, begin, periods, half, tolerance)
+    return state, tangents.T.copy(), touching
 
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """`flow_map` from the strobe on: state, derivative and contacts begun."""
+    """Return what a state at the strobe becomes, the derivative (4, 4), and the contacts begun."""
     half = np.bool_(False)  # a literal would have the map compiled for it alone
-    state, matrix, contacts, _ = flow_map(p, y, strobe_time(p), periods, half, tolerance)
-    return state, matrix, contacts
+    state, tangents = y.copy(), np.eye(4)
+    contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
+    return state, tangents.T.copy(), contacts
 
 
 @kernel

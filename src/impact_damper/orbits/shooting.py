@@ -226,7 +226,7 @@ def shoot(p, state, periods, phase, *, symmetric=False):
     """
     whole, sign = (periods // 2, -1) if symmetric else (periods, 1)
     begin = phase / p[FREQUENCY]
-    end, matrix, _, touching = flow_map(p, state, begin, whole, symmetric, POLISH_TOLERANCE)
+    end, matrix, touching = flow_map(p, state, begin, whole, symmetric, POLISH_TOLERANCE)
     end, matrix = sign * end, sign * matrix
     residual = float(np.max(np.abs(end - state)))
     converged = residual <= RESIDUAL * max(1.0, np.max(np.abs(state)))

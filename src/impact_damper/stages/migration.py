@@ -204,7 +204,7 @@ def trials(
         for i in range(part.start, part.stop):
             _, logs[i] = control(here, draws[i], longest_hold, settling, periods)
 
-    ensemble.run_chunks(work, trials, workers, progress)
+    ensemble.run_chunks(work, trials, workers, progress, size=8)
     totals = run_totals(logs)
     logs = logs[:, : np.max(totals["switchings"])]
     data = switching_data(logs, here)

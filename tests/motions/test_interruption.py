@@ -1,0 +1,58 @@
+"""Ctrl-C in a long call from Python raises KeyboardInterrupt within two seconds."""
+
+import subprocess
+import sys
+
+import pytest
+
+# A short call first, so that the kernels are compiled; the signal comes a second into the long one.
+SCRIPT = """
+import os
+import signal
+import threading
+import time
+import impact_damper as idm
+
+oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+start, large = (0.006, 0.187, 0.002, -2.408), (1.8787, -2.4769, 0.0245, -0.4529)
+free, slow = idm.Oscillator(1e-3), idm.Settling(patience=10**7, limit=10**8, tolerance=1e-14)
+SHORT
+instants = []
+
+def interrupt():
+    instants.append(time.perf_counter())
+    os.kill(os.getpid(), signal.SIGINT)
+
+threading.Timer(1.0, interrupt).start()
+try:
+    while True:
+        LONG
+except KeyboardInterrupt:
+    assert time.perf_counter() - instants[0] < 2.0
+    print("interrupted")
+"""
+
+CALLS = {
+    "simulate": "idm.simulate(oscillator, damper, 1.7, large, periods={}, samples=2)",
+    "steady_motion": "idm.steady_motion(free, idm.Damper(0.12, 2.0), 1.7, large, settling={})",
+    "frequency_response": "idm.frequency_response(oscillator, damper, {})",
+    "orbit_branch": "idm.orbit_branch(oscillator, damper, 2.0, start, span={})",
+    "migrate": "idm.migrate(oscillator, damper, 2.0, periods={})",
+}
+ARGUMENTS = {
+    "simulate": ("1", "1e6"),
+    "steady_motion": ("None", "slow"),
+    "frequency_response": ("[2.0]", "[1.6 + k / 1000 for k in range(400)]"),
+    "orbit_branch": ("(1.99, 2.01)", "(0.5, 5.0)"),
+    "migrate": ("10", "10**6"),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_an_interruption_is_heard_within_two_seconds(name):
+    short, long = (CALLS[name].format(argument) for argument in ARGUMENTS[name])
+    script = SCRIPT.replace("SHORT", short).replace("LONG", long)
+    run = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=300
+    )
+    assert run.stdout == "interrupted\n", run.stderr
