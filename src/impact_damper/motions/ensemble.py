@@ -13,7 +13,14 @@ from tqdm import tqdm
 from impact_damper.motions.records import MOTION, measure
 from impact_damper.motions.settling import settle_many
 from impact_damper.system import packed
-from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.bounds import (
+    LIMIT_RANGE,
+    PATIENCE_RANGE,
+    TOLERANCE_RANGE,
+    WATCHED_RANGE,
+    check_count,
+    check_number,
+)
 from impact_damper.system.packed import FREQUENCY
 
 CHUNK = 128
@@ -48,10 +55,11 @@ class Settling:
     watched: int = 50
 
     def __post_init__(self):
-        check_number("tolerance", self.tolerance, least=1e-14, most=1e-3)
-        check_count("patience", self.patience, least=100, most=10**7)
-        check_count("limit", self.limit, least=self.patience, most=10**8, why="not below patience")
-        check_count("watched", self.watched, most=10**6)
+        check_number("tolerance", self.tolerance, **TOLERANCE_RANGE)
+        check_count("patience", self.patience, **PATIENCE_RANGE)
+        limits = LIMIT_RANGE | {"least": self.patience, "why": "not below patience"}
+        check_count("limit", self.limit, **limits)
+        check_count("watched", self.watched, **WATCHED_RANGE)
 
 
 def run_chunks(work, count, workers, progress, size=CHUNK, stop=None):

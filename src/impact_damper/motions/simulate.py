@@ -4,7 +4,13 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, is_settled
 from impact_damper.motions import ensemble, records
-from impact_damper.system.bounds import check_count, check_number, shown
+from impact_damper.system.bounds import (
+    MOST_RADIUS,
+    RADIUS_RANGE,
+    check_count,
+    check_number,
+    shown,
+)
 from impact_damper.system.checks import check_numbers
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
@@ -78,9 +84,9 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
         If count, radius or seed is out of range.
     """
     check_count("count", count, least=0, most=10**8)
-    check_number("radius", radius, above=0.0, most=1e3)
+    check_number("radius", radius, **RADIUS_RANGE)
     if damper is not None and within_gap:
-        most = 1e3 * damper.clearance
+        most = MOST_RADIUS * damper.clearance
         check_number("radius", radius, above=0.0, most=most, why="hardly a draw is within the gap")
     for value in np.atleast_1d(seed):
         check_count("seed", value, least=0, most=MOST_SEED)

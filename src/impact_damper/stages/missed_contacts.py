@@ -16,7 +16,7 @@ from impact_damper.motions.records import first_collisions, trace
 from impact_damper.rivals.methods import COMPARED, METHODS, integrators
 from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
 from impact_damper.rivals.runs import check_resolutions
-from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.bounds import RADIUS_RANGE, check_count, check_number
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import describe
@@ -150,7 +150,7 @@ def missed_contacts(
     """
     check_count("passages", passages, most=10**6)
     check_count("implicit_passages", implicit_passages, most=passages, why="of the passages")
-    check_number("radius", radius, above=0.0, most=1e3)
+    check_number("radius", radius, **RADIUS_RANGE)
     depths = check_increasing("depths", [check_number("depth", d, above=0.0) for d in depths])
     tolerances, steps = check_resolutions(tolerances, steps, 1e-13, MOST_STEPS)
     p = pack(oscillator, None, frequency)

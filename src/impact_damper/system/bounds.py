@@ -24,6 +24,15 @@ STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest natural frequency of the contact over that of the forcing. A contact that is held shut
 # takes about this number of steps in a forcing period.
 MOST_STIFF = 1e6
+# Ball of random initial conditions: its radius, and its radius over the clearance. In a larger ball
+# hardly a draw is within the gap.
+RADIUS_RANGE = {"above": 0.0, "most": 1e3}
+MOST_RADIUS = 1e3
+# How closely and how long motions are run (`Settling`), the latter in forcing periods.
+TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "below, rounding prevails"}
+PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "fewer periods decide nothing"}
+LIMIT_RANGE = {"least": 100, "most": 10**8}
+WATCHED_RANGE = {"least": 1, "most": 10**6}
 # Runs whose records are kept in memory together.
 MOST_RUNS = 10**6
 
