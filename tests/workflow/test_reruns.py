@@ -18,7 +18,7 @@ from helpers.planning import Planner, name_of, reruns
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
-from impact_damper.workflow.contradictions import contradictions
+from impact_damper.workflow.configuration import ConfigurationError, check_configuration
 
 
 def leaves(value, path=()):
@@ -44,7 +44,9 @@ def changed(config, path):
     if inner[-1:] == ["stages"] or (inner[-1:] == ["data"] and len(place) > 1):
         del place[key]
         # A figure draws a stage that its curves must have.
-        if any(contradictions(config)):
+        try:
+            check_configuration(config)
+        except ConfigurationError:
             return None
     elif isinstance(value, str):
         place[key] = other(config, path, value)

@@ -5,7 +5,7 @@ import re
 import pytest
 from helpers.running import ROOT, snakemake
 
-from impact_damper.workflow.contradictions import SECTIONS
+from impact_damper.workflow.registry import KINDS
 
 pytestmark = pytest.mark.workflow
 
@@ -25,7 +25,7 @@ def jobs(result):
 def test_every_script_serves_the_paper_and_the_smoke_run(arguments, tmp_path):
     scripts = {path.stem for path in (ROOT / "workflow/scripts").glob("*.py")}
     command = [*arguments, "-n", "--directory", tmp_path / "elsewhere"]
-    drawn = {f"draw_{kind}" for kind in SECTIONS}
+    drawn = {f"draw_{kind}" for kind in KINDS}
     rules = set(jobs(snakemake(ROOT, *command))) - {"all"}
     assert rules - drawn | {"draw"} == scripts
     assert drawn <= rules

@@ -13,7 +13,6 @@ from impact_damper.workflow.configuration import (
     ConfigurationError,
     check_configuration,
     check_file,
-    read_schemas,
     without_left_out,
 )
 from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES
@@ -41,11 +40,10 @@ wildcard_constraints:
 def checked(config):
     """Return the configuration with its keys sorted, or raise an error that lists its faults."""
     config = without_left_out(config)
-    schemas = read_schemas(ROOT / "workflow/schemas")
     try:
         for path in workflow.configfiles:
             check_file(path)
-        check_configuration(config, schemas)
+        check_configuration(config)
     except ConfigurationError as error:
         raise WorkflowError(f"The configuration cannot be run.\n{error}") from None
     # Snakemake compares parameters as text, in which the order of keys counts.

@@ -1,0 +1,48 @@
+"""Models of the configuration, a file for each subject; `Configuration` is the whole.
+
+A model states the keys of a section as fields: types and bounds (`values`, `system`), what they
+mean, and in `contradictions` what must hold between them. The messages about a wrong value, and the
+reference of the configuration (`python -m impact_damper.workflow.models`), come from the same
+fields. A file lists its sections with named entries in `SECTIONS`.
+"""
+
+from pydantic import create_model
+
+from impact_damper.workflow.models import balance, contact, figures, methods, motions, studies
+from impact_damper.workflow.models.section import Section
+from impact_damper.workflow.models.settings import (
+    RESULTS,
+    SEED,
+    Controller,
+    Points,
+    Search,
+    Settling,
+)
+from impact_damper.workflow.models.system import CONTACT_STIFFNESS, Oscillators
+from impact_damper.workflow.models.values import count, entries
+
+SUBJECTS = (motions, balance, contact, methods, studies, figures)
+ENTRIES = {"oscillators": Oscillators} | {
+    name: model for subject in SUBJECTS for name, model in subject.SECTIONS.items()
+}
+
+
+class Settings(Section):
+    """Settings of the whole configuration."""
+
+    results: RESULTS
+    seed: SEED
+    contact_stiffness: CONTACT_STIFFNESS
+    chunks: count("jobs that a study is cut into", least=1, most=100000)
+    points: Points
+    search: Search
+    settling: Settling
+    controller: Controller
+    comparison: methods.Comparison
+
+
+Configuration = create_model(
+    "Configuration",
+    __base__=Settings,
+    **{name: entries(model) for name, model in ENTRIES.items()},
+)

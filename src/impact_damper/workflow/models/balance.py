@@ -1,0 +1,107 @@
+"""Harmonic balance: its convergence, rules for the clearance, and maps of where it fails."""
+
+from typing import ClassVar
+
+from impact_damper.system.bounds import FREQUENCY_RANGE, plain
+from impact_damper.workflow.models.messages import missing, problem
+from impact_damper.workflow.models.section import increasing
+from impact_damper.workflow.models.system import (
+    BOUNDS,
+    CLEARANCE_OR_RULE,
+    COMMON,
+    CONTACT_STIFFNESS,
+    DAMPER,
+    FREQUENCY,
+    MASS_RATIO,
+    NEEDED,
+    OSCILLATOR,
+    RESTITUTION,
+    MaybeWithDamper,
+    WithOscillator,
+    given,
+    keys_of,
+    range_of,
+)
+from impact_damper.workflow.models.values import choice, count, number, several
+
+
+class HarmonicConvergence(MaybeWithDamper):
+    """Motions by harmonic balance with more and more harmonics, and their errors."""
+
+    whole: ClassVar = (*NEEDED, "contact_stiffness")
+
+    contact_stiffness: CONTACT_STIFFNESS = None
+    frequency: FREQUENCY
+    highest: count("highest harmonic; the work grows with its cube", least=1, most=4095)
+    highest_cold: count("highest harmonic of a cold start", least=0, most=4095)
+
+
+class DesignRules(WithOscillator):
+    """Grids of dampers and frequencies on which rules for the clearance meet the optimum."""
+
+    mass_ratios: several(
+        MASS_RATIO,
+        "rm, increasing, as many as a figure has distinct lines for",
+        least=1,
+        most=5,
+    )
+    restitutions: several(RESTITUTION, "e, increasing", least=1)
+    contact_stiffnesses: several(CONTACT_STIFFNESS, "r1, increasing", least=1)
+    frequencies: several(FREQUENCY, "W, increasing, above the linear frequency", least=1)
+
+    counts: ClassVar = ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        for key in self.counts:
+            yield from increasing((*path, key), getattr(self, key), "a grid ascends")
+        known = config.oscillators.get(self.oscillator)
+        if known and self.frequencies[0] <= known.linear_frequency:
+            linear = known.linear_frequency
+            reason = f"must lie above the linear frequency {linear!r} (the rules hold above it)"
+            yield problem((*path, "frequencies"), self.frequencies, reason)
+
+
+# Parameters that may change from row to row of a map.
+MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
+
+
+class BalanceMap(
+    keys_of(OSCILLATOR, needed=["linear_frequency"]), keys_of(DAMPER, without=[COMMON])
+):
+    """Maps of where harmonic balance fails, over frequency and another parameter."""
+
+    parameter: choice("parameter that changes from row to row", *MAPPED)
+    values: range_of(
+        number("value of the parameter that changes, within its bounds", above=0, most=1000)
+    )
+    frequency_ratios: range_of(number("forcing over peak frequency", **FREQUENCY_RANGE))
+    clearance: CLEARANCE_OR_RULE = None
+
+    def contradictions(self, path, config):
+        least, most = BOUNDS[self.parameter]["least"], BOUNDS[self.parameter]["most"]
+        for end in ("first", "last"):
+            value = getattr(self.values, end)
+            if not least <= value <= most:
+                bounds = f"from {plain(least)} to {plain(most)}"
+                reason = f"must be {bounds} (bounds of {self.parameter})"
+                yield problem((*path, "values", end), value, reason)
+        for key in MAPPED:
+            value = getattr(self, key)
+            if key == self.parameter and value is not None:
+                reason = "must be left out (it changes from row to row)"
+                yield problem((*path, key), value, reason)
+            elif key != self.parameter and value is None:
+                yield missing((*path, key), f"needed where {self.parameter} changes")
+
+    def ends(self):
+        """Return the parameters of the first and of the last row."""
+        fixed = given(self, [*OSCILLATOR, *DAMPER])
+        return [fixed | {self.parameter: x} for x in (self.values.first, self.values.last)]
+
+
+SECTIONS = {
+    "harmonic_convergence": HarmonicConvergence,
+    "design_rules": DesignRules,
+    "balance_map": BalanceMap,
+}

@@ -1,0 +1,137 @@
+"""The contact: its model, the limit of rigid walls, and what integrators make of it."""
+
+from typing import ClassVar
+
+from impact_damper.workflow.models.messages import problem
+from impact_damper.workflow.models.section import Section, increasing
+from impact_damper.workflow.models.settings import RADIUS
+from impact_damper.workflow.models.system import (
+    BOUNDS,
+    COMMON,
+    CONTACT_STIFFNESS,
+    DAMPER,
+    FREQUENCIES,
+    FREQUENCY,
+    NEEDED,
+    RESTITUTION,
+    RUN_PERIODS,
+    WithDamper,
+    WithOscillator,
+    keys_of,
+    points_of,
+    range_of,
+)
+from impact_damper.workflow.models.values import count, number, several
+
+STEPS = range_of(count("steps a forcing period", least=1, most=100000))
+TOLERANCES = range_of(
+    number("tolerance of a method; below, rounding prevails", least=1e-13, most=0.1), points=True
+)
+GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
+
+
+class ContactCells(Section):
+    """Cells of the map along restitution and load."""
+
+    restitutions: points_of("cells of the map along restitution")
+    loads: points_of("cells of the map along load")
+
+
+class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON]), WithOscillator):
+    """One contact in closed form over restitution and load, and contacts of motions there."""
+
+    restitutions: several(RESTITUTION, "increasing restitutions of the motions", least=2)
+    frequencies: several(FREQUENCY, "increasing frequencies of the motions", least=1)
+    periods: count("forcing periods over which contacts are logged", least=1, most=10000)
+    cells: ContactCells
+    smallest_restitution: number("e, where the map ends", **BOUNDS["restitution"])
+    largest_load: number(
+        "largest acceleration over natural frequency and approach speed", above=0, most=1000
+    )
+
+    counts: ClassVar = ("cells.restitutions", "cells.loads")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        if self.smallest_restitution == 1:
+            reason = "must be less than 1 (where the map ends)"
+            yield problem((*path, "smallest_restitution"), 1, reason)
+        for key in ("restitutions", "frequencies"):
+            yield from increasing((*path, key), getattr(self, key), "motions are run in order")
+
+
+class RigidCells(Section):
+    """Cells of the map along frequency and contact stiffness."""
+
+    frequencies: points_of("cells of the map along frequency")
+    stiffnesses: points_of("cells of the map along contact stiffness")
+
+
+class RigidLimit(WithDamper):
+    """The quiet motion between rigid walls against that with compliant contact."""
+
+    frequency: FREQUENCY
+    frequencies: FREQUENCIES
+    stiffnesses: range_of(CONTACT_STIFFNESS)
+    cells: RigidCells
+
+    counts: ClassVar = ("cells.frequencies", "cells.stiffnesses")
+
+
+class MissedContacts(WithOscillator):
+    """Contacts near grazing, and which of them integrators miss."""
+
+    frequency: FREQUENCY
+    passages: count("random free flights of a forcing period", least=1, most=1000000)
+    implicit_passages: count(
+        "the first of them, on which alone the implicit Radau method is run",
+        least=1,
+        most=1000000,
+    )
+    radius: RADIUS
+    depths: GEOMETRIC
+    tolerances: TOLERANCES
+    steps: STEPS
+
+    counts: ClassVar = ("passages", "depths.points", "tolerances.points")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        if self.implicit_passages > self.passages:
+            reason = f"must be at most passages = {self.passages} (it is some of them)"
+            yield problem((*path, "implicit_passages"), self.implicit_passages, reason)
+        yield from close_steps(path, self)
+
+
+class StableSteps(WithDamper):
+    """The quiet motion by fixed-step methods, over contact stiffness and step."""
+
+    frequency: FREQUENCY
+    stiffnesses: range_of(CONTACT_STIFFNESS, points=True)
+    scaled_steps: GEOMETRIC
+    most_steps: count(
+        "steps a forcing period beyond which a cell is not run", least=1, most=100000000
+    )
+    periods: RUN_PERIODS
+
+    counts: ClassVar = ("stiffnesses.points", "scaled_steps.points")
+
+
+def close_steps(path, entry):
+    """Yield a line if the range `steps` holds fewer whole numbers than there are tolerances."""
+    span, points = entry.steps, entry.tolerances.points
+    ratio = span.last / span.first
+    numbers = {round(span.first * ratio ** (k / (points - 1))) for k in range(points)}
+    if len(numbers) < points:
+        reason = f"must be so far from first = {span.first} that {points} whole numbers fit"
+        yield problem(
+            (*path, "steps", "last"), span.last, f"{reason} (as many as tolerances.points)"
+        )
+
+
+SECTIONS = {
+    "contact_model": ContactModel,
+    "rigid_limit": RigidLimit,
+    "missed_contacts": MissedContacts,
+    "stable_steps": StableSteps,
+}

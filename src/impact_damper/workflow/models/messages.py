@@ -1,0 +1,36 @@
+"""Lines that report a problem of the configuration: the key, its value, and what it must be."""
+
+import difflib
+import reprlib
+
+
+def problem(path, value, reason) -> str:
+    """Return the line on a wrong value: its path of keys, the value, and what it must be."""
+    return f"{dotted(path)} = {reprlib.repr(value)}: {reason}"
+
+
+def missing(path, reason) -> str:
+    """Return the line on a key that is missing."""
+    return f"{dotted(path)}: missing; {reason}"
+
+
+def dotted(path) -> str:
+    """Return a path of keys and list positions as one key with dots."""
+    return ".".join(map(_word, path)) or "configuration"
+
+
+def one_of(name, known) -> str:
+    """Return what a name must be: one of those known, and which of them is nearest."""
+    return f"must be one of {', '.join(known)}{nearest(name, known)}"
+
+
+def nearest(name, known) -> str:
+    """Return a question that proposes the known name nearest to `name`, or nothing."""
+    found = difflib.get_close_matches(name, known, 1) if isinstance(name, str) else []
+    return f"; did you mean {found[0]}?" if found else ""
+
+
+def _word(key):
+    """A key as it stands, or quoted if it would break the line."""
+    plain = isinstance(key, str) and key.isprintable() and len(key) <= 80
+    return key if plain else reprlib.repr(key)

@@ -1,0 +1,153 @@
+"""Methods compared: verdicts of integrators, scenes with exact references, and settings."""
+
+from impact_damper.system.bounds import TOLERANCE_RANGE
+from impact_damper.workflow.models.contact import STEPS, TOLERANCES, close_steps
+from impact_damper.workflow.models.messages import problem
+from impact_damper.workflow.models.section import Section
+from impact_damper.workflow.models.system import (
+    BOUNDS,
+    COMMON,
+    DAMPER,
+    FREQUENCY,
+    NEEDED,
+    RUN_PERIODS,
+    MaybeWithDamper,
+    WithOscillator,
+    keys_of,
+)
+from impact_damper.workflow.models.values import choice, count, entries, number, several
+
+COMPONENT = number("component of a state", least=-1000, most=1000)
+DECREASING = several(
+    number("tolerance of a method", least=1e-14, most=0.1), "decreasing tolerances", least=1
+)
+EVALUATIONS = count("evaluations of the rate a forcing period", least=1, most=1000000)
+ORDER = count("order of the series", least=6, most=60)
+# Quantities that are read off a chaotic motion, and off any other.
+AVERAGES = ("contact_rate", "displacement", "exponent")
+READ_OFF = ("amplitude", "state", "contact_time", "contacts")
+
+
+def state(meaning):
+    """Type of a state."""
+    return several(COMPONENT, f"Z1, Z1', Z2, Z2': {meaning}", least=4, most=4)
+
+
+class FreeVerdict(Section):
+    """A motion without a damper near an orbit about which everything is known."""
+
+    frequency: FREQUENCY
+    orbit_frequency: number("W at which the orbit is found", **BOUNDS["frequency"])
+    near: state("state close to the orbit at W T = pi/2")
+    period: count(
+        "period of the orbit in forcing periods, at most the number that is looked back on",
+        least=1,
+        most=6,
+    )
+    offset: state("added to the state of the orbit to start the run")
+    periods: count("forcing periods of a run, enough to look back on", least=12, most=1000000)
+    scipy_every: count(
+        "SciPy's slow methods are run at every tolerance whose number is a multiple of this, "
+        "or never if it is 0",
+        least=0,
+        most=100000,
+    )
+
+
+class DampedVerdict(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), FreeVerdict):
+    """A motion with a damper near an orbit about which everything is known."""
+
+
+class Verdicts(WithOscillator):
+    """Verdicts of integrators, by tolerance, on motions near orbits that are known."""
+
+    tolerances: TOLERANCES
+    steps: STEPS
+    damped: entries(DampedVerdict, least=0)
+    free: entries(FreeVerdict, least=0)
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        yield from close_steps(path, self)
+        if not self.damped and not self.free:
+            reason = "must have an entry, here or in free (scenes to run)"
+            yield problem((*path, "damped"), {}, reason)
+        for name in sorted(self.damped.keys() & self.free.keys()):
+            reason = "must have another name (a damped scene is called the same)"
+            yield problem(
+                (*path, "free", name), self.free[name].model_dump(exclude_unset=True), reason
+            )
+
+
+class Accuracy(Section):
+    """The error of a quantity that a user of the scene accepts."""
+
+    quantity: choice("quantity that a user of the scene reads off", *READ_OFF, *AVERAGES)
+    within: number("largest error accepted; 0 for a number of contacts", least=0, most=1)
+
+
+class Scene(MaybeWithDamper):
+    """Motions on which methods and models are compared, by error and work."""
+
+    frequency: FREQUENCY
+    state: state("first state, at W T = pi/2")
+    periods: RUN_PERIODS
+    motion: choice(
+        "steady (an orbit as long as the forcing's period), transient or chaotic",
+        "steady",
+        "transient",
+        "chaotic",
+    )
+    tolerance: number("error of the integrator in a step", **TOLERANCE_RANGE) = None
+    accuracy: Accuracy
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        chaotic, batch = self.motion == "chaotic", config.comparison.batch
+        if chaotic and not self.has_damper():
+            reason = "must have a damper (a free one is not)"
+            yield problem((*path, "motion"), self.motion, reason)
+        if chaotic and self.periods < 2 * batch:
+            reason = f"must be at least twice comparison.batch = {batch} (errors need two batches)"
+            yield problem((*path, "periods"), self.periods, reason)
+        if chaotic != (self.accuracy.quantity in AVERAGES):
+            reason = f"must be another one (a {self.motion} motion is asked)"
+            yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
+
+
+class Evaluations(Section):
+    """Evaluations of the rate at which a run of SciPy's methods is given up."""
+
+    DOP853: EVALUATIONS
+    LSODA: EVALUATIONS
+    Radau: EVALUATIONS
+
+
+class Comparison(Section):
+    """Settings with which each method is run on the scenes."""
+
+    taylor: DECREASING
+    orders: several(
+        several(ORDER, "in flight and in contact", least=2, most=2),
+        "orders of the series in flight and in contact, to compare with those in use",
+        distinct=True,
+    )
+    merson: DECREASING
+    scipy: DECREASING
+    evaluations: Evaluations
+    harmonics: count("highest harmonic; shooting begins from 15 of them", least=15, most=4095)
+    batch: count("forcing periods of a batch", least=1, most=100000)
+    scipy_periods: count("forcing periods, two batches at least", least=2, most=1000000)
+
+    def contradictions(self, path, config):
+        for key in ("taylor", "merson", "scipy"):
+            values = getattr(self, key)
+            if sorted(set(values), reverse=True) != values:
+                reason = "must decrease (each is run once, the loosest first)"
+                yield problem((*path, key), values, reason)
+        if self.scipy_periods < 2 * self.batch:
+            reason = f"must be at least twice batch = {self.batch} (errors need two batches)"
+            yield problem((*path, "scipy_periods"), self.scipy_periods, reason)
+
+
+SECTIONS = {"method_verdicts": Verdicts, "scenes": Scene}

@@ -1,0 +1,104 @@
+"""Motions with and without a damper: curves over frequency, single motions, and migration."""
+
+from impact_damper.workflow.models.messages import dotted, problem
+from impact_damper.workflow.models.system import (
+    CLEARANCE,
+    CLEARANCE_OR_RULE,
+    COMMON,
+    DAMPER,
+    FREQUENCIES,
+    FREQUENCY,
+    NEEDED,
+    MaybeWithDamper,
+    WithDamper,
+    WithOscillator,
+    keys_of,
+    range_of,
+)
+from impact_damper.workflow.models.values import choice, count, several
+from impact_damper.workflow.registry import STAGES
+
+# Stages of an entry of `curves`, and which of them need a damper.
+STAGES_OF_CURVES = [stage.name for stage in STAGES.values() if stage.section == "curves"]
+NEED_DAMPER = ("design_orbit", "subharmonic")
+
+
+class Curve(MaybeWithDamper):
+    """Response curves over frequency, of an oscillator with a damper or without."""
+
+    clearance: CLEARANCE_OR_RULE = None
+    stages: several(
+        choice("", *STAGES_OF_CURVES), "stages to compute of the curve", least=1, distinct=True
+    )
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        starts, stages = config.search.starts, (*path, "stages")
+        if "subharmonic" in self.stages and starts < 2:
+            reason = f"must be at least 2 with {dotted(stages)} subharmonic (half are switched on)"
+            yield problem(("search", "starts"), starts, reason)
+        if "branches" in self.stages and "response" not in self.stages:
+            reason = "must hold response with branches (orbits are followed from the motions found)"
+            yield problem(stages, self.stages, reason)
+        if not self.has_damper():
+            for stage in sorted(set(NEED_DAMPER) & set(self.stages)):
+                reason = f"must not hold {stage} without a damper (mass_ratio and so on)"
+                yield problem(stages, self.stages, reason)
+        if "harmonic_balance" in self.stages and self.restitution not in (None, 1):
+            reason = "must be 1 with the stage harmonic_balance (it knows elastic contact only)"
+            yield problem((*path, "restitution"), self.restitution, reason)
+        if self.clearance == "rule" and set(self.stages) - {"harmonic_balance", "design_orbit"}:
+            reason = "must be a number with stages beside harmonic_balance and design_orbit"
+            reason = f"{reason} (see table harmonic_balance)"
+            yield problem((*path, "clearance"), self.clearance, reason)
+
+
+class Motion(WithDamper):
+    """Steady motions at one frequency."""
+
+    frequency: FREQUENCY
+
+
+class Collision(WithDamper):
+    """Starts in the whole ball of the search, beyond the walls too: do they lead to collisions?"""
+
+    frequency: FREQUENCY
+
+
+class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), WithOscillator):
+    """Sweeps of the clearance at one frequency, each with its optimum."""
+
+    frequency: FREQUENCY
+    clearances: range_of(CLEARANCE)
+
+
+class Migration(WithDamper):
+    """Cases of migration control."""
+
+    frequency: FREQUENCY
+    longest_hold: count(
+        "forcing periods after which the damper is switched off at the latest",
+        least=1,
+        most=1000000,
+    )
+
+
+class ReleaseScan(WithDamper):
+    """Scans over frequency of where releases of the damper lead."""
+
+    frequencies: FREQUENCIES
+    lifetime: count(
+        "forcing periods within which the unsettled motion is released, not at once",
+        least=40,
+        most=10000000,
+    )
+
+
+SECTIONS = {
+    "curves": Curve,
+    "motion": Motion,
+    "collisions": Collision,
+    "optimum": Optimum,
+    "migration": Migration,
+    "release_scan": ReleaseScan,
+}

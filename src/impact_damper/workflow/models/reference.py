@@ -1,0 +1,78 @@
+"""Reference of the configuration, made from the models: every key and what it may hold."""
+
+from typing import get_args, get_origin
+
+from impact_damper.workflow.models import ENTRIES, Configuration, Settings
+from impact_damper.workflow.models.section import Section
+from impact_damper.workflow.models.values import NAME, Allowed
+
+HEAD = f"""# Reference of the configuration
+
+Every key of `config.yaml` and what it may hold. This page is made from the models that check the
+configuration: `python -m impact_damper.workflow.models > config/reference.md`. `NAME` stands for a
+name that is free to choose: {NAME.__metadata__[-1].words}.
+"""
+COLUMNS = "| key | must be | meaning |\n|---|---|---|"
+
+
+def reference() -> str:
+    """Return the page."""
+    sections = {
+        key: field.annotation
+        for key, field in Settings.model_fields.items()
+        if _is_section(field.annotation)
+    }
+    single = [key for key in Settings.model_fields if key not in sections]
+    parts = [HEAD, "## Single values\n", _table(Configuration, "", single)]
+    for key, model in sections.items():
+        parts += [f"## {key}\n", f"{model.__doc__}\n", _table(model, "", model.model_fields)]
+    for key, model in ENTRIES.items():
+        parts += [f"## {key}.NAME\n", f"{model.__doc__}\n", _table(model, "", model.model_fields)]
+    return "\n".join(parts)
+
+
+def _table(model, prefix, keys):
+    lines = [line for key in keys for line in _rows(prefix + key, model.model_fields[key])]
+    return "\n".join([COLUMNS, *lines, ""])
+
+
+def _rows(key, field):
+    """Yield a line of the table for a field, or one for each key in it."""
+    kind = field.annotation
+    if _is_section(kind):
+        yield from _inner(f"{key}.", kind)
+    elif get_origin(kind) is dict:
+        yield from _inner(f"{key}.NAME.", get_args(kind)[1])
+    else:
+        allowed = _allowed(field.metadata) or _allowed(get_args(kind)[0].__metadata__)
+        words = [allowed.words]
+        if get_origin(kind) is list:
+            words += [f"each {_item(get_args(kind)[0])}"]
+        words += [f"the keys {', '.join(f'`{x}`' for x in model)}" for model in _ranges(kind)]
+        words += [] if field.is_required() else ["may be left out"]
+        yield f"| `{key}` | {'; '.join(words)} | {allowed.meaning} |"
+
+
+def _inner(prefix, model):
+    for key, field in model.model_fields.items():
+        yield from _rows(prefix + key, field)
+
+
+def _item(kind):
+    """What an entry of a list must be."""
+    words, inner = _allowed(kind.__metadata__).words, get_args(kind)[0]
+    return f"{words}, each {_item(get_args(inner)[0])}" if get_origin(inner) is list else words
+
+
+def _ranges(kind):
+    """Keys of the ranges that a value may be in place of a number."""
+    parts = [get_args(part)[0] for part in get_args(kind) if hasattr(part, "__metadata__")]
+    return [part.model_fields for part in parts if _is_section(part)]
+
+
+def _allowed(metadata):
+    return next((x for x in reversed(metadata) if isinstance(x, Allowed)), None)
+
+
+def _is_section(kind):
+    return isinstance(kind, type) and issubclass(kind, Section)

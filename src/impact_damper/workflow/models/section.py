@@ -1,0 +1,75 @@
+"""Base of the models: a part of the configuration with a fixed set of keys."""
+
+from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
+
+from impact_damper.workflow.models.messages import nearest, problem
+
+
+class Section(BaseModel):
+    """Keys with values; an unknown key is refused, and every key without a default is needed.
+
+    Subclasses state their keys as fields, and in `contradictions` the problems between values
+    that are each allowed by themselves.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def contradictions(self, path, config):
+        """Yield a line for each problem between values.
+
+        Parameters
+        ----------
+        path : tuple of str
+            Keys that lead to this section.
+        config : Section
+            The whole configuration, each of its values allowed by itself.
+        """
+        yield from ()
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _name_keys(cls, value, handler):
+        """Report unknown and missing keys with the keys that are known here."""
+        try:
+            return handler(value)
+        except ValidationError as error:
+            details = error.errors(include_url=False)
+        raise ValidationError.from_exception_data(
+            cls.__name__, [cls._worded(value, detail) for detail in details]
+        )
+
+    @classmethod
+    def _worded(cls, value, detail):
+        """Return an error of pydantic in our words, with its place and the value given."""
+        kind, path, given = detail["type"], detail["loc"], detail["input"]
+        known = sorted(cls.model_fields)
+        if not path:
+            words = "must be keys with values"
+        elif kind in ("extra_forbidden", "invalid_key"):
+            if kind == "invalid_key":  # no text; pydantic gives the key in place of its value
+                given = value[given]
+            kind = "unknown"
+            words = f"unknown key; known: {', '.join(known)}{nearest(path[-1], known)}"
+        elif kind == "missing":
+            kind, words = "needed", f"missing; needed here: {', '.join(known)}"
+        else:
+            words = detail["msg"]
+        return {"type": PydanticCustomError(kind, words), "loc": path, "input": given}
+
+
+def parts(value, path=()):
+    """Yield each section inside a value, with its path of keys."""
+    if isinstance(value, Section):
+        yield path, value
+        for key in type(value).model_fields:
+            yield from parts(getattr(value, key), (*path, key))
+    elif isinstance(value, dict):
+        for key, entry in value.items():
+            yield from parts(entry, (*path, key))
+
+
+def increasing(path, values, reason):
+    """Yield a line unless a list increases."""
+    if sorted(set(values)) != values:
+        yield problem(path, values, f"must increase ({reason})")

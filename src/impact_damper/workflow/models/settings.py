@@ -1,0 +1,78 @@
+"""Settings that many stages share: grids, searches, settling, and the controller."""
+
+from impact_damper.system.bounds import (
+    LIMIT_RANGE,
+    PATIENCE_RANGE,
+    RADIUS_RANGE,
+    WATCHED_RANGE,
+)
+from impact_damper.workflow.models.messages import missing, one_of, problem
+from impact_damper.workflow.models.section import Section
+from impact_damper.workflow.models.system import points_of
+from impact_damper.workflow.models.values import count, number, text
+
+SEED = count("seed of all random draws", least=0, most=4294967295)
+RESULTS = text(
+    "folder below the working directory, without spaces or leading dots",
+    pattern="[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*",
+)
+RADIUS = number("radius of the ball from which random initial conditions are drawn", **RADIUS_RANGE)
+
+
+class Points(Section):
+    """Numbers of points of grids."""
+
+    harmonic_balance: points_of("frequencies at which harmonic balance is solved")
+    free: points_of("frequencies of simulated motions without a damper")
+    simulated: points_of("frequencies of simulated motions with a damper")
+    clearances: points_of("clearances of the sweep for an optimum")
+    scanned: points_of("frequencies of a release scan")
+    map_frequencies: points_of("frequencies of a map of harmonic balance")
+    map_values: points_of("values of the other parameter of a map of harmonic balance")
+
+
+def starts_of(meaning):
+    """Type of a number of random starts."""
+    return count(f"random initial conditions {meaning}", least=1, most=1000000)
+
+
+class Search(Section):
+    """Random initial conditions from which motions are searched for."""
+
+    starts: starts_of("at each frequency of a response")
+    sweep_starts: starts_of("at each clearance of the sweep for an optimum")
+    scan_starts: starts_of("at each frequency of a release scan")
+    study_starts: starts_of("in each cell of a study")
+    radius: RADIUS
+
+
+class Settling(Section):
+    """How long motions are run, and how closely."""
+
+    scene: text("name of an entry of `scenes` that has a tolerance")
+    patience: count(
+        "forcing periods after which a motion that is chaotic is stopped", **PATIENCE_RANGE
+    )
+    limit: count("forcing periods after which a motion is stored as unresolved", **LIMIT_RANGE)
+    watched: count("forcing periods over which an unsettled motion is measured", **WATCHED_RANGE)
+
+    def contradictions(self, path, config):
+        if self.limit < self.patience:
+            reason = f"must be at least settling.patience = {self.patience} (it comes later)"
+            yield problem((*path, "limit"), self.limit, reason)
+        if self.scene not in config.scenes:
+            yield problem((*path, "scene"), self.scene, one_of(self.scene, config.scenes))
+        elif config.scenes[self.scene].tolerance is None:
+            path = ("scenes", self.scene, "tolerance")
+            yield missing(path, "needed since settling.scene names it")
+
+
+class Controller(Section):
+    """The migration controller of figure 17, and its trials."""
+
+    trials: count("runs of each case", least=1, most=100000)
+    periods: count(
+        "forcing periods of a run after which no switching begins", least=1, most=10000000
+    )
+    releases: count("releases of each damped motion, and lives watched", least=1, most=1000000)
+    lifetime: count("forcing periods for which lives are watched", least=100, most=10000000)

@@ -1,0 +1,125 @@
+"""Keys for the parameters of the model: oscillator, damper, forcing, and ranges of them.
+
+The keys of an oscillator and of a damper are the fields of `Oscillator` and `Damper`, which hold
+their bounds and meaning: a new field is a new key wherever all of them may be given.
+"""
+
+from dataclasses import fields
+from typing import ClassVar
+
+from pydantic import create_model
+
+from impact_damper.system.bounds import FREQUENCY_RANGE
+from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.workflow.models.messages import missing, one_of, problem
+from impact_damper.workflow.models.section import Section
+from impact_damper.workflow.models.values import count, number, number_or_word, text
+
+BOUNDS, MEANINGS = (
+    {each.name: each.metadata[key] for part in (Oscillator, Damper) for each in fields(part)}
+    for key in ("bounds", "meaning")
+)
+BOUNDS["frequency"], MEANINGS["frequency"] = FREQUENCY_RANGE, "W, forcing frequency"
+OSCILLATOR, DAMPER = ([each.name for each in fields(part)] for part in (Oscillator, Damper))
+PARAMETERS = {name: number(MEANINGS[name], **BOUNDS[name]) for name in BOUNDS}
+
+MASS_RATIO, CLEARANCE, RESTITUTION, CONTACT_STIFFNESS, FREQUENCY = (
+    PARAMETERS[name]
+    for name in ("mass_ratio", "clearance", "restitution", "contact_stiffness", "frequency")
+)
+RUN_PERIODS = count("forcing periods of a run", least=1, most=1000000)
+CLEARANCE_OR_RULE = number_or_word(
+    "rule",
+    f"{MEANINGS['clearance']}; the word `rule` stands for that of equation (19)",
+    **BOUNDS["clearance"],
+)
+
+
+def points_of(meaning):
+    """Type of the number of points of a grid."""
+    return count(meaning, least=2, most=100000)
+
+
+def keys_of(names, *, needed=(), without=()):
+    """Base of models, with a key for each of some parameters; those not needed may be left out."""
+    types = {
+        name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
+        for name in names
+        if name not in without
+    }
+    return create_model("Parameters", __base__=Section, **types)
+
+
+class Range(Section):
+    """Range whose first value is less than its last."""
+
+    def contradictions(self, path, config):
+        if self.first >= self.last:
+            reason = f"must be less than last = {self.last!r} (a range ascends)"
+            yield problem((*path, "first"), self.first, reason)
+
+
+def range_of(kind, *, points=False):
+    """Model of a range of values of a type, with the number of its points or without."""
+    types = {"first": kind, "last": kind} | (
+        {"points": points_of("points of the grid")} if points else {}
+    )
+    return create_model("Range", __base__=Range, **types)
+
+
+FREQUENCIES = range_of(FREQUENCY)
+
+
+class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
+    """Free oscillators, and the range of forcing frequencies over which responses are computed."""
+
+    frequencies: FREQUENCIES
+
+    def built(self) -> Oscillator:
+        """The oscillator itself."""
+        return Oscillator(**given(self, OSCILLATOR))
+
+
+class WithOscillator(Section):
+    """An entry that names an oscillator."""
+
+    oscillator: text("name of an entry of `oscillators`")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        if self.oscillator not in config.oscillators:
+            reason = one_of(self.oscillator, config.oscillators)
+            yield problem((*path, "oscillator"), self.oscillator, reason)
+
+
+# A damper's contact stiffness is that of the whole configuration, `contact_stiffness`.
+COMMON = "contact_stiffness"
+NEEDED = ("mass_ratio", "clearance", "restitution")
+
+
+class WithDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), WithOscillator):
+    """An entry with an oscillator and a damper."""
+
+
+class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
+    """An entry with an oscillator, and with a damper or without."""
+
+    whole: ClassVar = NEEDED
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        found = given(self, self.whole)
+        if found:
+            reason = f"needed with {', '.join(found)} (a damper is whole or absent)"
+            for key in sorted(set(self.whole) - set(found)):
+                yield missing((*path, key), reason)
+
+    def has_damper(self) -> bool:
+        """Whether any of the damper's parameters is given."""
+        return bool(given(self, self.whole))
+
+
+def given(section, names) -> dict:
+    """Values of a section under those of the names that are given."""
+    found = {name: getattr(section, name, None) for name in names}
+    return {name: value for name, value in found.items() if value is not None}
