@@ -26,9 +26,10 @@ COMPILE := from impact_damper.workflow import compile_kernels as all; \
 kernels: $(READY)
 	$(BIN)/python -c "$(COMPILE)"
 
-# On all cores; PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".
+# On all cores, each file in one process, so that its fixtures are made once.
+# PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".
 PYTEST ?=
-TESTS := $(BIN)/python -m pytest --numprocesses auto --dist worksteal
+TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile
 test: kernels
 	$(TESTS) $(PYTEST)
 
@@ -80,7 +81,7 @@ lowest:
 	uv pip compile pyproject.toml --extra test --resolution lowest-direct --python-version 3.11 \
 		--no-header --no-emit-index-url --output-file $(LOWEST)/requirements.txt
 	$(LOWEST)/bin/pip install --requirement $(LOWEST)/requirements.txt
-	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist worksteal \
+	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist loadfile \
 		--ignore tests/workflow $(PYTEST)
 
 clean:
