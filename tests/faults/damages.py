@@ -6,7 +6,7 @@ import xarray as xr
 
 from .project import DATA, DELETE, expect
 
-OTHER = "results/design/figure_05a.nc"
+OTHER = "results/harmonic_balance/figure_05a.nc"
 
 
 def _cut(path, random):

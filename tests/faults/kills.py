@@ -38,12 +38,7 @@ def wait_for_end_of_orphans(folder):
 
 
 def _within(folder, process):
-    line = " ".join(process.info["cmdline"] or [])
-    try:
-        warm = "impact_damper.workflow.job_server" in line and process.cwd() == str(folder)
-    except psutil.Error:
-        return False
-    return warm or f"{folder}/.snakemake/scripts" in line
+    return f"{folder}/.snakemake/scripts" in " ".join(process.info["cmdline"] or [])
 
 
 def kill_snakemake(context):

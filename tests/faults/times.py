@@ -28,7 +28,7 @@ def two_runs(context):
     def apart():
         project = context.fresh("two-targets")
         both = [
-            project.start(targets=["results/design/figure_05a.nc"]),
+            project.start(targets=["results/harmonic_balance/figure_05a.nc"]),
             project.start(targets=["results/tables/optimum.csv"]),
         ]
         told = [process.communicate()[0] for process in both]
@@ -68,7 +68,7 @@ def clock_set_back(context):
     def edited():
         project = context.finished("clock-edited")
         _ahead((project.folder / "results").rglob("*"))
-        script = project.folder / "workflow/scripts/clearance_sweep.py"
+        script = project.folder / "workflow/scripts/optimum.py"
         script.write_text(script.read_text() + "# A word.\n")
         plan = project.planned()
         expect(any("clearance" in line for line in plan), f"an edit is passed over: {plan}")

@@ -1,136 +1,77 @@
-"""What jobs the workflow has for a configuration, with their parameters and inputs.
-
-Snakemake reads the rules once; what they say of their jobs is then asked for one configuration
-after the other, which takes milliseconds in place of the seconds of a dry run.
-"""
+"""Jobs of a configuration, with their parameters and the datasets they read, by the registry."""
 
 import json
-import re
-from contextlib import chdir
-from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from snakemake.api import SnakemakeApi
-from snakemake.io import apply_wildcards, is_flagged
-from snakemake.iocontainers import Wildcards
-from snakemake.settings.types import (
-    ConfigSettings,
-    OutputSettings,
-    Quietness,
-    ResourceSettings,
-)
+from impact_damper.workflow import selection
+from impact_damper.workflow.registry import CHAPTERS, STAGES, TABLES
+
+# Stages whose entries are all computed by one job.
+TOGETHER = ("collisions", "rigid_limit")
 
 
 class Job(NamedTuple):
-    """What Snakemake compares of a job, and the files by which it depends on others."""
+    """What Snakemake compares of a job: texts of its parameters, and the jobs that it needs."""
 
-    params: frozenset
-    inputs: frozenset
+    parameters: frozenset
     needs: frozenset
 
 
-class Planner:
-    """The rules of a project, asked for the jobs of any configuration."""
+def job_of(stage, name):
+    """Name of the job that computes an entry."""
+    return stage if stage in TOGETHER else f"{stage}/{name}"
 
-    def __init__(self, project):
-        self.project = project
-        with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
-            opened = api.workflow(
-                resource_settings=ResourceSettings(cores=1),
-                config_settings=ConfigSettings(),
-                snakefile=project / "Snakefile",
-                workdir=project,
-            )
-            self.workflow = opened._workflow
-        self.known = self.workflow.globals
-        self.results = self.known["config"]["results"]
-        self._rule_of = cache(self._rule_of)
-        self._compared = cache(self._compared)
 
-    def jobs(self, config) -> dict:
-        """All jobs by name, as `free/h215`; none of them is started."""
-        self.known["config"] = json.loads(json.dumps(config, sort_keys=True))
-        with chdir(self.project):
-            return self._jobs(config)
-
-    def _jobs(self, config):
-        paths = [path for stage in self.known["STAGES"] for path in self.known["data"](stage)]
-        paths += [path for name in config["studies"] for path in self._chunks(name)]
-        paths += [f"<results>/figures/{name}.png" for name in config["figures"]]
-        paths += [f"<results>/tables/{name}.csv" for name in self.known["TABLES"]]
-        jobs = {name_of(path): self._job(*self._rule_of(self._kind(path), path)) for path in paths}
-        return jobs | {"captions": self._job(self._rule("captions"), Wildcards())}
-
-    def _chunks(self, study):
-        """Files that a study is gathered from."""
-        rule = self._rule("study_grid")
-        wildcards = Wildcards(fromdict={"study": study})
-        found = {path for item in rule.input for path in _files(item, wildcards)}
-        return sorted(path for path in found if "/study_chunks/" in path)
-
-    def _rule(self, name):
-        return self.workflow.get_rule(name)
-
-    def _kind(self, path):
-        """Kind of a figure: its rule takes the figures that had the kind when rules were read."""
-        figure = re.search(r"/figures/(\w+)\.png$", path)
-        return figure and self.known["config"]["figures"][figure[1]]["kind"]
-
-    def _rule_of(self, kind, path):
-        if kind:
-            return self._rule(f"draw_{kind}"), Wildcards(fromdict={"figure": Path(path).stem})
-        path = path.replace("<results>", self.results)
-        (rule,) = (rule for rule in self.workflow.rules if rule.is_producer(path))
-        return rule, Wildcards(fromdict=rule.get_wildcards(path))
-
-    def _compared(self, rule):
-        """Parameters that count; what is derived from the outputs does not."""
-        return [item for item in rule.params if not rule._is_deriving_function(item)]
-
-    def _job(self, rule, wildcards):
-        params = {
-            repr(item(wildcards) if callable(item) else item) for item in self._compared(rule)
+def jobs(config) -> dict:
+    """Return the jobs of a configuration in one chunk, by names such as "response/figure_08"."""
+    config = json.loads(json.dumps(config, sort_keys=True))
+    found = {}
+    for stage, record in STAGES.items():
+        names = selection.entries(config, stage)
+        given = {name: record.parameters(config, name) for name in names}
+        if stage in TOGETHER:
+            found[stage] = Job(_texts(given), frozenset())
+            continue
+        for name in names:
+            needs = _needed(selection.read_by(config, stage, name))
+            found[f"{stage}/{name}"] = Job(_texts({"name": name} | given[name]), needs)
+    for chapter, record in CHAPTERS.items():
+        given = {
+            f"figure_{name}": selection.figure_values(config, name)
+            for name in selection.figures_of(config, chapter)
         }
-        inputs, ancient = set(), set()
-        for item in rule.input:
-            files = _files(item, wildcards)
-            inputs |= files
-            ancient |= files if is_flagged(item, "ancient") else set()
-        inputs = frozenset(path.replace("<results>", self.results) for path in inputs)
-        return Job(frozenset(params), inputs, inputs - ancient)
+        given["tables"] = [table.name for table in record.TABLES]
+        needs = _needed(selection.chapter_data(config, chapter))
+        found[f"chapter/{chapter}"] = Job(_texts(given), needs)
+    return found
 
 
-def _files(item, wildcards):
-    """Files that an entry of `input` stands for."""
-    given = item._file.callable if is_flagged(item, "unpack") else item
-    if not callable(given):
-        return {apply_wildcards(item, wildcards) if "{" in item else str(item)}
-    files = given(wildcards)
-    lists = files.values() if isinstance(files, dict) else [files]
-    return {path for paths in lists for path in paths}
+def _texts(given):
+    return frozenset(repr({key: value}) for key, value in given.items())
 
 
-@cache
-def name_of(path):
+def _needed(names):
+    return frozenset(job_of(stage, name) for stage, chosen in names.items() for name in chosen)
+
+
+def job_of_file(config, path):
     """Name of the job that makes a file of the results."""
     path = Path(path)
-    return "captions" if path.suffix == ".rst" else "/".join(path.with_suffix("").parts[1:])
+    folder, name = path.parent.name, path.stem
+    if folder == "figures":
+        chapters = (c for c in CHAPTERS if name in selection.figures_of(config, c))
+        return f"chapter/{next(chapters)}"
+    if folder == "tables":
+        return f"chapter/{next(c for c in CHAPTERS if TABLES[name] in CHAPTERS[c].TABLES)}"
+    return job_of(folder, name) if folder in STAGES else name
 
 
-def reruns(before, after, edited=frozenset()) -> set:
-    """Jobs that run after an edit of the configuration, or of files, and those that follow them."""
-    found = {
-        name
-        for name, job in after.items()
-        if name not in before or job != before[name] or job.needs & edited
-    }
+def reruns(before, after, edited=()) -> set:
+    """Jobs with other parameters or needs, jobs that are edited, and all that follow from them."""
+    found = {name for name, job in after.items() if job != before.get(name)} | set(edited)
     new = found
     while new:
-        new = {
-            name
-            for name, job in after.items()
-            if name not in found and any(name_of(path) in new for path in job.needs)
-        }
-        found |= new
+        new = {name for name, job in after.items() if job.needs & new} - found
+        found = found | new
     return found

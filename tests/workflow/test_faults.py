@@ -10,18 +10,25 @@ from faults.project import DELETE, Project
 
 pytestmark = pytest.mark.workflow
 
-FILE = "results/design/figure_05a.nc"
+FILE = "results/harmonic_balance/figure_05a.nc"
 YEAR = 365 * 86400
 
-# A job: it begins, and then does what is put here.
+# Code of a job: it takes over its log, and then does what is inserted.
 JOB = (
     "import sys, time; from types import SimpleNamespace; from impact_damper.workflow.job "
-    "import begin; "
-    "begin(SimpleNamespace(log=[{!r}], input={{}})); print('begun'); {}"
+    "import Job; "
+    "Job(SimpleNamespace(log=[{!r}], output=['a.nc'], params=[])); print('begun'); {}"
 )
 LONG = "time.sleep(60); sys.__stdout__.write('lived on')"
 # What starts a job, and waits.
 RUN = "import subprocess, sys; subprocess.Popen([sys.executable, '-c', {!r}]); sys.stdin.read()"
+
+
+def job_log(folder):
+    """Path of a job's log in a folder of results."""
+    log = folder / "logs/stage/job.log"
+    log.parent.mkdir(parents=True)
+    return log
 
 
 @pytest.fixture(scope="module")
@@ -57,11 +64,11 @@ def test_an_edit_after_the_clock_was_set_back_is_seen(finished):
         script.write_text(text)
         assert code == 0, told
         assert "dates in the future" in told
-        assert ("Harmonic balance and suppression band" in told) == bool(edited)
+        assert ("Harmonic balance of the curve" in told) == bool(edited)
 
 
 def test_a_job_ends_with_its_run(tmp_path):
-    log = tmp_path / "job.log"
+    log = job_log(tmp_path)
     command = [sys.executable, "-c", RUN.format(JOB.format(str(log), LONG))]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen(command, text=True, **pipes) as run:
@@ -75,7 +82,7 @@ def test_a_job_ends_with_its_run(tmp_path):
 @pytest.mark.parametrize("kind, lines", [("OSError", 1), ("ValueError", None)])
 def test_what_stops_a_job_is_told(kind, lines, tmp_path):
     """A file that stops it in one line, to terminal and log; else a traceback in the log."""
-    log = tmp_path / "job.log"
+    log = job_log(tmp_path)
     command = JOB.format(str(log), f"raise {kind}('a.nc is broken')")
     job = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)
     assert job.returncode == 1
@@ -85,3 +92,18 @@ def test_what_stops_a_job_is_told(kind, lines, tmp_path):
     else:
         assert job.stderr == ""
         assert "Traceback" in log.read_text() and "a.nc is broken" in log.read_text()
+
+
+@pytest.mark.parametrize("megabytes", [0, 300])
+def test_the_timing_of_a_job_is_its_own(megabytes, tmp_path):
+    """It holds the job's memory and none of the process that starts it."""
+    kept = bytearray(b"1") * (200 * 2**20)
+    work = f"kept = bytearray(b'1') * ({megabytes} * 2**20); time.sleep(0.5)"
+    code = JOB.format(str(job_log(tmp_path)), work)
+    subprocess.run([sys.executable, "-c", code], check=True)
+    assert len(kept) == 200 * 2**20
+    header, values = (tmp_path / "timings/stage/job.tsv").read_text().splitlines()
+    timing = dict(zip(header.split(), map(float, values.split()), strict=True))
+    assert 0.5 < timing["seconds"] < 30
+    assert 0 < timing["cpu_seconds"] < 10
+    assert megabytes < timing["peak_memory_mb"] < megabytes + 100

@@ -1,107 +1,76 @@
 """After an edit exactly those jobs run again that depend on it.
 
-The whole workflow is asked, with results that were only touched. What the rules say of their jobs
-is compared with the flow of data for every value of the configuration and every source file; dry
-runs of Snakemake show that it plans what the rules say.
+Snakemake is asked about a project whose results were only touched.
 """
 
 import copy
 import json
 import re
 from base64 import b64decode
+from modulefinder import ModuleFinder
+from pathlib import Path
 
 import pytest
 import yaml
-from helpers.data_flow import DRAWN
-from helpers.following import Flow
-from helpers.planning import Planner, name_of, reruns
+from helpers import planning
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
-from impact_damper.workflow.configuration import ConfigurationError, check_configuration
+from impact_damper.workflow import selection
+from impact_damper.workflow.registry import CHAPTERS, STAGES
+from impact_damper.workflow.sources import module_file, sources
+
+pytestmark = pytest.mark.workflow
+
+SCRIPTS = sorted(path.stem for path in (ROOT / "workflow/scripts").glob("*.py"))
 
 
-def leaves(value, path=()):
-    """Keys that lead to each value of the configuration that holds no others."""
-    if isinstance(value, dict | list):
-        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
-            yield from leaves(part, (*path, key))
-    else:
-        yield path
+def chapters(*names):
+    return {f"chapter/{name}" for name in names}
 
 
-def at(config, path):
-    for key in path:
-        config = config[key]
-    return config
-
-
-def changed(config, path):
-    """The configuration with another value, or None where no other is allowed by itself."""
-    config = copy.deepcopy(config)
-    *inner, key = path
-    place, value = at(config, inner), at(config, path)
-    if inner[-1:] == ["stages"] or (inner[-1:] == ["data"] and len(place) > 1):
-        del place[key]
-        # A figure draws a stage that its curves must have.
-        try:
-            check_configuration(config)
-        except ConfigurationError:
-            return None
-    elif isinstance(value, str):
-        place[key] = other(config, path, value)
-        if place[key] is None:
-            return None
-    else:
-        place[key] = value + 1 if isinstance(value, int) else 1.01 * value
-    return config
-
-
-def other(config, path, value):
-    """Another text that is allowed in place of a text."""
-    key = path[-1]
-    if key in ("title", "remark", "results"):
-        return f"{value}-again"
-    if path[0] == "figures":
-        figure = config["figures"][path[1]]
-        section = DRAWN.get(figure["kind"], figure["kind"])
-        if key == "kind":
-            kinds = DRAWN | {"migration": "migration"}
-            choices = [kind for kind, drawn in kinds.items() if drawn == section]
-        else:
-            choices = config.get(section, ["elastic_model", "inelastic_model"])
-    else:
-        choices = {
-            "oscillator": config["oscillators"],
-            "scene": ["design", "many_contacts"],
-            "clearance": [1.5],
-            "parameter": ["mass_ratio", "damping"],
-            "motion": ["steady", "transient"],
-            "quantity": ["amplitude", "state"],
-        }[key]
-    return next((choice for choice in choices if choice != value), None)
-
-
-def sources(project):
-    """Files of the project on which results may depend."""
-    folders = ("src", "workflow", "profiles", "config")
-    found = [path for folder in folders for path in (project / folder).rglob("*.*")]
-    found += [project / "Snakefile", project / "requirements.lock"]
-    return {
-        path.relative_to(project).as_posix() for path in found if "__pycache__" not in str(path)
-    }
+# Edits of values, and the jobs that run again.
+VALUES = {
+    ("curves", "figure_08", "clearance"): {
+        *(f"{s}/figure_08" for s in ("harmonic_balance", "response", "subharmonic", "branches")),
+        *chapters("design", "responses", "claims"),
+    },
+    ("curves", "free_h150", "oscillator"): {
+        *(f"{stage}/free_h150" for stage in ("harmonic_balance", "response", "branches")),
+        *chapters("design", "responses", "claims"),
+    },
+    ("points", "clearances"): {"optimum/*", *chapters("clearance", "claims")},
+    ("collisions", "figure_05a", "mass_ratio"): {"collisions", *chapters("claims")},
+    ("comparison", "harmonics"): {"accuracy/*", *chapters("methods")},
+    ("oscillators", "l100", "damping"): {
+        *(f"{stage}/free_l100" for stage in ("harmonic_balance", "response", "branches")),
+        *(f"{stage}/figure_03b*" for stage in ("harmonic_balance", "design_orbit")),
+        *chapters("design", "responses", "claims"),
+    },
+    ("oscillators", "l150", "frequencies", "last"): {
+        *(f"{stage}/free_l150" for stage in ("harmonic_balance", "response", "branches")),
+        *("harmonic_balance/figure_03a", "harmonic_balance/figure_03a_rule"),
+        *chapters("design", "responses", "claims"),
+    },
+    ("figures", "figure_08", "title"): chapters("responses"),
+    ("seed",): None,
+}
+# Edits of files, and the jobs that run again; None stands for all.
+FILES = {
+    "requirements.lock": None,
+    "src/impact_damper/figures/style.py": chapters(*set(CHAPTERS) - {"claims"}),
+    "src/impact_damper/tables/migration.py": chapters("migration"),
+    "workflow/report/response.rst": chapters("responses"),
+    "workflow/scripts/motion.py": {"motion/figure_04", *chapters("responses", "claims")},
+    "src/impact_damper/stages/studies.py": {"studies/design_plane", *chapters("clearance")},
+}
 
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory):
-    """The whole project after a run to its end, in which every result is empty."""
+    """The whole project after a run to its end, in which every dataset is empty."""
     project = copy_of_project(tmp_path_factory.mktemp("a project"))
-    path = project / "config/config.yaml"
-    # so that `settling.scene` can be changed by itself
-    text = path.read_text()
-    path.write_text(text.replace("\n  design:\n", "\n  design:\n    tolerance: 1.0e-5\n"))
-    told = snakemake(project, "--summary")
-    for line in told.stdout.splitlines()[1:]:
+    for line in snakemake(project, "--summary").stdout.splitlines()[1:]:
         output = project / line.split("\t")[0]
         output.parent.mkdir(parents=True, exist_ok=True)
         with Dataset(output, "w") if output.suffix == ".nc" else output.open("w"):
@@ -117,39 +86,13 @@ def config(project):
 
 
 @pytest.fixture(scope="module")
-def planner():
-    return Planner(ROOT)
-
-
-@pytest.fixture(scope="module")
-def jobs(planner, config):
-    return planner.jobs(config)
-
-
-@pytest.fixture(scope="module")
-def flow(project, config):
-    return Flow(project, config)
-
-
-def recorded(project):
-    """What Snakemake noted of each output: its job's parameters and inputs."""
-    for path in (project / ".snakemake/metadata").iterdir():
-        record = json.loads(path.read_text())
-        name = name_of(b64decode(path.name).decode())
-        yield name, frozenset(record["params"]), frozenset(record["input"])
-
-
-def to_do(project):
-    """Jobs that Snakemake would run, by its own summary of the outputs."""
-    result = snakemake(project, "--summary")
-    assert result.returncode == 0, result.stdout + result.stderr
-    lines = [line.split("\t") for line in result.stdout.splitlines()[1:]]
-    return {name_of(line[0]) for line in lines if line[-1] != "no update"}
+def jobs(config):
+    return planning.jobs(config)
 
 
 @pytest.fixture
 def edit(project):
-    """Edit a file of the project, until the test ends."""
+    """Edit a file of the project until the test ends."""
     originals = {}
 
     def change(name, text):
@@ -162,94 +105,122 @@ def edit(project):
         path.write_text(text)
 
 
-def test_rules_say_what_snakemake_notes(project, jobs):
-    noted = list(recorded(project))
-    assert {name for name, *_ in noted} - {"kernels", "rival_kernels"} == set(jobs)
-    for name, params, inputs in noted:
-        if name in jobs:
-            assert (params, inputs) == jobs[name][:2], name
+def leaves(value, path=()):
+    """Keys that lead to each value of the configuration that holds no others."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield from leaves(part, (*path, key))
+    else:
+        yield path, value
 
 
-def test_each_value_reruns_what_depends_on_it(planner, jobs, flow, config):
-    wrong = {}
-    for path in leaves(config):
+def changed(config, path):
+    """The configuration with another number or another oscillator at a path, or None."""
+    config = copy.deepcopy(config)
+    place = config
+    for key in path[:-1]:
+        place = place[key]
+    value = place[path[-1]]
+    if path[-1] == "oscillator":
+        place[path[-1]] = next(name for name in config["oscillators"] if name != value)
+    elif path[-1] in ("title", "remark"):
+        place[path[-1]] = f"{value} Again."
+    elif isinstance(value, int | float):
+        place[path[-1]] = value + 1 if isinstance(value, int) else 1.01 * value
+    else:
+        return None
+    return config
+
+
+def to_do(project, config):
+    """Jobs that Snakemake would run, by its summary of the outputs."""
+    result = snakemake(project, "--summary")
+    assert result.returncode == 0, result.stdout + result.stderr
+    lines = [line.split("\t") for line in result.stdout.splitlines()[1:]]
+    return {planning.job_of_file(config, line[0]) for line in lines if line[-1] != "no update"}
+
+
+def matching(jobs, patterns):
+    """Jobs of names in which a final star stands for anything."""
+    return {
+        job
+        for job in jobs
+        for pattern in patterns
+        if job == pattern or pattern.endswith("*") and job.startswith(pattern[:-1])
+    }
+
+
+def test_snakemake_compares_what_the_registry_says(project, config, jobs):
+    noted = {}
+    for path in (project / ".snakemake/metadata").iterdir():
+        name = planning.job_of_file(config, b64decode(path.name).decode())
+        record = json.loads(path.read_text())
+        read = {planning.job_of_file(config, f) for f in record["input"] if f.endswith(".nc")}
+        noted[name] = planning.Job(frozenset(record["params"]), frozenset(read))
+    del noted["kernels"]
+    assert noted == jobs
+
+
+def test_each_value_is_read_and_reruns_not_everything(config, jobs):
+    for path, _ in leaves(config):
         edited = changed(config, path)
-        if edited is None or path in (("results",), ("chunks",)):
-            continue
-        found, expected = reruns(jobs, planner.jobs(edited)), flow.of(path)
-        if found != expected:
-            wrong[path] = {"needless": found - expected, "missing": expected - found}
-    assert not wrong
+        if edited and path != ("chunks",):
+            again = planning.reruns(jobs, planning.jobs(edited))
+            assert 0 < len(again) < len(jobs), path
 
 
-def test_each_source_reruns_what_depends_on_it(jobs, flow):
-    wrong = {}
-    for path in sources(ROOT):
-        found, expected = reruns(jobs, jobs, {path}), flow.of_file(ROOT, path)
-        if found != expected:
-            wrong[path] = {"needless": found - expected, "missing": expected - found}
-    assert not wrong
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_script_uses_all_of_its_parameters(stage, config):
+    """A parameter that a job does not use would rerun it for nothing."""
+    text = (ROOT / f"workflow/scripts/{stage}.py").read_text()
+    parameters = STAGES[stage].parameters(config, selection.entries(config, stage)[0])
+    unused = {key for key in parameters if f'"{key}"' not in text and f".{key}" not in text}
+    assert not unused
+    assert "config" not in text
 
 
-VALUES = [
-    ("results",),
-    ("settling", "scene"),
-    ("oscillators", "h107", "frequencies", "last"),
-    ("curves", "figure_08", "clearance"),
-    ("curves", "figure_05b", "stages", 2),
-    ("figures", "figure_10", "data", 0),
-    ("figures", "figure_14", "kind"),
-    ("figures", "figure_08", "title"),
-]
-
-
-@pytest.mark.parametrize("path", VALUES, ids=lambda path: ".".join(map(str, path)))
-def test_snakemake_reruns_what_depends_on_a_value(path, project, edit, flow, config):
-    edit("config/config.yaml", yaml.safe_dump(changed(config, path), sort_keys=False))
-    everything = {"kernels", "rival_kernels"} | flow.of(path)
-    assert to_do(project) == (everything if path == ("results",) else flow.of(path))
-
-
-FILES = [
-    "requirements.lock",
-    "src/impact_damper/kernel/single.py",
-    "src/impact_damper/figures/style.py",
-    "workflow/report/response.rst",
-]
+@pytest.mark.parametrize("path", VALUES, ids=".".join)
+def test_an_edit_of_a_value_reruns_what_reads_it(path, project, edit, config, jobs):
+    edited = changed(config, path)
+    edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
+    expected = planning.reruns(jobs, planning.jobs(edited))
+    if VALUES[path]:
+        assert expected == matching(jobs, VALUES[path])
+    assert to_do(project, config) == expected
 
 
 @pytest.mark.parametrize("path", FILES)
-def test_snakemake_reruns_what_depends_on_a_file(path, project, edit, flow):
+def test_an_edit_of_a_file_reruns_what_runs_it(path, project, edit, config, jobs):
     edit(path, (project / path).read_text() + "\n")
-    assert to_do(project) == flow.of_file(project, path)
+    assert to_do(project, config) == (FILES[path] or set(jobs))
 
 
-def test_another_number_of_chunks_computes_studies_anew(project, edit, config):
-    edited = changed(config, ("chunks",))
-    edit("config/config.yaml", yaml.safe_dump(edited))
-    assert to_do(project) == Flow(project, edited).of(("chunks",))
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_sources_of_a_script_are_what_python_imports(script, config):
+    """Python's own search for imports finds the files that are inputs of the script's jobs."""
+    paths = [ROOT / f"workflow/scripts/{script}.py"]
+    if script == "chapter":
+        modules = {m for chapter in CHAPTERS for m in selection.chapter_modules(config, chapter)}
+        paths += map(module_file, modules)
+    finder = ModuleFinder(path=[str(ROOT / "src")])
+    for path in paths:
+        finder.run_script(str(path))
+    found = {Path(m.__file__) for m in finder.modules.values() if m.__file__} | set(paths)
+    own = sources(*paths)
+    # An `__init__` that no name is taken from decides nothing.
+    assert own <= found and {path.name for path in found - own} <= {"__init__.py"}
 
 
-def test_a_lost_chunk_costs_itself(project, flow):
-    chunk = project / "results/study_chunks/design_plane/2-of-4.nc"
-    study = project / "results/studies/design_plane.nc"
-    kept = {path: path.read_bytes() for path in (chunk, study)}
-    chunk.unlink()
-    gathered = snakemake(project, "-n", "studies")
-    study.unlink()
-    plan = snakemake(project, "-n", "studies")
-    for path, content in kept.items():
-        path.write_bytes(content)
-    assert "Nothing to be done" in gathered.stdout + gathered.stderr
-    assert re.findall(r"^Job \d+: (.*)$", plan.stdout, re.M) == [
-        "Chunk 2-of-4 of the study design_plane",
-        "Gathering the study design_plane",
+def test_chunks(project, edit, config):
+    """Cutting a study into chunks computes it anew; then a lost chunk costs only itself."""
+    edit("config/config.yaml", yaml.safe_dump(config | {"chunks": 2}, sort_keys=False))
+    plan = snakemake(project, "-n", "results/studies/design_plane.nc")
+    messages = re.findall(r"^Job \d+: (.*)$", plan.stdout, re.M)
+    assert sorted(messages) == [
+        "Chunk 1-of-2 of the study design_plane",
+        "Chunk 2-of-2 of the study design_plane",
+        "The study design_plane",
     ]
-
-
-def test_a_figure_style_computes_nothing(flow):
-    plan = flow.of_file(ROOT, "src/impact_damper/figures/style.py")
-    assert plan == {job for job in flow.needs if job.startswith("figures/")}
 
 
 def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
@@ -262,37 +233,26 @@ def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
             return value
         return {key: turned(part) for key, part in reversed(value.items())}
 
-    text = yaml.safe_dump(turned(config), sort_keys=False)
-    edit("config/config.yaml", f"# A word.\n{text}")
+    edit("config/config.yaml", f"# A word.\n{yaml.safe_dump(turned(config), sort_keys=False)}")
     (project / "results/kernels.compiled").unlink()
     result = snakemake(project, "-n")
     (project / "results/kernels.compiled").touch()
     assert "Nothing to be done" in result.stdout + result.stderr
 
 
-def test_a_dry_run_says_what_changed(project, edit, config):
+def test_a_dry_run_shows_what_changed(project, edit, config):
     edited = copy.deepcopy(config)
     edited["curves"]["figure_08"]["clearance"] = 1.07
     edit("config/config.yaml", yaml.safe_dump(edited))
     result = snakemake(project, "-n")
-    told = result.stdout + result.stderr
-    # nothing but the damper stands between the two words
-    was, is_now = re.search(
-        r"Motions with the damper over frequency, of the curve figure_08\n"
+    before, now = re.search(
+        r"Motions over frequency, of the curve figure_08\n"
         r"Reason: Params have changed .* before: (.*) now: (.*)",
-        told,
+        result.stdout + result.stderr,
     ).groups()
-    assert yaml.safe_load(was) == {"damper": damper(1.063)}
-    assert yaml.safe_load(is_now) == {"damper": damper(1.07)}
-    edit("workflow/scripts/steady_motion.py", "# A word.")
+    damper = {"mass_ratio": 0.12, "restitution": 1, "contact_stiffness": 2000}
+    assert yaml.safe_load(before) == {"damper": damper | {"clearance": 1.063}}
+    assert yaml.safe_load(now) == {"damper": damper | {"clearance": 1.07}}
+    edit("workflow/scripts/motion.py", "# A word.")
     told = snakemake(project, "-n", "results/motion/figure_04.nc").stdout
-    assert "Reason: Updated input files: workflow/scripts/steady_motion.py" in told
-
-
-def damper(clearance):
-    return {
-        "mass_ratio": 0.12,
-        "clearance": clearance,
-        "restitution": 1,
-        "contact_stiffness": 2000,
-    }
+    assert "Reason: Updated input files: workflow/scripts/motion.py" in told
