@@ -100,7 +100,6 @@ FIXED = [path for path in MAPPINGS if not is_named(path)]
 NAMED = [path for path in MAPPINGS if is_named(path)]
 # Where a number or a range may stand.
 AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXES]
-LEAVES = [path for path, value in places(SMALL) if not isinstance(value, (dict, list))]
 NUMBERS = [path for path, value in places(SMALL) if is_number(value)]
 TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]
 # There may be no further orders.

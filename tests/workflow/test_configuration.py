@@ -361,11 +361,19 @@ def test_entries_set_to_null_are_left_out_with_what_only_they_are_drawn_for():
     assert kept["figures"] == {"both": {"kind": "harmonic_balance", "data": ["a"]}}
 
 
-@pytest.mark.parametrize(
-    "config", [{"figures": {"a": 5}}, {"figures": {"a": {"kind": "harmonic_balance"}}}]
-)
-def test_leaving_out_passes_on_what_the_schema_rejects(config):
-    assert without_left_out(config | {"curves": 5}) == config | {"curves": 5}
+@pytest.mark.parametrize("figures", [5, [1], {"a": 5}, {"a": {"kind": "harmonic_balance"}}])
+@pytest.mark.parametrize("curves", [5, {"b": {}}])
+def test_leaving_out_passes_on_what_the_check_refuses(figures, curves):
+    config = {"figures": figures, "curves": curves}
+    assert without_left_out(config) == config
+
+
+def test_names_of_another_kind_are_no_entries_left_out():
+    config = {
+        "figures": {"a": {"kind": "harmonic_balance", "data": [[], {}]}},
+        "curves": {"b": None},
+    }
+    assert without_left_out(config) == config | {"curves": {}}
 
 
 def test_a_damper_is_whole_or_absent():

@@ -21,7 +21,10 @@ class ConfigurationError(ValueError):
 
 
 def check_configuration(config) -> None:
-    """Raise if a value of the configuration is not allowed, contradicts another or asks too much.
+    """Raise if the configuration cannot be run.
+
+    First each value is checked by itself. Only if all are allowed, contradictions between values
+    are looked for, and only without these, too large amounts of work.
 
     Parameters
     ----------
@@ -31,8 +34,7 @@ def check_configuration(config) -> None:
     Raises
     ------
     ConfigurationError
-        Naming the key, the value, what is allowed and why, a line for each problem. Contradictions
-        are looked for only where each value is allowed, and amounts of work after these.
+        With a line for each problem: the key, its value, what is allowed and why.
     """
     try:
         checked = Configuration.model_validate(config)
@@ -48,9 +50,10 @@ def check_configuration(config) -> None:
 
 
 def without_left_out(config) -> dict:
-    """The configuration without entries set to null: how a second file leaves out what a first has.
+    """Return the configuration without the entries that are set to null.
 
-    Figures that draw such an entry go with it; one that is left with nothing to draw does too.
+    A second configuration file leaves out an entry of the first by setting it to null. Figures then
+    draw their other entries; a figure without any is left out too.
     """
     kept = {
         key: {name: entry for name, entry in value.items() if entry is not None}
@@ -58,43 +61,44 @@ def without_left_out(config) -> dict:
         else value
         for key, value in config.items()
     }
-    for name, figure in list(kept.get("figures", {}).items()):
+    figures = kept.get("figures")
+    for name, figure in list(figures.items()) if isinstance(figures, dict) else []:
         kind = figure.get("kind") if isinstance(figure, dict) else None
         known = isinstance(kind, str) and kind in KINDS
         entries = config.get(section_of(kind)) if known else None
         if not isinstance(entries, dict) or not isinstance(figure.get("data"), list):
             continue
-        left_out = {key for key, entry in entries.items() if entry is None}
+        left_out = [key for key, entry in entries.items() if entry is None]
         data = [key for key in figure["data"] if key not in left_out]
         if data:
-            kept["figures"][name] = figure | {"data": data}
+            figures[name] = figure | {"data": data}
         else:
-            del kept["figures"][name]
+            del figures[name]
     return kept
 
 
 def check_file(path) -> None:
-    """Raise if a YAML file cannot be read, or if a key stands twice in it.
+    """Raise if a YAML file cannot be read, or if a mapping in it has a key twice.
 
-    Of a key that stands twice a reader would keep the last alone.
+    A YAML reader would keep the last value of such a key without a word.
 
     Raises
     ------
     ConfigurationError
-        Naming file, line and key, a line for each problem.
+        With a line for each problem: the file, its line and the key.
     """
     name = Path(path).name
     try:
         root = yaml.compose(Path(path).read_bytes(), Loader=LOADER)
     except (yaml.YAMLError, UnicodeDecodeError) as error:
-        told = " ".join(str(error).split())
+        reason = " ".join(str(error).split())
         raise ConfigurationError(
-            f"{name}: must be YAML in UTF-8, indented by spaces: {told}"
+            f"{name}: must be YAML in UTF-8, indented by spaces: {reason}"
         ) from None
     problems, seen, nodes = [], set(), [root]
     while nodes:
         node = nodes.pop()
-        # an alias leads to a node again, maybe to one that holds it
+        # By an alias a node is reached more than once, or even inside itself.
         if id(node) in seen:
             continue
         seen.add(id(node))
@@ -114,7 +118,7 @@ def check_file(path) -> None:
 
 
 def _line(detail):
-    """The line on one error of pydantic."""
+    """Return the line that reports one error of pydantic."""
     path = [key for key in detail["loc"] if key not in (NUMBER, RANGE)]
     if path[-1:] == ["[key]"]:
         return f"{dotted(path[:-1])}: name {detail['msg']}"
