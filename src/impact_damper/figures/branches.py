@@ -1,93 +1,149 @@
-"""Lines that join the motions of a response which belong to one branch.
-
-In the datasets the order of the motions at one frequency has no relation to their order at the
-next.
-"""
+"""Branches of exact periodic orbits, stable and unstable, with their bifurcations."""
 
 import numpy as np
 
+from impact_damper.data.datasets import flag, has_damper
+from impact_damper.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    ROLES,
+    SKY,
+    VERMILION,
+    axis_label,
+    figure,
+    legend,
+    style,
+)
 
-def lines(x, y, group):
-    """Join the entries of a table to lines, from row to row within each group.
+EVENTS = {
+    "fold": ("fold", "o", BLACK),
+    "symmetry_breaking": ("loss of symmetry", "s", BLACK),
+    "period_doubling": ("period doubling", "^", VERMILION),
+    "neimark_sacker": ("Neimark-Sacker", "D", VERMILION),
+    "grazing": ("grazing: a contact is born", "P", SKY),
+    "merging": ("merging of two contacts", "X", SKY),
+}
+OPEN_ENDS = ("too_unstable", "grazing", "lost", "point_limit")
+OPEN = {
+    "label": "not followed further",
+    "marker": "x",
+    "color": GREY,
+    "markersize": 3.4,
+    "linestyle": "none",
+    "zorder": 2.5,
+}
+PERIODS = [
+    ("period 1", BLUE, lambda period: period == 1),
+    ("period 2", GREEN, lambda period: period == 2),
+    ("period 3", PURPLE, lambda period: period == 3),
+    ("longer periods", ORANGE, lambda period: period > 3),
+]
+
+
+@style()
+def draw_branches(*, branches):
+    """Draw the largest displacement of the orbits over frequency, one panel for each damper.
 
     Parameters
     ----------
-    x : array, shape (n,)
-        Abscissae of the rows, increasing.
-    y : array, shape (n, m)
-        Ordinates. A line continues from an entry to the nearest one of its group in the next row.
-    group : array of int, shape (n, m)
-        Group of each entry; negative for no entry.
+    branches : list of xarray.Dataset
+        Datasets of the stage branches; those without a damper are drawn in every panel.
 
     Returns
     -------
-    list of (int, array, array)
-        Group, abscissae and ordinates of each line.
+    matplotlib.figure.Figure
     """
-    begun, live = [], []
-    for value, row, names in zip(x, y, group, strict=True):
-        pairs = sorted(
-            (abs(line[2][-1] - row[k]), i, k)
-            for i, line in enumerate(live)
-            for k in np.flatnonzero(names == line[0])
+    damped = [data for data in branches if has_damper(data)]
+    free = [data for data in branches if not has_damper(data)]
+    drawn = figure("double", 4.6 * len(damped))
+    panels = drawn.subplots(len(damped), squeeze=False)[:, 0]
+    for axes, data in zip(panels, damped, strict=True):
+        for each in free:
+            for value, size, stable in runs(each, lambda period: True):
+                role = ROLES["free_stable" if stable else "free_unstable"]
+                axes.plot(value, size, **role | {"linewidth": 0.7})
+        for label, color, chosen in PERIODS:
+            for value, size, stable in runs(data, chosen):
+                look = {"label": f"damper, {label}"} if stable else {"linestyle": ":"}
+                axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.8, **look)
+        mark_events(axes, data)
+        mark_open_ends(axes, data)
+        axes.set(
+            xlabel="Forcing frequency, $\\Omega$",
+            ylabel=axis_label(data["orbit_displacement"]),
         )
-        continued = {}
-        for _, i, k in pairs:
-            if k not in continued and i not in continued.values():
-                continued[k] = i
-        before, live = live, []
-        for k in np.flatnonzero(names >= 0):
-            line = before[continued[k]] if k in continued else (names[k], [], [])
-            line[1].append(value)
-            line[2].append(row[k])
-            live.append(line)
-            if k not in continued:
-                begun.append(line)
-    return [(name, np.array(at), np.array(values)) for name, at, values in begun]
+        axes.set_ylim(bottom=0)
+    legend(drawn, 3)
+    return drawn
 
 
-def branch_lines(response, chosen):
-    """Lines through the chosen motions of a response, extended to the ends of their branches.
-
-    A branch whose period changes gives one line for each period.
+def runs(data, chosen):
+    """Yield the parts of branches with uniform stability.
 
     Parameters
     ----------
-    response : xarray.Dataset
-        Dataset of the stage response.
-    chosen : array of bool, shape (frequency, motion)
+    data : xarray.Dataset
+        Dataset of the stage branches, or of `orbit_branch`.
+    chosen : callable
+        Maps the period of a branch to True if the branch is wanted.
 
-    Returns
-    -------
-    list of (array, array)
-        Frequency and largest displacement.
+    Yields
+    ------
+    (array, array, bool)
+        Frequency, largest displacement, and whether stable.
     """
-    frequency = response["frequency"].values
-    branch, period = response["branch"].values, response["period"].values
-    most = period.max(initial=0) + 1
-    joined = lines(
-        frequency,
-        response["maximum_displacement"].values,
-        np.where(chosen, branch * most + period, -1),
-    )
-    joined = [[name // most, at, values] for name, at, values in joined]
-    step = np.diff(frequency).max(initial=0)
-    ends = ("end_branch", "end_direction", "end_value", "end_displacement")
-    for name, direction, where, value in zip(*(response[key].values for key in ends), strict=True):
-        last = -1 if direction > 0 else 0
-        near = [
-            line
-            for line in joined
-            if line[0] == name and 0 <= direction * (where - line[1][last]) <= step
-        ]
-        if near:
-            line = min(near, key=lambda line: abs(line[2][last] - value))
-            place = len(line[1]) if direction > 0 else 0
-            line[1:] = np.insert(line[1], place, where), np.insert(line[2], place, value)
-    return [(at, values) for _, at, values in joined]
+    stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
+    number, value = data["orbit_branch"].values, data["followed_value"].values
+    size = data["orbit_displacement"].values
+    for branch, period in enumerate(data["branch_period"].values):
+        if not chosen(period):
+            continue
+        at = np.flatnonzero(number == branch)
+        edges = [0, *(np.flatnonzero(np.diff(stable[at])) + 1), len(at)]
+        for first, last in zip(edges, edges[1:], strict=False):
+            # includes the first orbit of the next part, so that no gap is drawn between them
+            part = at[first : last + 1]
+            yield value[part], size[part], bool(stable[at[first]])
 
 
-def draw_lines(axes, lines, role):
-    """Draw lines, pairs of abscissae and ordinates, in one role."""
-    for at, values in lines:
-        axes.plot(at, values, **role)
+def draw_free_orbits(axes, data):
+    """Draw the free orbits in roles by period (1, 3, others) and stability."""
+    for role, unstable, chosen in (
+        ("free_stable", "free_unstable", lambda period: period == 1),
+        ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
+        ("free_higher", "free_unstable", lambda period: period not in (1, 3)),
+    ):
+        for value, size, stable in runs(data, chosen):
+            axes.plot(value, size, **ROLES[role if stable else unstable])
+
+
+def mark_open_ends(axes, data):
+    """Mark with a cross every end beyond which a branch continues but was not followed."""
+    chosen = [flag("branch_end", name) for name in OPEN_ENDS]
+    number = data["orbit_branch"].values
+    for branch, ends in enumerate(data["branch_end"].values):
+        at = np.flatnonzero(number == branch)
+        for place, end in zip((at[0], at[-1]), ends, strict=True):
+            if end in chosen:
+                axes.plot(data["followed_value"][place], data["orbit_displacement"][place], **OPEN)
+
+
+def mark_events(axes, data):
+    """Mark every located event."""
+    for name, (label, marker, color) in EVENTS.items():
+        chosen = data["event_kind"].values == flag("event_kind", name)
+        if chosen.any():
+            axes.plot(
+                data["event_value"].values[chosen],
+                data["event_displacement"].values[chosen],
+                label=label,
+                marker=marker,
+                color=color,
+                markersize=3.4,
+                linestyle="none",
+                zorder=3,
+            )

@@ -1,17 +1,17 @@
-"""Response of the free oscillator: figure 2."""
+"""Response of the oscillator without a damper: figure 2 (kind free)."""
 
-from impact_damper.figures.orbits import draw_free_orbits
+from impact_damper.figures.branches import draw_free_orbits
 from impact_damper.figures.style import axis_label, figure, legend, letter_panels, style
 
 
 @style()
 def draw_free(*, branches):
-    """Largest displacement of the free orbits against forcing frequency, a panel for each.
+    """Draw the largest displacement of the free orbits over frequency, one panel an oscillator.
 
     Parameters
     ----------
     branches : list of xarray.Dataset
-        Of `complete_branches` without a damper.
+        Datasets of the stage branches without a damper.
 
     Returns
     -------

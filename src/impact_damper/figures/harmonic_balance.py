@@ -1,20 +1,20 @@
-"""Responses by harmonic balance with and without a damper: figure 3."""
+"""Responses by harmonic balance with and without a damper: figure 3 (kind harmonic_balance)."""
 
 import numpy as np
 
 from impact_damper.data.datasets import flag, parameters_of
-from impact_damper.figures.branches import draw_lines, lines
+from impact_damper.figures.motion_lines import draw_lines, lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 
 @style()
 def draw_harmonic_balance(*, harmonic_balance):
-    """Amplitude by harmonic balance against forcing frequency, a panel for each damper.
+    """Draw the amplitude by harmonic balance over frequency, one panel for each damper.
 
     Parameters
     ----------
     harmonic_balance : list of xarray.Dataset
-        Of `harmonic_balance`, with a damper.
+        Datasets of the stage harmonic_balance, with a damper.
 
     Returns
     -------
@@ -40,29 +40,29 @@ def draw_harmonic_balance(*, harmonic_balance):
 
 
 def draw_balance(axes, balance):
-    """Stable solutions of (7) with the damper in contact."""
+    """Draw the stable impacting solutions of (7)."""
     stable = balance["stability"].values == flag("stability", "stable")
     impacting = balance["kind"].values == flag("kind", "impacting")
     draw_amplitudes(axes, balance, "amplitude", stable & impacting, ROLES["harmonic_balance"])
 
 
 def draw_amplitudes(axes, balance, name, chosen, role):
-    """Absolute amplitudes of the chosen solutions of harmonic balance."""
+    """Draw |a| of the chosen solutions of harmonic balance in a role."""
     group = np.where(chosen, 0, -1)
-    found = lines(balance["frequency"].values, balance[name].values, group)
-    draw_lines(axes, [(at, abs(values)) for _, at, values in found], role)
+    joined = lines(balance["frequency"].values, balance[name].values, group)
+    draw_lines(axes, [(at, abs(values)) for _, at, values in joined], role)
 
 
 def draw_band(axes, balance):
-    """The suppression band, shaded, where there is one."""
+    """Shade the suppression band, if it exists."""
     if balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **ROLES["band"])
 
 
 def draw_unstable(axes, balance):
-    """Unstable solutions of harmonic balance without a damper, up to the folds.
+    """Draw the unstable solutions of harmonic balance without a damper, up to the folds.
 
-    The phase increases along the curve of all solutions: it puts them in order.
+    Along the response curve the phase increases, so the solutions are sorted by phase.
     """
     phase = balance["free_phase"].values
     order = np.argsort(phase, axis=None)[: np.isfinite(phase).sum()]

@@ -1,8 +1,8 @@
-"""Errors of harmonic balance and of Hill's method against the number of harmonics."""
+"""Errors of harmonic balance and Hill's method over the number of harmonics."""
 
 import numpy as np
 
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import flag, has_damper, parameters_of
 from impact_damper.figures.style import (
     GREY,
     ROLES,
@@ -11,6 +11,7 @@ from impact_damper.figures.style import (
     figure,
     legend,
     letter_panels,
+    parameter_label,
     points,
     style,
 )
@@ -20,7 +21,7 @@ PANELS = {
     "retained": "Error of $Z_1$ in harmonics up to $N$",
     "multiplier": "Error of a Floquet multiplier (Hill)",
 }
-ROUNDING, FLOOR = 1e-12, 1e-16
+ROUNDING, FLOOR = 1e-12, 1e-16  # smallest error fitted, and smallest error drawn
 GUIDE = {"color": GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
 COLD = {
     "same_motion": ("cold start: same motion", {"marker": "o", "markerfacecolor": "none"}),
@@ -32,12 +33,12 @@ COLD = {
 
 @style()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Errors of max |Z1|, of the harmonics kept and of the multipliers; what cold starts came to.
+    """Draw errors of max |Z1|, of the retained harmonics and of multipliers, and cold starts.
 
     Parameters
     ----------
     harmonic_convergence : list of xarray.Dataset
-        Of `harmonic_convergence`, five at most.
+        Datasets of the stage harmonic_convergence, at most five.
 
     Returns
     -------
@@ -57,7 +58,7 @@ def draw_harmonic_convergence(*, harmonic_convergence):
 
 
 def draw_errors(axes, harmonics, measure):
-    """Errors of one measure, with the predicted decay above each, and failures at the top."""
+    """Draw the errors of one measure, the predicted decay above them, and failures at the top."""
     status = "hill_status" if measure == "multiplier" else "series_status"
     for index, data in enumerate(harmonics):
         at = data.sel(error_measure=measure)
@@ -73,7 +74,7 @@ def draw_errors(axes, harmonics, measure):
 
 
 def guide(data, at):
-    """Line of the predicted decay, at three times the fitted errors' geometric mean."""
+    """Line of the predicted decay, three times above the geometric mean of the fitted errors."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -85,7 +86,7 @@ def guide(data, at):
 
 
 def draw_cold(axes, harmonics):
-    """What each cold start came to, a row for each motion."""
+    """Draw the result of each cold start, one row for each motion."""
     for index, data in enumerate(harmonics):
         highest, status = data["highest_harmonic"].values, data["cold_status"].values
         for meaning, (words, look) in COLD.items():
@@ -99,10 +100,10 @@ def draw_cold(axes, harmonics):
 
 
 def title(data, short=False):
-    """What a motion is of: the free oscillator, or its damper."""
-    given = parameters_of(data)
-    if "mass_ratio" not in given:
-        return "free" if short else rf"free, $\Omega = {given['frequency']:g}$"
-    words = rf"$r_m = {given['mass_ratio']:g}$, $e = {given['restitution']:g}$"
-    words += "\n" if short else ", "
-    return words + rf"$r_1 = {given['contact_stiffness']:g}$"
+    """Parameters of a motion: its damper, or "free" without one."""
+    parameters = parameters_of(data)
+    if not has_damper(data):
+        return "free" if short else f"free, {parameter_label(parameters, 'frequency')}"
+    separator = "\n" if short else ", "
+    damper = parameter_label(parameters, "mass_ratio", "restitution")
+    return damper + separator + parameter_label(parameters, "contact_stiffness")

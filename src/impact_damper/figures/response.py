@@ -1,9 +1,9 @@
-"""Frequency responses with and without a damper: figures 5, 8 and 10."""
+"""Frequency responses with and without a damper: figures 5, 8 and 10 (kind response)."""
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
-from impact_damper.figures.branches import branch_lines, draw_lines
+from impact_damper.figures.branches import draw_free_orbits, runs
 from impact_damper.figures.harmonic_balance import draw_balance, draw_band
-from impact_damper.figures.orbits import draw_free_orbits, runs
+from impact_damper.figures.motion_lines import branch_lines, draw_lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
@@ -12,18 +12,18 @@ STATUSES = ("chaotic", "non_colliding", "unresolved")
 
 @style()
 def draw_response(*, response, harmonic_balance, subharmonic, branches):
-    """Largest displacement against forcing frequency, all of one oscillator in one plot.
+    """Draw the largest displacement over frequency, all dampers of one oscillator in one plot.
 
     Parameters
     ----------
     response : list of xarray.Dataset
-        Of `frequency_response` with a damper, elastic or inelastic.
+        Datasets of the stage response with a damper, elastic or inelastic.
     harmonic_balance : list of xarray.Dataset
-        Harmonic balance of the elastic dampers and their suppression bands.
+        Datasets of the stage harmonic_balance of the elastic dampers.
     subharmonic : list of xarray.Dataset
-        Of `suppression`.
+        Datasets of the stage subharmonic.
     branches : list of xarray.Dataset
-        Of `complete_branches` with and without a damper.
+        Datasets of the stage branches, with and without a damper.
 
     Returns
     -------
@@ -55,7 +55,7 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
 
 
 def draw_motions(axes, motions):
-    """Motions with a damper: settled ones along their branches, and those of any other status."""
+    """Draw the motions with a damper: settled ones joined along branches, others as points."""
     prefix = prefix_of(motions)
     draw_settled(axes, motions, ["period_1", "higher_period", "subharmonic_damped"], prefix)
     outcome = motions["outcome"].values
@@ -71,7 +71,7 @@ def draw_motions(axes, motions):
 
 
 def draw_unstable_orbits(axes, orbits):
-    """Unstable parts of the branches of orbits with a damper, of any period."""
+    """Draw the unstable parts of the branches of orbits with a damper, of any period."""
     role = ROLES[f"{prefix_of(orbits)}unstable_orbit"]
     for value, size, stable in runs(orbits, lambda period: True):
         if not stable:
@@ -79,12 +79,12 @@ def draw_unstable_orbits(axes, orbits):
 
 
 def prefix_of(data):
-    """Prefix of the roles of a dataset's damper."""
+    """Prefix of the names of the roles: "inelastic_" for a damper with restitution below 1."""
     return "inelastic_" if parameters_of(data)["restitution"] < 1 else ""
 
 
 def draw_settled(axes, motions, roles, prefix=""):
-    """Settled motions with contacts; those whose period is a multiple of 3 are subharmonics."""
+    """Draw the settled motions with contacts; a period that is a multiple of 3 is subharmonic."""
     period = motions["period"].values
     colliding = is_settled(motions) & (motions["contacts"].values > 0)
     chosen = {

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 from matplotlib.patches import Circle, Polygon
 
-from impact_damper.figures.drawing import (
+from impact_damper.figures.schematic_parts import (
     arrow,
     coordinate,
     dashpot,

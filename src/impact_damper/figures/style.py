@@ -13,6 +13,7 @@ from cycler import cycler
 from matplotlib.figure import Figure
 
 from impact_damper.data.whole_files import whole
+from impact_damper.system.parameters import SYMBOLS
 
 BLACK, GREY, PALE, WHITE = "#000000", "#6E6E6E", "#E9E9E9", "#FFFFFF"
 ORANGE, SKY, GREEN = "#E69F00", "#56B4E9", "#009E73"
@@ -180,21 +181,17 @@ def points(index) -> dict:
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 
 
-# Mathtext of parameters.
-SYMBOLS = {
-    "damping": "h",
-    "linear_frequency": r"\omega_l",
-    "mass_ratio": "r_m",
-    "clearance": "d_0",
-    "restitution": "e",
-    "contact_stiffness": "r_1",
-    "frequency": r"\Omega",
-}
+# Symbols of parameters whose mathtext `tex` does not give.
+MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
 def parameter_label(parameters, *names, separator=", ") -> str:
     """Symbols and values of parameters, as "$r_m = 0.12$, $e = 1$"."""
-    return separator.join(f"${SYMBOLS[name]} = {parameters[name]:g}$" for name in names)
+    symbols = [SYMBOLS[name] for name in names]
+    return separator.join(
+        f"${MATHTEXT.get(symbol, tex(symbol))} = {parameters[name]:g}$"
+        for name, symbol in zip(names, symbols, strict=True)
+    )
 
 
 def axis_label(variable) -> str:

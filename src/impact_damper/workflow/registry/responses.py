@@ -49,7 +49,7 @@ KINDS = (
     Kind("free", ("branches",), damper=False),
     Kind("motion", ("motion",)),
     Kind("response", ("response", "harmonic_balance", "subharmonic", "branches")),
-    Kind("branches", ("branches",), module="figures.orbits"),
+    Kind("branches", ("branches",)),
 )
 TABLES = (
     Table(
