@@ -10,8 +10,7 @@ TABLES = (
         "readings",
         "tables.accuracy",
         ("harmonic_balance", "branches", "response", "optimum"),
-        "Optimum clearances and band edges as each model gives them, against the motions that "
-        "exist.",
+        "Optimum clearances and band edges by each model, compared with the motions that exist.",
     ),
     Table(
         "claims",
@@ -28,7 +27,7 @@ TABLES = (
             "migration",
             "release_scan",
         ),
-        "Every claim of the paper, the number that decides it, our reading where it is vague, "
-        "and the verdict computed from the data.",
+        "Every claim of the paper, with its interpretation, the measures that decide it, and the "
+        "verdict computed from the data.",
     ),
 )

@@ -63,12 +63,12 @@ TABLES = (
         "optimum",
         "tables.clearance",
         ("optimum",),
-        "Optimum clearances by simulation against equation (19).",
+        "Optimum clearances by simulation, by equations (7) and by rules (18) and (19).",
     ),
     Table(
         "design_rules",
         "tables.clearance",
         ("design_rules", "optimum"),
-        "How often each rule for the clearance comes within a few per cent of the optimum.",
+        "Number of optima that each rule for the clearance predicts within a few per cent.",
     ),
 )

@@ -38,12 +38,12 @@ TABLES = (
         "harmonic_balance",
         "tables.design",
         ("harmonic_balance", "design_orbit"),
-        "What equation (19) and harmonic balance give for each curve.",
+        "Clearance by (19), amplitude by harmonic balance and exact quiet orbit of each curve.",
     ),
     Table(
         "harmonic_convergence",
         "tables.design",
         ("harmonic_convergence",),
-        "How many harmonics the balance needs, its observed order, and cold starts counted.",
+        "Harmonics that a balance needs, observed and predicted decrease of errors, cold starts.",
     ),
 )

@@ -123,50 +123,50 @@ TABLES = (
         "balance_map",
         "tables.balance_map",
         ("balance_map",),
-        "Where harmonic balance is right about stability, counted over the maps.",
+        "Number of map cells in which harmonic balance is right or wrong about stability.",
     ),
     Table(
         "contact_model",
         "tables.contact",
         ("contact_model",),
-        "What the contact model comes to without load, and counts of the map's cells.",
+        "Contacts without load by exit rule, and number of map cells with each verdict.",
     ),
     Table(
         "contact_motions",
         "tables.contact",
         ("contact_model",),
-        "Contacts of simulated motions: loads, restitution, and the rule for their end.",
+        "Contacts of simulated motions: load, restitution, and effect of the exit rule.",
     ),
     Table(
         "rigid_limit",
         "tables.contact",
         ("rigid_limit",),
-        "How wrong rigid impacts are, their order in r1, and counts of the map's cells.",
+        "Errors of rigid impacts, their order in r1, and number of map cells by error.",
     ),
     Table(
         "missed_contacts",
         "tables.integrators",
         ("missed_contacts",),
-        "Contacts near grazing that integrators find and miss, counted.",
+        "Number of contacts near grazing that each integrator finds and misses.",
     ),
     Table(
         "stable_steps",
         "tables.integrators",
         ("stable_steps",),
-        "Largest steps with which fixed-step methods keep the quiet motion.",
+        "Largest steps with which fixed-step methods keep the quiet motion accurate.",
     ),
     Table(
         "method_verdicts",
         "tables.integrators",
         ("method_verdicts",),
-        "The loosest tolerance, or fewest steps, from which on the verdict of each method is "
-        "right, or why there is none.",
+        "Loosest tolerance, or smallest number of steps, from which on all verdicts of a method "
+        "are right, or the kind of wrong verdict.",
     ),
     Table(
         "models",
         "tables.accuracy",
         ("accuracy",),
-        "Error and counted work of every method and model on each scene, and the cheapest that "
-        "meets the accuracy it states.",
+        "Error and counted work of every method and model on each scene, and the one with the "
+        "least work that meets the required accuracy.",
     ),
 )

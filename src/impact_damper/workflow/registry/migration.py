@@ -39,12 +39,12 @@ TABLES = (
         "migration",
         "tables.migration",
         ("migration",),
-        "Outcomes of migration control, switchings and times.",
+        "Destinations of releases, and outcomes, switchings and times of migration control.",
     ),
     Table(
         "release_scan",
         "tables.migration",
         ("release_scan",),
-        "At which frequencies releases of each damped motion lead where.",
+        "Frequencies at which releases of each damped motion lead to which free motions.",
     ),
 )

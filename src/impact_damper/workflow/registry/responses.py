@@ -56,24 +56,24 @@ TABLES = (
         "bands",
         "tables.responses",
         ("harmonic_balance", "branches", "response"),
-        "Suppression bands, by harmonic balance and by the motions that exist.",
+        "Suppression bands by harmonic balance and by the motions that exist.",
     ),
     Table(
         "subharmonic",
         "tables.responses",
         ("branches", "subharmonic"),
-        "Where the one-third subharmonic exists, and what the damper makes of it.",
+        "The one-third subharmonic without damper, and its stable branches with damper.",
     ),
     Table(
         "orbits",
         "tables.responses",
         ("branches",),
-        "Branches of periodic orbits, where they are stable, and what ends them.",
+        "Branches of periodic orbits: range, stable parts, and events at both ends.",
     ),
     Table(
         "bifurcations",
         "tables.responses",
         ("branches",),
-        "Every located bifurcation and change of contact of the periodic orbits.",
+        "All located bifurcations and changes of contact of the periodic orbits.",
     ),
 )
