@@ -1,4 +1,4 @@
-"""The loosest tolerance at which a method keeps the error of the state below a limit."""
+"""The loosest tolerance with which the error of a method stays within a limit."""
 
 import math
 from typing import NamedTuple
@@ -6,13 +6,12 @@ from typing import NamedTuple
 from benchmarks.methods import TIMED, starts_of
 
 LIMIT = 1e-9
-# Tolerances are 10^(-k/STEPS), for k from LOOSEST to TIGHTEST, 3e-14, which SciPy
-# still takes.
+# Tolerances are 10^(-k/STEPS) for k from LOOSEST to TIGHTEST: 3e-14, the tightest of SciPy.
 STEPS, LOOSEST, TIGHTEST = 4, 8, 54
 
 
 class Found(NamedTuple):
-    """A tolerance, the error it gives, and the method made ready with it; `met` is the limit."""
+    """A tolerance, the error with it, whether that is within the limit, and the prepared method."""
 
     tolerance: float
     error: float
@@ -21,16 +20,16 @@ class Found(NamedTuple):
 
 
 def measured(scene, name, tolerance):
-    """A method with a tolerance, and its largest error over its starts."""
+    """Return a prepared method and its largest error over its starts."""
     run = TIMED[name].prepare(scene, tolerance)
     error = scene.error(run(starts_of(scene, name)))
     return run, error if math.isfinite(error) else math.inf
 
 
 def loosest(scene, name, limit=LIMIT):
-    """The loosest tolerance whose error is within the limit, by bisection.
+    """Return the loosest tolerance with an error within the limit, by bisection.
 
-    Where none is, the tightest tolerance is returned, and `met` is false.
+    If there is none, the tightest tolerance is returned with `met` false.
     """
     low, high = LOOSEST - 1, TIGHTEST
     best = Found(10 ** (-high / STEPS), math.nan, False, None)

@@ -1,4 +1,4 @@
-"""What a forcing period costs the kernel, over amplitude, contacts and tolerance."""
+"""Time of a forcing period by the kernel, over amplitude, contacts and tolerance."""
 
 import math
 
@@ -24,9 +24,9 @@ RADIUS = 2.0
 
 
 def motion(damper, frequency, start):
-    """A scene of a motion after its transient, with contacts a period and largest |Z1|.
+    """Return a scene after a transient, its contacts a period and its largest |Z1|.
 
-    No exact state goes with it.
+    The scene's exact state is replaced by the kernel's.
     """
     p = pack(OSCILLATOR, damper, frequency)
     period = 2 * math.pi / frequency
@@ -44,7 +44,7 @@ def motion(damper, frequency, start):
 
 
 def motions(count, seed=1995):
-    """Motions with and without the damper, at frequencies and from starts drawn evenly."""
+    """Return motions with and without the damper, with random frequencies and starts."""
     random = np.random.default_rng(seed)
     found = []
     for damper in (None, DAMPER):
@@ -52,19 +52,19 @@ def motions(count, seed=1995):
         for i, frequency in enumerate(frequencies):
             start = random_states(1, RADIUS, damper or DAMPER, seed + i)[0]
             if damper is None:
-                # on the resonance branch where there is one
+                # on the resonance branch if there is one
                 start[:2] = 1.4 * frequency * np.array([0.9, -0.5])
             found.append(motion(damper, frequency, start))
     return found
 
 
 def per_period(found, rounds, tolerances=TOLERANCES):
-    """Microseconds a forcing period of single motions.
+    """Return the microseconds a forcing period of single motions.
 
     Parameters
     ----------
     found : list
-        Of `motions`.
+        Result of `motions`.
     rounds : int
     tolerances : sequence of float
 
@@ -89,10 +89,10 @@ def per_period(found, rounds, tolerances=TOLERANCES):
 
 
 def fitted(table):
-    """Least squares of time = a + b contacts + c (2 pi/W) max |Z1|, in microseconds a period.
+    """Return the fit of time = a + b contacts + c (2 pi/W) max |Z1|, in microseconds a period.
 
-    Flight steps are as short as the series' radius of convergence, which is as the largest |Z1|
-    is large, so the last term counts them.
+    The last term stands for the number of steps in flight: their length is the radius of
+    convergence of the series, which is inversely proportional to the largest |Z1|.
     """
     rows = []
     for tolerance, of in table.groupby("tolerance", sort=False):
@@ -109,7 +109,7 @@ def fitted(table):
 
 @style()
 def draw(table):
-    """Cost over the largest |Z1| times the period without contacts, and over contacts a period."""
+    """Draw the time over max |Z1| times the period, without contacts, and over contacts."""
     table = table.assign(turns=2 * math.pi / table["frequency"] * table["displacement"])
     drawn = figure("double", 3.2)
     left, right = drawn.subplots(1, 2, sharey=True)

@@ -1,11 +1,11 @@
 """Motions by heyoka.py with terminal events and Python callbacks, at its fastest settings.
 
-One integrator serves flight and contact. Its one event is Z2^2 = d0^2; the callback switches two
-parameters, the stiffness that acts and the wall, and lets the integration go on. It reaches
-parameters and state through views made once, since making them is most of what it costs. Two
-events, one for each wall, are 4 to 8 % slower; integrators for flight and contact that take
-turns leave `propagate_until` at every event, which is slower still. What else was tried stands in
-`SETTINGS` and is timed in every run of the benchmarks.
+One integrator computes flight and contact. Its one event is Z2^2 = d0^2. The callback switches two
+parameters, the stiffness that acts and the wall, and continues the integration. It accesses
+parameters and state through views that are made once, since making them takes most of its time. Two
+events, one for each wall, are 4 to 8 % slower. Two integrators in turn, for flight and contact, are
+slower still, because `propagate_until` returns at every event. Other settings that were tried are
+in `SETTINGS`, and every run of the benchmarks times them.
 """
 
 import math
@@ -26,10 +26,10 @@ from impact_damper.system.packed import (
 FASTEST = {"fast_math": True, "force_avx512": True}
 # Trajectories of a batch: 8 to 64 were tried, with vectors of four numbers and of eight.
 BATCH = 16
-# Time after an event in which it is not looked for again. The one that heyoka works out hides the
-# end of a contact next to grazing, at tolerances down to 1e-10; with none an event repeats itself.
+# Time after an event in which it is not searched for again. With heyoka's own value the end of a
+# contact next to grazing is missed, at tolerances down to 1e-10; with 0 an event repeats.
 COOLDOWN = 1e-9
-# What is changed from the fastest settings, one at a time.
+# Changes of the fastest settings, one at a time.
 SETTINGS = {
     "fast_math off": {"fast_math": False},
     "force_avx512 off": {"force_avx512": False},
@@ -112,7 +112,7 @@ class Motions:
         self.views[:] = memoryview(self.pars), memoryview(self.state)
 
     def _callback(self, clearance, stiffness):
-        """What switches the contact on and off; it finds its arrays in `self.views`."""
+        """Return the callback that switches the contact on and off, by arrays in `self.views`."""
         views = self.views
 
         def scalar(_, sign):
@@ -146,7 +146,7 @@ class Motions:
         return n
 
     def run(self, scene, starts):
-        """States (m, 4) at the scene's end from starts (m, 4), whose number the batch divides."""
+        """Return states (m, 4) at the scene's end; m must be a multiple of the batch."""
         motion, ended = self.motion, heyoka.taylor_outcome.time_limit
         states = np.full((len(starts), 4), np.nan)
         if self.batch == 1:

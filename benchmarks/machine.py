@@ -1,4 +1,4 @@
-"""What the times were measured on."""
+"""Machine and versions with which times were measured."""
 
 import os
 import platform
@@ -13,7 +13,7 @@ PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "heyoka")
 
 
 def table():
-    """Machine and versions."""
+    """Return machine and versions."""
     rows = {
         "processor": processor(),
         "cores": str(os.cpu_count()),
@@ -24,7 +24,7 @@ def table():
 
 
 def document(how=""):
-    """What makes the Markdown of a table: made on what, how it was measured, and the numbers."""
+    """Return a function that makes a table's Markdown: machine, way of measuring, and numbers."""
     described = ", ".join(f"{row.item} {row.value}" for row in table().itertuples())
     made = f"Made by `make benchmark` on: {described}."
     return lambda shown: "\n\n".join(filter(None, [made, how, table_files.plain(shown)]))

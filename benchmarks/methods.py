@@ -42,7 +42,7 @@ class TimedMethod(NamedTuple):
 
 
 def single(scene, tolerance):
-    """The kernel from states in flight, called from Python once a run."""
+    """Prepare the kernel, called from Python for each run; states are in flight."""
     p, begin, end, work = scene.parameters, scene.begin, scene.end, workspace()
 
     def run(starts):
@@ -55,7 +55,7 @@ def single(scene, tolerance):
 
 
 def of_orders(orders):
-    """The kernel with series of other orders, in flight and in contact."""
+    """Return `prepare` of the kernel with series of other orders, in flight and in contact."""
 
     def prepare(scene, tolerance):
         p, rows, made = scene.parameters, np.empty((ROWS, SERIES)), steps_of(orders)
@@ -72,7 +72,7 @@ def of_orders(orders):
 
 
 def advance_rows(scene, states, tolerance):
-    """The kernel over states in flight, several side by side; they are replaced."""
+    """Advance states in flight by the kernel, several side by side; they are replaced."""
     count = len(states)
     rows = np.tile(scene.parameters, (count, 1))
     sides, contacts = np.zeros((2, count), int)
@@ -81,7 +81,7 @@ def advance_rows(scene, states, tolerance):
 
 
 def ensemble(scene, tolerance):
-    """The kernel, called once for all starts."""
+    """Prepare the kernel, called once for all starts."""
 
     def run(starts):
         states = starts.copy()
@@ -92,18 +92,18 @@ def ensemble(scene, tolerance):
 
 
 def heyoka(scene, tolerance, **settings):
-    """heyoka.py, its integrator made once and used for one start after the other."""
+    """Prepare heyoka.py: one integrator, used for one start after the other."""
     motions = Motions(scene.parameters, tolerance, **settings)
     return lambda starts: motions.run(scene, starts)
 
 
 def heyoka_batch(scene, tolerance):
-    """heyoka.py's batch mode; its events call back for each trajectory."""
+    """Prepare heyoka.py's batch mode; its events call back for each trajectory."""
     return heyoka(scene, tolerance, batch=BATCH)
 
 
 def rival(label):
-    """An integrator of the package's comparisons, called from Python once a run."""
+    """Return a timed method of an integrator of `rivals.methods`, called for each run."""
     name, locate = name_and_mode(label)
     integrator = integrators()[name]
 
@@ -131,10 +131,10 @@ TIMED = {
 
 
 def starts_of(scene, name):
-    """The starts from which a method is run."""
+    """Return the starts from which a method is run."""
     return scene.starts[:1] if TIMED[name].slow else scene.starts
 
 
 def applying(scene):
-    """Names of the methods for a scene: without walls, both modes of a rival are the same."""
+    """Return the methods for a scene: without walls, both modes of a rival are the same."""
     return [name for name in TIMED if scene.components == 4 or not name.endswith("_located")]

@@ -1,4 +1,4 @@
-"""What a run of the pipeline spends on anything but computing."""
+"""Share of a run of the pipeline that is not computing: start-up of jobs, and idle cores."""
 
 import re
 import subprocess
@@ -31,21 +31,21 @@ Job(SimpleNamespace(log=[log], output=["empty.nc"], params=[{}]))
 
 
 def last_run(folder):
-    """Text of the newest of Snakemake's logs of a run with the most jobs, or None."""
+    """Return Snakemake's log of the run with the most jobs, the newest of these, or None."""
     texts = [path.read_text() for path in sorted(folder.glob("*.snakemake.log"), reverse=True)]
     done = [(len(_rules(text)), text) for text in texts if "Elapsed time:" in text]
     return max(done, key=lambda found: found[0], default=(0, None))[1]
 
 
 def table(text, timings):
-    """Core seconds of a run: those of its jobs, their start-up, and those without a job.
+    """Return the core seconds of a run: in its jobs, in their start-up, and without a job.
 
     Parameters
     ----------
     text : str
         Snakemake's log of the run.
     timings : Path
-        Folder of what the jobs took; what was written before the run is left out.
+        Folder of the jobs' timings; those written before the run are left out.
     """
     begin = datetime.fromisoformat(re.search(r"Date: (.*)", text)[1])
     clock = datetime.strptime(re.search(r"Elapsed time: ([\d:.]+)", text)[1], "%H:%M:%S.%f")
@@ -79,5 +79,5 @@ def start_up_of_a_job():
 
 
 def _rules(text):
-    """The rule of each job that ended."""
+    """Return the rule of each job that ended."""
     return re.findall(r"^Finished jobid: \d+ \(Rule: (\w+)\)", text, re.MULTILINE)

@@ -7,7 +7,7 @@ from benchmarks.heyoka_runs import BATCH, SETTINGS
 from benchmarks.methods import TIMED, heyoka, starts_of
 from benchmarks.timing import interleaved, spread
 
-# Against whom each way of using the kernel is set.
+# Methods with which each use of the kernel is compared.
 RIVALS = {
     "kernel": ("heyoka", "DOP853_located"),
     "kernel_ensemble": ("heyoka", "heyoka_batch", "DOP853_located"),
@@ -22,7 +22,7 @@ COMPARED = ("kernel", "kernel_ensemble", "heyoka", "heyoka_batch", "DOP853_locat
 
 
 def tolerances(scene, timed, limit):
-    """The loosest tolerance within the limit of each method."""
+    """Return the loosest tolerance within the limit, of each method."""
     found = {}
     for name in timed:
         each = found[name] = loosest(scene, name, limit)
@@ -36,7 +36,7 @@ def tolerances(scene, timed, limit):
 
 
 def microseconds(scene, found, rounds):
-    """Microseconds a forcing period and trajectory of each method in each round."""
+    """Return microseconds a forcing period and trajectory, of each method in each round."""
     starts = {name: starts_of(scene, name) for name in found}
     calls = {
         name: lambda run=each.run, starts=starts[name]: run(starts) for name, each in found.items()
@@ -46,7 +46,7 @@ def microseconds(scene, found, rounds):
 
 
 def time_row(scene, name, found, measured):
-    """A row of the table of times."""
+    """Return a row of the table of times."""
     median, lower, upper = spread(measured)
     return {
         "scene": scene.name,
@@ -62,7 +62,7 @@ def time_row(scene, name, found, measured):
 
 
 def ratio_row(scene, name, rival, found, measured):
-    """A row of the table of ratios."""
+    """Return a row of the table of ratios."""
     median, lower, upper = spread(measured[rival] / measured[name])
     ours, other = TIMED[name].title, TIMED[rival].title
     print(f"  {scene.name}, {ours}: {median:.4g} times faster than {other}", flush=True)
@@ -78,7 +78,7 @@ def ratio_row(scene, name, rival, found, measured):
 
 
 def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
-    """Times and ratios at equal error.
+    """Return times and ratios at equal error.
 
     Parameters
     ----------
@@ -113,9 +113,9 @@ def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
 
 
 def heyoka_settings(scenes, times, rounds):
-    """How much slower heyoka.py is when one of its fastest settings is changed, by scene.
+    """Return how much slower heyoka.py is with one of its fastest settings changed, by scene.
 
-    `times` is the table of `compared`, whose tolerances are taken.
+    Tolerances are those in the table `times` of `compared`.
     """
     rows = []
     for scene in scenes:

@@ -24,14 +24,14 @@ PATIENCE = 300
 
 
 def starts_of(scene, count):
-    """Starts next to the scene's orbit, and from a ball within the gap, whose motions part."""
+    """Return starts near the scene's orbit, and starts in a ball, whose motions diverge."""
     near = np.resize(scene.starts, (count, 4))
     damper = Damper(0.12, scene.parameters[CLEARANCE]) if scene.components == 4 else None
     return {"near the orbit": near, "random": random_states(count, RADIUS, damper, 1995)}
 
 
 def sizes(scenes, counts, rounds):
-    """Microseconds a trajectory and forcing period over the size of an ensemble, on one core."""
+    """Return microseconds a trajectory and forcing period over the size of an ensemble."""
     rows = []
     for scene in scenes:
         run = TIMED["kernel_ensemble"].prepare(scene, TOLERANCE)
@@ -47,7 +47,7 @@ def sizes(scenes, counts, rounds):
 
 
 def advance_in_shares(scene, starts, workers):
-    """States at the end, by so many threads that take shares of SHARE."""
+    """Return states at the end, by a number of threads that take shares of SHARE."""
     states = starts.copy()
 
     def work(part):
@@ -58,10 +58,10 @@ def advance_in_shares(scene, starts, workers):
 
 
 def cores(scenes, count, rounds):
-    """Throughput of an ensemble on several threads over that on one, and whether results agree.
+    """Return the throughput of an ensemble on several threads over one, and if results agree.
 
-    The same starts, from a ball within the gap. Beside it stands the throughput of as many
-    processes that share nothing and have all of the starts each: what the machine has to give.
+    Starts are in a ball. For comparison, the throughput of as many processes that share nothing,
+    each with all starts: the limit that the machine sets.
     """
     threads = range(1, min(os.cpu_count(), 8) + 1)
     rows = []
@@ -84,13 +84,13 @@ def cores(scenes, count, rounds):
     return pd.DataFrame(rows)
 
 
-# What a process of `processes_apart` has been given.
+# Scene and starts, in a process of `processes_apart`.
 alone = {}
 
 
 @contextmanager
 def processes_apart(count, scene, starts):
-    """What lets so many of `count` processes advance all starts, each a copy of its own."""
+    """Yield a function of n by which n of `count` processes advance all starts, each its own copy."""
     context = get_context("spawn")
     ready = context.Barrier(count + 1)
     with context.Pool(count, prepare, (ready, scene, starts)) as pool:

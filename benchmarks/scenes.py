@@ -41,17 +41,17 @@ class BenchmarkScene(NamedTuple):
 
     @property
     def components(self):
-        """How many components of the state count: without a damper there is no Z2."""
+        """Number of components of the state: without a damper there is no Z2."""
         return 2 if self.parameters[CLEARANCE] == math.inf else 4
 
     def error(self, states):
-        """Largest error of any component of states at the end, of the first so many starts."""
+        """Return the largest error of states at the end, from the first len(states) starts."""
         n = self.components
         return float(np.abs(states[:, :n] - self.exact[: len(states), :n]).max())
 
 
 def make(name, p, state, periods, count, seed=1995):
-    """A scene with `count` starts."""
+    """Return a scene with `count` starts."""
     p, state = np.array(p, float), np.array(state, float)
     width = SPREADS.get(name, SPREAD)
     starts = state + width * np.random.default_rng(seed).uniform(-1, 1, (count, 4))

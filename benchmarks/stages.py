@@ -7,11 +7,10 @@ COLUMNS = {"seconds": "seconds", "cpu_seconds": "cpu_seconds", "peak_memory_mb":
 
 
 def jobs(folder, since=0.0):
-    """A row for each job under a folder of timings: stage, job and its measures.
+    """Return a row for each job under a folder of timings: stage, job and its measures.
 
-    Those that were written before a time, in seconds since the epoch, are left out.
-
-    A stage is a folder there; a job whose file lies in none is a stage of its own.
+    Files written before the time `since`, in seconds since the epoch, are left out. A subfolder is
+    a stage; a job with a file beside the subfolders is a stage of its own.
     """
     rows = []
     for path in sorted(folder.rglob("*.tsv")):
@@ -25,7 +24,7 @@ def jobs(folder, since=0.0):
 
 
 def table(folder):
-    """A row for each stage, the longest first, and their total.
+    """Return a row for each stage, the longest first, and their total.
 
     Returns
     -------

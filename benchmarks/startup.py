@@ -1,4 +1,4 @@
-"""Start-up and compile times, each in a process of its own."""
+"""Times of imports, of compiling and of a first result, each in a new process."""
 
 import os
 import subprocess
@@ -8,16 +8,17 @@ import time
 
 import pandas as pd
 
-FIRST = (
-    "import impact_damper as idm;"
-    "idm.simulate(idm.Oscillator(0.215), idm.Damper(0.12, 2.0), 2.0, (1, 0.5, 0, 0), periods=50)"
-)
+SYSTEM = "idm.Oscillator(0.215), idm.Damper(0.12, 2.0), 2.0, (1, 0.5, 0, 0)"
+FIRST = {
+    "simulate": f"import impact_damper as idm; idm.simulate({SYSTEM}, periods=50)",
+    "steady_motion": f"import impact_damper as idm; idm.steady_motion({SYSTEM})",
+}
 ALL = "from impact_damper.workflow.compile_kernels import warm_up; warm_up()"
 IMPORTS = ("numpy", "numba", "xarray", "scipy.integrate", "matplotlib.figure", "impact_damper")
 
 
 def seconds_of(code, cache):
-    """Seconds that a new process takes to run a line of Python with a cache of kernels."""
+    """Return the seconds that a new process takes for a line of Python, kernels kept in `cache`."""
     begin = time.perf_counter()
     environment = os.environ | {"NUMBA_CACHE_DIR": cache}
     subprocess.run([sys.executable, "-c", code], check=True, env=environment)
@@ -25,14 +26,14 @@ def seconds_of(code, cache):
 
 
 def table(repeats, compiling=True):
-    """Seconds to start, import, compile and give a first result; the least of some repeats.
+    """Return the seconds to start Python, to import, and to a first result.
 
     Parameters
     ----------
     repeats : int
-        Of what does not compile.
+        Processes without compiling, of which the fastest counts.
     compiling : bool
-        Whether to measure with an empty cache too.
+        Whether first results are measured, without kernels in the cache and with them.
     """
     rows = []
 
@@ -44,10 +45,13 @@ def table(repeats, compiling=True):
         row("Python alone", min(seconds_of("pass", cache) for _ in range(repeats)))
         for name in IMPORTS:
             row(f"import {name}", min(seconds_of(f"import {name}", cache) for _ in range(repeats)))
-        if not compiling:
-            return pd.DataFrame(rows)
-        row("first motion, no kernel compiled yet", seconds_of(FIRST, cache))
-        row("first motion, kernels compiled", min(seconds_of(FIRST, cache) for _ in range(repeats)))
+    if not compiling:
+        return pd.DataFrame(rows)
+    for name, code in FIRST.items():
+        with tempfile.TemporaryDirectory(prefix="impact-damper-") as cache:
+            row(f"first {name}, no kernel compiled yet", seconds_of(code, cache))
+            seconds = min(seconds_of(code, cache) for _ in range(repeats))
+            row(f"first {name}, kernels compiled", seconds)
     with tempfile.TemporaryDirectory(prefix="impact-damper-") as cache:
         row("every kernel, none compiled yet", seconds_of(ALL, cache))
         row("every kernel, all compiled", seconds_of(ALL, cache))

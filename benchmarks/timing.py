@@ -1,4 +1,4 @@
-"""Times by a clock: methods take turns, so that what else the machine does hits all alike."""
+"""Wall times of calls that take turns, so that other load on the machine affects all alike."""
 
 import gc
 import math
@@ -8,16 +8,16 @@ from contextlib import contextmanager
 
 import numpy as np
 
-# A shorter call is repeated until it takes as long, in seconds.
+# A shorter call is repeated until all repeats together take this long, in seconds.
 SHORTEST = 1e-3
-# Blocks of such repeats in a round, of which the fastest counts: another process that takes the
-# core for a while spoils some of them only.
+# Blocks of such repeats in a round, of which the fastest counts: another process that occupies the
+# core for a while slows down only some of them.
 BLOCKS = 5
 
 
 @contextmanager
 def one_core():
-    """Keep this process on the last of its cores, where the system lets one choose."""
+    """Keep this process on the last of its cores, if the system allows that."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return
@@ -30,7 +30,7 @@ def one_core():
 
 
 def once(call, repeats=1):
-    """Seconds that a call takes, as the mean of so many in a row."""
+    """Return the seconds of a call, the mean of some repeats in a row."""
     begin = time.perf_counter()
     for _ in range(repeats):
         call()
@@ -38,7 +38,7 @@ def once(call, repeats=1):
 
 
 def repeats_of(call):
-    """How often a call must be made to take SHORTEST; it has been made before."""
+    """Return the repeats of a call that take SHORTEST; the call must have been made before."""
     first = once(call)
     if first >= SHORTEST:
         return 1
@@ -46,7 +46,7 @@ def repeats_of(call):
 
 
 def interleaved(calls, rounds):
-    """Seconds of each call in each round, in which every call has its turn.
+    """Return the seconds of each call in each round; in a round every call has its turn.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def interleaved(calls, rounds):
     Returns
     -------
     dict of numpy.ndarray, shape (rounds,)
-        The fastest of BLOCKS blocks, or of one where a call takes 50 times SHORTEST.
+        By the fastest of BLOCKS blocks, or by one block if it takes 50 times SHORTEST.
     """
     repeats = {name: repeats_of(call) for name, call in calls.items()}
     seconds = {name: np.empty(rounds) for name in calls}
@@ -75,6 +75,6 @@ def interleaved(calls, rounds):
 
 
 def spread(values):
-    """Median, lower and upper quartile."""
+    """Return median, lower and upper quartile."""
     lower, median, upper = np.percentile(values, [25, 50, 75])
     return median, lower, upper
