@@ -90,7 +90,7 @@ alone = {}
 
 @contextmanager
 def processes_apart(count, scene, starts):
-    """Yield a function of n by which n of `count` processes advance all starts, each its own copy."""
+    """Yield a function of n, with which n of `count` processes advance all starts each."""
     context = get_context("spawn")
     ready = context.Barrier(count + 1)
     with context.Pool(count, prepare, (ready, scene, starts)) as pool:

@@ -9,7 +9,7 @@ from impact_damper.rivals.methods import (
     COMPARED,
     LIMITED,
     METHODS,
-    TOLERANCES,
+    TOLERANCE_KEYS,
     integrators,
     name_and_mode,
     title_with_mode,
@@ -44,7 +44,7 @@ def test_compared_integrators_implement_what_the_stage_calls(stage):
 def test_methods_of_accuracy_have_a_colour_and_tolerances():
     names = {name_and_mode(label)[0] for label in COMPARED["accuracy"]}
     for name in names:
-        assert METHODS[name].colour and METHODS[name].tolerances in TOLERANCES
+        assert METHODS[name].colour and METHODS[name].tolerances in TOLERANCE_KEYS
         assert METHODS[name].slow == (name in LIMITED)
 
 

@@ -88,7 +88,9 @@ ORBIT_MODELS = (
 
 # Keys of the section `comparison` of the configuration: of lists of tolerances, and of
 # `evaluations`, at which runs of slow integrators are given up.
-TOLERANCES = tuple(dict.fromkeys(each.tolerances for each in METHODS.values() if each.tolerances))
+TOLERANCE_KEYS = tuple(
+    dict.fromkeys(each.tolerances for each in METHODS.values() if each.tolerances)
+)
 LIMITED = tuple(name for name, each in METHODS.items() if each.tolerances and each.slow)
 
 

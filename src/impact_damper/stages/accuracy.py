@@ -33,7 +33,7 @@ def error_against_work(scene, settings, stored=None):
     ----------
     scene : ComparisonScene
     settings : dict
-        Decreasing tolerances by `methods.TOLERANCES`; `orders`: further pairs of orders of the
+        Decreasing tolerances by `methods.TOLERANCE_KEYS`; `orders`: further pairs of orders of the
         Taylor series, in flight and in contact; `evaluations`: evaluations of the rate in a
         forcing period after which a slow integrator gives up, by `methods.LIMITED`; `harmonics`:
         highest harmonic of a balance; `batch`: forcing periods of a batch of a chaotic motion;

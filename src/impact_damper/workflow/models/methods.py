@@ -1,5 +1,8 @@
 """Methods compared: verdicts of integrators, scenes with exact references, and settings."""
 
+from pydantic import create_model
+
+from impact_damper.rivals.methods import LIMITED, TOLERANCE_KEYS
 from impact_damper.system.bounds import TOLERANCE_RANGE
 from impact_damper.workflow.models.contact import STEPS, TOLERANCES, close_steps
 from impact_damper.workflow.models.messages import problem
@@ -115,32 +118,35 @@ class Scene(MaybeWithDamper):
             yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
 
 
-class Evaluations(Section):
-    """Evaluations of the rate at which a run of SciPy's methods is given up."""
+Evaluations = create_model(
+    "Evaluations",
+    __base__=Section,
+    __doc__="Evaluations of the rate at which a run of a slow integrator is given up.",
+    **dict.fromkeys(LIMITED, (EVALUATIONS, ...)),
+)
+ByTolerances = create_model(
+    "ByTolerances",
+    __base__=Section,
+    __doc__="Tolerances of the integrators that are compared, by the keys of their registry.",
+    **dict.fromkeys(TOLERANCE_KEYS, (DECREASING, ...)),
+)
 
-    DOP853: EVALUATIONS
-    LSODA: EVALUATIONS
-    Radau: EVALUATIONS
 
-
-class Comparison(Section):
+class Comparison(ByTolerances):
     """Settings with which each method is run on the scenes."""
 
-    taylor: DECREASING
     orders: several(
         several(ORDER, "in flight and in contact", least=2, most=2),
         "orders of the series in flight and in contact, to compare with those in use",
         distinct=True,
     )
-    merson: DECREASING
-    scipy: DECREASING
     evaluations: Evaluations
     harmonics: count("highest harmonic; shooting begins from 15 of them", least=15, most=4095)
     batch: count("forcing periods of a batch", least=1, most=100000)
     scipy_periods: count("forcing periods, two batches at least", least=2, most=1000000)
 
     def contradictions(self, path, config):
-        for key in ("taylor", "merson", "scipy"):
+        for key in TOLERANCE_KEYS:
             values = getattr(self, key)
             if sorted(set(values), reverse=True) != values:
                 reason = "must decrease (each is run once, the loosest first)"
