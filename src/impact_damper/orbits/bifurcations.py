@@ -1,7 +1,7 @@
-"""What happens to an orbit between two points of a branch, located.
+"""Bifurcations and changes of contact on a step between two points of a branch, located.
 
-An event is a zero of a function of the point, found along the step between two points, or for
-a change of contacts the place where the sequence of walls changes.
+A bifurcation is located as the zero of a test function along the step, a change of contact as
+the place where the sequence of walls that an orbit touches changes.
 """
 
 from typing import NamedTuple
@@ -12,10 +12,14 @@ from scipy.optimize import brentq
 from impact_damper.orbits.continuation import Point
 from impact_damper.system.packed import FREQUENCY
 
+# Tolerance on the place of a change of contact along the branch, relative for steps above 1.
 PLACE = 1e-12
+# A multiplier is complex if its imaginary part exceeds this.
 COMPLEX = 1e-6
-MERGED = 1e-3  # a flight shorter than this part of the forcing period has all but vanished
-SIMILAR = 1e-4
+# A flight between two contacts shorter than this share of the forcing period is about to vanish.
+MERGED = 1e-3
+# Largest number of changes of contact that are located on one step.
+MOST_CHANGES = 8
 
 
 class Event(NamedTuple):
@@ -24,11 +28,11 @@ class Event(NamedTuple):
     Attributes
     ----------
     kind : str
-        One of fold, symmetry_breaking, period_doubling, neimark_sacker, grazing, merging.
+        fold, symmetry_breaking, period_doubling, neimark_sacker, grazing or merging.
     point : Point
-        Where it happens.
+        Point of the branch at the event.
     before, after : str
-        Walls touched, as `Orbit.sequence`, on both sides.
+        `Orbit.sequence`, the walls touched, before and after the event along the branch.
     """
 
     kind: str
@@ -38,16 +42,19 @@ class Event(NamedTuple):
 
 
 def _fold(point):
+    """Component of the tangent along the parameter."""
     return point.tangent[-1]
 
 
 def _symmetry(point):
+    """det(root + 1), for symmetric orbits only: zero where the root has the multiplier -1."""
     root = point.orbit.root
     n = point.orbit.active
     return 1.0 if root is None else np.linalg.det(root[:n, :n] + np.eye(n))
 
 
 def _doubling(point):
+    """det(monodromy + 1), for orbits that are not symmetric, since only these can double."""
     orbit = point.orbit
     n = orbit.active
     return 1.0 if orbit.root is not None else np.linalg.det(orbit.monodromy[:n, :n] + np.eye(n))
@@ -60,9 +67,9 @@ def _pairs(point):
     return float(np.prod(values[first] * values[second] - 1).real)
 
 
-# Function of a point that vanishes at an event, and how closely its place along the branch is
-# sought: of a fold the parameter is sharper by far, and where branches meet Newton's method is
-# at its end closer by. Only an orbit that is not symmetric can double its period.
+# For each kind of bifurcation a test function of a point, zero there, and the tolerance on the
+# place of the zero, in branch length. A fold needs less: the parameter changes with the square of
+# the distance from the fold, and Newton's method becomes singular closer to it.
 TESTS = {
     "fold": (_fold, 1e-7),
     "symmetry_breaking": (_symmetry, 1e-12),
@@ -72,14 +79,27 @@ TESTS = {
 
 
 def events_between(problem, start, end, length):
-    """Events on the step of a length from one point to another, in order, and how many are lost.
+    """Locate all events on a step.
 
-    A zero that Newton's method cannot be led to, or one of the product of pairs that belongs to
-    two real multipliers, is no event; the former counts as lost.
+    Parameters
+    ----------
+    problem : Problem
+    start, end : Point
+        Points at both ends of the step.
+    length : float
+        Distance of the end along the tangent at the start.
+
+    Returns
+    -------
+    events : list of Event
+        In order along the step. Two real multipliers whose product passes 1 are no
+        Neimark-Sacker bifurcation and are left out.
+    lost : int
+        Number of events whose place Newton's method did not reach.
     """
-    found, lost = [], 0
+    located, lost = [], 0
 
-    def at(distance):
+    def point_at(distance):
         point = problem.step(start, distance)
         if point is None:
             raise ArithmeticError
@@ -90,53 +110,61 @@ def events_between(problem, start, end, length):
             continue
         try:
             place = brentq(
-                lambda distance, test=test: test(at(distance)), 0, length, xtol=precision
+                lambda distance, test=test: test(point_at(distance)), 0, length, xtol=precision
             )
-            point = at(place)
+            point = point_at(place)
         except (ArithmeticError, ValueError):
             lost += 1
             continue
         if kind != "neimark_sacker" or _is_complex_pair(point.orbit.multipliers):
             sequence = point.orbit.sequence
-            found.append((place, Event(kind, point, sequence, sequence)))
+            located.append((place, Event(kind, point, sequence, sequence)))
     try:
-        found += _changes_of_contact(at, start, end, length)
+        located += _changes_of_contact(point_at, start, end, length)
     except ArithmeticError:
         lost += 1
-    return [event for _, event in sorted(found, key=lambda pair: pair[0])], lost
+    return [event for _, event in sorted(located, key=lambda pair: pair[0])], lost
 
 
 def _is_complex_pair(multipliers):
-    """Whether the multipliers nearest to the unit circle are a complex pair."""
+    """Return whether the multipliers nearest to the unit circle are a complex pair."""
     values = multipliers[np.isfinite(multipliers)]
     nearest = values[np.argmin(np.abs(np.abs(values) - 1))]
     return abs(nearest.imag) > COMPLEX
 
 
-def _changes_of_contact(at, start, end, length):
-    """Changes of the sequence of contacts on a step, each between the last place and the next."""
-    found, inner, before = [], 0.0, start.orbit.sequence
-    while before != end.orbit.sequence and len(found) < 8:
+def _changes_of_contact(point_at, start, end, length):
+    """Locate changes of the sequence of walls on a step, one after the other, by bisection.
+
+    Returns pairs of a distance along the step and an event.
+    """
+    located, inner, before = [], 0.0, start.orbit.sequence
+    while before != end.orbit.sequence and len(located) < MOST_CHANGES:
         outer, after = length, end.orbit
         while outer - inner > PLACE * max(1.0, length):
             middle = (inner + outer) / 2
             if middle in (inner, outer):
                 break
-            orbit = at(middle).orbit
+            orbit = point_at(middle).orbit
             if orbit.sequence == before:
                 inner = middle
             else:
                 outer, after = middle, orbit
-        # of the two sides the one on which the contact exists
-        point = max(at(inner), at(outer), key=lambda side: len(side.orbit.sequence))
+        # the event is stored with the orbit on the side on which the contact exists
+        sides = point_at(inner), point_at(outer)
+        point = max(sides, key=lambda side: len(side.orbit.sequence))
         kind = _contact_event(point.orbit)
-        found.append((outer, Event(kind, point, before, after.sequence)))
+        located.append((outer, Event(kind, point, before, after.sequence)))
         inner, before = outer, after.sequence
-    return found
+    return located
 
 
 def _contact_event(orbit):
-    """Whether the weakest contact has just parted from another or was born in flight."""
+    """Return how the slowest contact of an orbit appeared.
+
+    "merging" if it has just separated from a contact with the same wall, "grazing" if it began in
+    flight.
+    """
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

@@ -1,9 +1,9 @@
 """Pseudo-arclength continuation of periodic orbits in one parameter.
 
-A point is the state of an orbit at a phase in flight, and the parameter. From point to point a
-curve is followed by a step along its tangent and Newton's method at right angles to it, so that
-folds are passed. The derivative by the parameter is a central difference: it decides the
-direction of a step, not the orbit.
+The unknowns are the state of an orbit, at a phase of the forcing at which it is in flight, and the
+parameter. A step goes along the tangent of the branch and is corrected by Newton's method at right
+angles to the tangent, so that folds are passed. The derivative with respect to the parameter is a
+central difference; its error affects the direction of a step, not the orbit.
 """
 
 from collections.abc import Callable
@@ -15,15 +15,24 @@ import numpy as np
 from impact_damper.orbits.shooting import TURN, Orbit, shoot
 from impact_damper.system.packed import CLEARANCE
 
+# Change of the parameter in the central difference.
 NUDGE = 1e-5
+# Newton's method: most corrections, and the largest of them. It has converged once a correction is
+# below CLOSE, or below ROUNDING and no longer halved by the next.
 NEWTON = 16
+LARGEST = 0.5
 CLOSE, ROUNDING = 1e-10, 1e-4
+# Singular values below this share of the largest are left out.
 SINGULAR = 1e-8
+# An orbit with a smaller asymmetry is symmetric.
 SYMMETRIC = 1e-6
+# Steps, in branch length.
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP = 0.01, 0.04, 1e-7
 FARTHEST_GUESS = 2 * LONGEST_STEP
-STRAIGHT = 0.98  # least cosine between the tangents at both ends of a step
-ASIDE = 0.2  # a correction by more than this part of the step may have led to another branch
+# Least cosine between the tangents at both ends of a step.
+STRAIGHT = 0.98
+# A correction by more than this share of the step may have led to another branch.
+ASIDE = 0.2
 
 
 class Point(NamedTuple):
@@ -35,9 +44,9 @@ class Point(NamedTuple):
         The parameter.
     orbit : Orbit
     x : numpy.ndarray
-        Unknowns: Z1, Z1' (and Z2, Z2' with a damper), and the parameter.
-    tangent : numpy.ndarray
-        Unit tangent in these.
+        The n unknowns Z1, Z1', with a damper Z2, Z2' too, and the parameter: shape (n + 1,).
+    tangent : numpy.ndarray, shape (n + 1,)
+        Unit tangent of the branch.
     """
 
     value: float
@@ -48,20 +57,23 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """Orbits of a family of systems, looked at at one phase.
+    """The equations that the orbits of a branch solve.
 
     Attributes
     ----------
     family : callable
-        From the parameter to packed parameters.
+        Maps the parameter to packed parameters.
     periods : int
+        Period of the orbits in forcing periods.
     phase : float
+        Phase W T at which their states are given, radian.
     loose : numpy.ndarray, shape (2,)
-        Z2 and Z2' less Z1 and Z1' where no damper is on, for then these do not matter.
+        Z2 - Z1 and Z2' - Z1', kept constant without a damper, when they have no effect.
     damped : bool
+        Whether the damper is on.
     symmetric : bool
-        Whether the orbits are symmetric and found by half the map, which is regular where
-        they lose their symmetry.
+        Whether orbits are found as symmetric ones, by the map over half the period. This map is
+        regular where an orbit loses its symmetry; the map over the period is not.
     """
 
     family: Callable[[float], np.ndarray]
@@ -73,7 +85,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit):
-        """The problem that an orbit solves."""
+        """Return the problem that an orbit of a family solves."""
         return cls(
             family,
             orbit.periods,
@@ -84,14 +96,17 @@ class Problem:
         )
 
     def shoot(self, x):
-        """The orbit at some unknowns, not iterated, and how far its state is from its return."""
+        """Return the `Orbit` at unknowns, without iteration, and its defect, shape (n,).
+
+        The defect is the state after the map less the state before.
+        """
         state = x[:-1] if self.damped else np.concatenate([x[:2], x[:2] + self.loose])
         p = self.family(x[-1])
         orbit, end = shoot(p, state, self.periods, self.phase, symmetric=self.symmetric)
         return orbit, (end - state)[: len(x) - 1]
 
     def rows(self, x, orbit):
-        """Derivative of the defect by the unknowns, shape (n, n + 1)."""
+        """Return the derivative of the defect with respect to the unknowns, shape (n, n + 1)."""
         n = len(x) - 1
         matrix = orbit.monodromy if orbit.root is None else orbit.root
         nudge = np.zeros(n + 1)
@@ -100,10 +115,11 @@ class Problem:
         return np.column_stack([matrix[:n, :n] - np.eye(n), by_parameter])
 
     def correct(self, x, border):
-        """Newton's method at right angles to a border; the point, or None if it fails.
+        """Newton's method at right angles to a vector `border`; return a point, or None.
 
-        Where branches cross the matrix is singular. Its least singular value is left out there,
-        and the last corrections are rounding that no longer shrinks: the residual decides.
+        Where branches cross the matrix is singular: its smallest singular value is left out. The
+        last corrections are then rounding errors, which no longer shrink, so convergence is
+        judged by the residual.
         """
         x, last = x.copy(), np.inf
         for _ in range(NEWTON):
@@ -115,7 +131,7 @@ class Problem:
             except (np.linalg.LinAlgError, ValueError):
                 return None
             size = np.max(np.abs(change))
-            if not size < 0.5:
+            if not size < LARGEST:
                 return None
             if orbit.converged and (size < CLOSE or last / 2 < size < ROUNDING):
                 return self.point(x, orbit, rows, border)
@@ -123,16 +139,16 @@ class Problem:
         return None
 
     def point(self, x, orbit, rows, border):
-        """The point at some unknowns, its tangent along the border."""
+        """Return the point at converged unknowns, its tangent within 90 degrees of `border`."""
         tangent = np.linalg.lstsq(np.vstack([rows, border]), np.eye(len(x))[-1], SINGULAR)[0]
         return Point(x[-1], orbit, x, tangent / np.linalg.norm(tangent))
 
     def step(self, point, length):
-        """The point a step further along the branch, or None."""
+        """Return the point a step along the branch from a point, or None."""
         x = point.x + length * point.tangent
-        found = self.correct(x, point.tangent)
+        ahead = self.correct(x, point.tangent)
         aside = ASIDE * abs(length) + ROUNDING
-        return None if found is None or np.linalg.norm(found.x - x) > aside else found
+        return None if ahead is None or np.linalg.norm(ahead.x - x) > aside else ahead
 
     def at_value(self, point, value):
         """Return the point at a value of the parameter close to that of a point, or None.
@@ -144,21 +160,25 @@ class Problem:
         length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
         x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
         x[-1] = value
-        found = self.correct(x, np.eye(len(x))[-1])
-        if found is None:
+        near = self.correct(x, np.eye(len(x))[-1])
+        if near is None:
             return None
-        return found._replace(tangent=found.tangent * np.sign(found.tangent @ point.tangent))
+        return near._replace(tangent=near.tangent * np.sign(near.tangent @ point.tangent))
 
     def begin(self, orbit, value, direction):
-        """The point at an orbit, its tangent in the direction (-1 or 1) of the parameter."""
+        """Return the point of an orbit at a parameter value, or None.
+
+        Along the tangent the parameter falls (direction -1) or rises (1).
+        """
         size = 4 if self.damped else 2
         x = np.append(orbit.state[:size], value)
         return self.correct(x, direction * np.eye(size + 1)[-1])
 
     def rephased(self, point):
-        """The problem and the point at another phase, if contacts come near; or None.
+        """Return problem and point at a phase far from contacts, or None if Newton's method fails.
 
-        The tangent keeps its direction: it is carried along by a short displacement.
+        Both are returned unchanged if the present phase is far enough from all contacts. The
+        direction of the tangent is kept: a point displaced along it is integrated to the new phase.
         """
         orbit = point.orbit
         phase = orbit.quiet_phase()
@@ -170,5 +190,5 @@ class Problem:
         family = self.family(nudged[-1])
         ahead = replace(orbit, p=family, state=nudged[:-1]).at(phase)
         border = np.append(ahead, nudged[-1]) - x
-        found = problem.correct(x, border / np.linalg.norm(border))
-        return None if found is None else (problem, found)
+        moved = problem.correct(x, border / np.linalg.norm(border))
+        return None if moved is None else (problem, moved)

@@ -1,10 +1,11 @@
 """The quiet orbit, stable or not, over a grid of parameters.
 
-It has the period of the forcing, touches each wall once a period, and is its own mirror
-image half a period on: a fixed point of the map over half a period with a change of sign, the
-root of the map over a period. The multipliers of the root tell what destabilises it: 1 is a
-fold, -1 the loss of symmetry, and a conjugate pair of modulus 1 a Neimark-Sacker bifurcation.
-Those of a period are their squares, so a period doubling would need a pair at i and -i.
+The quiet orbit has the period of the forcing, touches each wall once a period, and is its own
+mirror image half a period later. It is therefore a fixed point of the map over half a period with
+a change of sign, the root of the map over a period. The multipliers of the root say how the orbit
+becomes unstable: a multiplier 1 is a fold, -1 the loss of symmetry, and a conjugate pair of
+modulus 1 a Neimark-Sacker bifurcation. The multipliers of a period are their squares, so a period
+doubling would need a pair at i and -i.
 """
 
 from typing import NamedTuple
@@ -17,12 +18,13 @@ from impact_damper.orbits.grid_following import Grid
 from impact_damper.orbits.shooting import STROBE, shoot
 from impact_damper.system import packed
 
-# Phase W T of the states: contacts lie from about -0.2 to pi/2, and half a period on.
+# Phase W T of the states, far from contacts: these lie between about -0.2 and pi/2, and half a
+# period later.
 PHASE = 0.75 * np.pi
+# Newton's method: number of corrections, and largest distance from the guess.
 ITERATIONS = 10
-# Newton's method fails where it leads further than this from its guess. A step between cells is
-# halved down to SHORTEST, a share of their distance.
 REACH = 0.05
+# Shortest step between cells, as a share of their distance.
 SHORTEST = 2.0**-12
 # A row ends at a fold if the law of a fold predicts one within this number of shortest steps.
 NEAR = 4
@@ -36,11 +38,11 @@ class QuietOrbits(NamedTuple):
     multiplier : numpy.ndarray of complex, shape (rows, columns)
         Multiplier of the root of largest modulus, its imaginary part not negative.
     displacement, harmonic : numpy.ndarray, shape (rows, columns)
-        Largest |Z1|, and amplitude of its first harmonic.
+        Largest |Z1|, and amplitude of the first harmonic of Z1.
     end : numpy.ndarray, shape (rows, 2)
-        Where the orbits of a row begin and end, in columns.
+        Columns, as decimals, between which a row has orbits.
     end_event : numpy.ndarray, shape (rows, 2)
-        Flag `quiet_end_event`.
+        Reasons why they end there, flags of `quiet_end_event`.
     """
 
     multiplier: np.ndarray
@@ -51,17 +53,22 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(clearance, restitution) -> float:
-    """Forcing frequency at which the quiet orbit folds, for rigid walls at high frequency.
+    """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
-    There the loose mass flies straight, and the equations of `straight_flight_ratio` give
-    W^2 d0 = k sin(s) - cos(s) with k = (pi/2) (1 + e)/(1 - e), whatever rm. That has no
-    solution s, the phase of the impacts, beyond W^2 d0 = sqrt(1 + k^2): with e < 1 the
-    forcing cannot make good any more what impacts take. Infinite for e = 1.
+    In this limit, of rigid walls and high frequency, the equations of `straight_flight_ratio` give
+    W^2 d0 = k sin(s) - cos(s) for the phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e) and
+    for any rm. There is no solution beyond W^2 d0 = sqrt(1 + k^2), where the forcing no longer
+    supplies the energy that impacts dissipate.
 
     Parameters
     ----------
     clearance, restitution : float
         d0 and e.
+
+    Returns
+    -------
+    float
+        Infinite for e = 1.
     """
     if restitution == 1:
         return np.inf
@@ -70,7 +77,7 @@ def straight_flight_end(clearance, restitution) -> float:
 
 
 def is_symmetric_pair(records):
-    """True where a motion of period 1 has two contacts a period and is its own mirror image."""
+    """Return where `records.MOTION` are symmetric motions of period 1 with two contacts."""
     two = (records["contacts"] == CONTACTS) & (records["period"] == 1)
     return two & (records["asymmetry"] < SYMMETRIC)
 

@@ -1,8 +1,8 @@
 """Periodic orbits, stable or not, by Newton's method on the event-driven flow.
 
-The state of an orbit is given at a phase W T of the forcing that lies in flight, far from
-contacts: there the map over its period is smooth and well scaled. The derivative of the
-map is that of the variational equations, saltation at the dashpot included.
+The state of an orbit is given at a phase W T of the forcing at which the loose mass is in flight,
+far from contacts: there the map over the period is smooth and well scaled. Its derivative comes
+from the variational equations, with saltation matrices where the dashpot's force jumps.
 """
 
 import math
@@ -18,12 +18,17 @@ from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MAS
 
 TURN = 2 * math.pi
 STROBE = math.pi / 2
-# A phase is kept while the nearest contact is further off than this, in radians of the forcing.
+# A phase is kept while the nearest contact is further away than this, in radians of the forcing.
 MARGIN = 0.15
+# Newton's method: residual of a converged orbit relative to its state, number of corrections, and
+# largest correction.
 RESIDUAL = 1e-12
 ITERATIONS = 20
-FAR, NEAR = 10.0, 1e-6
-CONTACTS = 64  # most contacts a forcing period that are listed
+FAR = 10.0
+# Residual from which on an orbit is known well enough to move its phase.
+NEAR = 1e-6
+# Largest number of contacts in a forcing period that are listed.
+CONTACTS = 64
 
 
 @dataclass(frozen=True)
@@ -35,7 +40,7 @@ class Orbit:
     p : numpy.ndarray, shape (packed.COUNT,)
         Packed parameters.
     periods : int
-        Its period n in forcing periods.
+        Period n in forcing periods.
     phase : float
         Phase W T of the state, radian.
     state : numpy.ndarray, shape (4,)
@@ -43,17 +48,17 @@ class Orbit:
     monodromy : numpy.ndarray, shape (4, 4)
         Derivative of the map over n periods.
     root : numpy.ndarray, shape (4, 4), or None
-        For a symmetric orbit of odd n the derivative of the map over n/2 periods and a change of
-        sign, whose square the monodromy matrix is.
+        For a symmetric orbit of odd n, derivative of the map over n/2 periods with a change of
+        sign. Its square is the monodromy matrix.
     residual : float
-        Largest difference of the state from its return.
+        Largest difference between the state and the state a period later.
     touching : float
-        Time in contact.
+        Time in contact during a period.
     converged : bool
-        Whether the residual is at most 1e-12 times the state's size; if not, the orbit is only
-        where Newton's method gave up.
+        Whether the residual is at most RESIDUAL times the largest component of the state, or times
+        1 if that is less. Otherwise the state is the best that Newton's method found.
     maps : int
-        Maps over its period that Newton's method took to it.
+        Number of maps over the period that Newton's method computed.
     """
 
     p: np.ndarray
@@ -69,19 +74,19 @@ class Orbit:
 
     @property
     def active(self):
-        """Dimension of the problem: 2 where no wall is touched, for then the loose mass rests."""
+        """Number of unknowns: 4, or 2 if no wall is touched and the loose mass keeps its place."""
         return 4 if self.touching > 0 else 2
 
     @cached_property
     def multipliers(self):
-        """Floquet multipliers by descending modulus, shape (4,); two are NaN without contacts."""
+        """Floquet multipliers by falling modulus, shape (4,); two are NaN without contacts."""
         values = np.full(4, complex(np.nan, np.nan))
         n = self.active
         if self.root is None:
-            found = np.linalg.eigvals(self.monodromy[:n, :n])
+            active = np.linalg.eigvals(self.monodromy[:n, :n])
         else:
-            found = np.linalg.eigvals(self.root[:n, :n]) ** 2
-        values[:n] = found[np.lexsort((-found.imag, -np.abs(found)))]
+            active = np.linalg.eigvals(self.root[:n, :n]) ** 2
+        values[:n] = active[np.lexsort((-active.imag, -np.abs(active)))]
         return values
 
     @property
@@ -93,7 +98,8 @@ class Orbit:
     def liouville_error(self):
         """Relative error of the determinant of the monodromy matrix.
 
-        It must be exp(-h n 2 pi/W - 2 zeta_c sqrt(r1 rm) (1 + 1/rm) t_c), t_c the time in contact.
+        By Liouville's theorem the determinant is exp(-h n 2 pi/W - c (1 + 1/rm) t_c), with the
+        dashpot's coefficient c = 2 zeta_c sqrt(r1 rm) and the time in contact t_c.
         """
         p = self.p
         contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
@@ -102,16 +108,16 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """Contacts in order, shape (k, 5): wall, beginning, end, and Z2' at both.
+        """Contacts in order, shape (k, 5): wall (-1 or 1), time of beginning and end, Z2' at both.
 
         Raises
         ------
         ArithmeticError
-            If there are more than 64 a forcing period.
+            If there are more than CONTACTS in a forcing period.
         """
         begin = self.phase / self.p[FREQUENCY]
         end = begin + self.periods * TURN / self.p[FREQUENCY]
-        # A contact under way at the phase is whole where it comes again.
+        # a contact at the phase itself is complete only a period later
         touching = side_of(self.p, self.state) != 0
         last = end + touching * (end - begin)
         log = np.empty(((1 + touching) * self.periods * CONTACTS, 5))
@@ -125,29 +131,31 @@ class Orbit:
             log,
         )
         if count > len(log):
-            raise ArithmeticError(f"{count} contacts an orbit: more than {CONTACTS} a period")
+            raise ArithmeticError(
+                f"{count} contacts in an orbit: more than {CONTACTS} a forcing period"
+            )
         log = log[touching:count]
         return log[log[:, 1] < end]
 
     @property
     def sequence(self):
-        """Walls touched in order, as "+-", begun where the text comes first in the alphabet."""
+        """Walls touched in order, as "+-"; of its cyclic shifts the first in the alphabet."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
     @property
     def least_speed(self):
-        """Least relative speed at which a contact begins: small near grazing; NaN without."""
+        """Least |Z2'| at which a contact begins, small near grazing; NaN without contacts."""
         return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
 
     @property
     def restitution(self):
-        """Least ratio of the relative speeds after and before a contact; NaN without."""
+        """Least ratio of |Z2'| after a contact to |Z2'| before; NaN without contacts."""
         before, after = np.abs(self.contacts[:, 3]), np.abs(self.contacts[:, 4])
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
     def at(self, phase):
-        """The state at a phase not before the orbit's own."""
+        """Return the state, shape (4,), at a phase W T not before that of the orbit, radian."""
         y = self.state.copy()
         begin = self.phase / self.p[FREQUENCY]
         end = begin + (phase - self.phase) / self.p[FREQUENCY]
@@ -163,11 +171,11 @@ class Orbit:
 
     @cached_property
     def record(self):
-        """Extremum of |Z1|, contacts, asymmetry and first harmonics: a `recording.MOTION`."""
+        """Largest |Z1|, contacts, asymmetry and first harmonics: a `records.MOTION`."""
         return records.measured(self.p, self.strobe_states[0], self.periods, POLISH_TOLERANCE)
 
     def is_same(self, other, tolerance=1e-6):
-        """Whether another orbit is this one or its mirror image, begun in any forcing period."""
+        """Return whether another orbit is this one or its mirror image, up to a shift in time."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2
@@ -176,12 +184,12 @@ class Orbit:
         return bool(np.min(np.max(np.abs(states - other.strobe_states[0]), axis=1)) < tolerance)
 
     def repeats_sooner(self, tolerance=1e-6):
-        """Whether the state returns after a proper divisor of the periods already."""
+        """Return whether the state repeats after fewer periods, a divisor of n."""
         shift = np.max(np.abs(self.strobe_states - self.strobe_states[0]), axis=1)
         return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
 
     def margin(self, phase):
-        """Distance of a phase from the nearest contact, radian; negative inside one."""
+        """Return the distance of a phase from the nearest contact, radian; -1 during a contact."""
         begins, ends = (self.p[FREQUENCY] * self.contacts[:, k] for k in (1, 2))
         cycle = self.periods * TURN
         ahead, behind = (begins - phase) % cycle, (phase - ends) % cycle
@@ -189,9 +197,10 @@ class Orbit:
         return -1.0 if inside.any() else np.min([ahead, behind], initial=np.inf)
 
     def quiet_phase(self):
-        """A phase far from contacts: the orbit's own if it is, or else amid its longest flight.
+        """Return a phase far from contacts, radian, less than a period after that of the orbit.
 
-        It lies less than the orbit's length after the own one.
+        The phase of the orbit itself if it is further than MARGIN from all contacts, else the
+        middle of the longest flight.
         """
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
@@ -203,7 +212,7 @@ class Orbit:
 
 
 def shoot(p, state, periods, phase, *, symmetric=False):
-    """The orbit that a state would be, with what the map makes of it; not iterated.
+    """Apply the map over a period to a state, without iteration.
 
     Parameters
     ----------
@@ -211,18 +220,19 @@ def shoot(p, state, periods, phase, *, symmetric=False):
         Packed parameters.
     state : array, shape (4,)
     periods : int
-        Forcing periods n after which it should return; odd if symmetric.
+        Period n in forcing periods, odd if symmetric.
     phase : float
         Phase W T of the state, radian.
     symmetric : bool
-        Ask for its mirror image after n/2 periods instead: (Z, T) to (-Z, T + half a period)
-        maps motions to motions.
+        Use the map over n/2 periods with a change of sign instead, whose fixed points are the
+        symmetric orbits: a mirrored motion, half a forcing period later, is a motion again.
 
     Returns
     -------
-    Orbit
-    numpy.ndarray, shape (4,)
-        The state after the periods, or the mirrored one after half of them.
+    orbit : Orbit
+        Orbit that the state would be; its residual says how far it is from one.
+    end : numpy.ndarray, shape (4,)
+        The state after the map.
     """
     whole, sign = (periods // 2, -1) if symmetric else (periods, 1)
     begin = phase / p[FREQUENCY]
@@ -231,16 +241,16 @@ def shoot(p, state, periods, phase, *, symmetric=False):
     residual = float(np.max(np.abs(end - state)))
     converged = residual <= RESIDUAL * max(1.0, np.max(np.abs(state)))
     if symmetric:
-        made = matrix @ matrix, matrix, residual, 2 * touching, converged
+        results = matrix @ matrix, matrix, residual, 2 * touching, converged
     else:
-        made = matrix, None, residual, touching, converged
-    return Orbit(p, periods, phase, state, *made), end
+        results = matrix, None, residual, touching, converged
+    return Orbit(p, periods, phase, state, *results), end
 
 
 def find_orbit(p, state, periods=1, phase=STROBE):
-    """Newton's method from a state near an orbit; the phase is moved into flight at the end.
+    """Newton's method from a state near an orbit, whose phase is then moved into flight.
 
-    Where no wall is touched only Z1 and Z1' are sought, and the loose mass keeps its place.
+    Where no wall is touched only Z1 and Z1' are unknown, and the loose mass keeps its place.
 
     Parameters
     ----------
@@ -250,10 +260,10 @@ def find_orbit(p, state, periods=1, phase=STROBE):
     Returns
     -------
     Orbit
-        `converged` says whether it is one.
+        Its attribute `converged` says whether Newton's method converged.
     """
     orbit = _newton(p, np.array(state, float), periods, phase)
-    # Inside a contact rounding grows as fast as the contact swings, so "near" is enough.
+    # during a contact rounding errors grow at its natural frequency: `converged` is too much to ask
     if not orbit.residual < NEAR or orbit.quiet_phase() == orbit.phase:
         return orbit
     phase = orbit.quiet_phase()
@@ -262,6 +272,7 @@ def find_orbit(p, state, periods=1, phase=STROBE):
 
 
 def _newton(p, state, periods, phase):
+    """Return the orbit of least residual on the way of Newton's method."""
     best, end = shoot(p, state, periods, phase)
     orbit = best
     maps = 1
