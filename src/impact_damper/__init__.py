@@ -10,7 +10,7 @@ from importlib import import_module
 _HOMES = {
     "Oscillator": "system.parameters",
     "Damper": "system.parameters",
-    "Settling": "motions.ensemble",
+    "Settling": "system.settling",
     "simulate": "motions.simulate",
     "steady_motion": "motions.simulate",
     "frequency_response": "stages.response",

@@ -13,13 +13,14 @@ from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.following import follow_stable
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper
+from impact_damper.system.settling import Settling
 
 NONE = np.empty((0, 4))
 
 
 def settled(p, state, tolerance=1e-9, patience=300, limit=1500, watched=50):
     """Record of the motion from a state at W T = pi/2."""
-    settling = ensemble.Settling(tolerance, patience, limit, watched)
+    settling = Settling(tolerance, patience, limit, watched)
     return ensemble.settle(p[None], np.array(state, float)[None], settling, from_strobe=True)[0]
 
 

@@ -22,6 +22,7 @@ from impact_damper.motions.simulate import (
 from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper
+from impact_damper.system.settling import Settling
 
 ON_ORBIT = (0.00572, 0.187394, 0.001944, -2.407912)
 
@@ -170,7 +171,7 @@ def test_phases_of_a_steady_motion():
 def test_results_do_not_depend_on_the_threads():
     parameters = np.array([pack(PAPER, DESIGN, w) for w in np.linspace(1.2, 2.4, 50)])
     states = random_states(50, 2.0, DESIGN, 11)
-    settling = ensemble.Settling(patience=100, limit=300)
+    settling = Settling(patience=100, limit=300)
     one, three = (
         ensemble.settle(parameters, states, settling, workers=workers) for workers in (1, 3)
     )
@@ -186,7 +187,7 @@ def test_time_of_the_first_state():
     (later,) = np.array(simulate(PAPER, None, 2.0, (0.3, 0.2), periods=0.25, samples=4)[
         ["displacement", "velocity", "relative_displacement", "relative_velocity"]
     ].to_array().T[-1:])  # fmt: skip
-    settling = ensemble.Settling(tolerance=1e-12)
+    settling = Settling(tolerance=1e-12)
     start = ensemble.settle(p[None], [[0.3, 0.2, 0.3, 0.2]], settling)
     strobe = ensemble.settle(p[None], later[None], settling, from_strobe=True)
     assert_allclose(start["state"], strobe["state"], atol=1e-9)
@@ -199,7 +200,7 @@ def test_time_of_the_first_state():
 def test_settling_is_checked(wrong):
     (name, value), = wrong.items()  # fmt: skip
     with pytest.raises(ValueError, match=f"{name} = {value:g}"):
-        ensemble.Settling(**wrong)
+        Settling(**wrong)
     with pytest.raises(ValueError, match="workers = 0"):
         ensemble.settle(np.empty((0, packed.COUNT)), np.empty((0, 4)), workers=0)
     with pytest.raises(ValueError, match="shapes"):
@@ -216,5 +217,5 @@ def test_steady_orbit_closes():
 
 def test_steady_orbit_says_that_a_motion_has_not_settled():
     with pytest.raises(ArithmeticError, match="limit = 120"):
-        settling = ensemble.Settling(patience=100, limit=120)
+        settling = Settling(patience=100, limit=120)
         steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0), settling=settling)

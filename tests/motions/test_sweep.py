@@ -15,6 +15,7 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.motions.sweep import Catalogue, _end_event, sweep
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper
+from impact_damper.system.settling import Settling
 
 FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 
@@ -22,7 +23,7 @@ FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 def free_sweep(frequencies, **options):
     parameters = np.array([pack(PAPER, None, w) for w in frequencies])
     states = np.array([random_states(12, 2.5, None, [2, i]) for i in range(len(frequencies))])
-    return sweep(parameters, FREQUENCY, "frequency", states, ensemble.Settling(), **options)
+    return sweep(parameters, FREQUENCY, "frequency", states, Settling(), **options)
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +110,7 @@ def test_following_finds_what_random_starts_miss():
     frequencies = np.array([0.8, 1.1, 1.4, 1.7, 2.0])
     parameters = np.array([pack(PAPER, None, w) for w in frequencies])
     states = np.full((5, 1, 4), 0.01)
-    data = sweep(parameters, FREQUENCY, "frequency", states, ensemble.Settling())
+    data = sweep(parameters, FREQUENCY, "frequency", states, Settling())
     top = np.nanmax(data["maximum_displacement"][1], axis=1)
     assert np.all(np.diff(top) > 0) and top[-1] > 2.3
     assert data["origin"][1][-1, 0] == flag("origin", "followed")
@@ -138,7 +139,7 @@ def test_sweep_of_the_clearance():
     parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
     # as the orbit for 2.0 is at T = 0, in contact
     states = np.array([[[-0.006288, -0.060053, d + 0.020827, -0.571848]] for d in clearances])
-    data = sweep(parameters, CLEARANCE, "clearance", states, ensemble.Settling())
+    data = sweep(parameters, CLEARANCE, "clearance", states, Settling())
     branch = data["branch"][1][data["contacts"][1] == 2]
     assert len(branch) == 3 and len(np.unique(branch)) == 1
     assert data["state"][0] == ("clearance", "motion", "component")

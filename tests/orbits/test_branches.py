@@ -8,7 +8,7 @@ import pytest
 from helpers.known_orbits import DESIGN, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
-from impact_damper.motions.ensemble import Settling, settle
+from impact_damper.motions.ensemble import settle
 from impact_damper.motions.following import follow_stable
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.continuation import Problem
@@ -17,6 +17,7 @@ from impact_damper.stages.branches import complete_branches, orbit_branch, perio
 from impact_damper.stages.response import frequency_response
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper
+from impact_damper.system.settling import Settling
 
 SETTLING = Settling(tolerance=1e-10, patience=300, limit=3000)
 

@@ -20,9 +20,10 @@ from impact_damper.orbits.shooting import STROBE, shoot
 from impact_damper.system import packed
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator
+from impact_damper.system.settling import Settling
 
 LEFT, RIGHT = 0, 1
-SETTLING = ensemble.Settling(patience=300, limit=3000)
+SETTLING = Settling(patience=300, limit=3000)
 
 
 def row(damper, frequencies, oscillator=PAPER):
@@ -142,7 +143,7 @@ def test_with_restitution_it_ends_where_straight_flight_says(restitution):
     start = ensemble.settle(
         np.repeat(grid[0, :1], 8, axis=0),
         np.random.default_rng(3).uniform(-0.4, 0.4, (8, 4)),
-        ensemble.Settling(patience=300, limit=3000),
+        Settling(patience=300, limit=3000),
     )
     quiet = start[is_symmetric_pair(start)]
     assert len(quiet)

@@ -6,11 +6,11 @@ from helpers.known_orbits import PAPER
 
 from impact_damper.data.datasets import flag
 from impact_damper.data.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
-from impact_damper.motions.ensemble import Settling
 from impact_damper.motions.simulate import simulate, steady_motion
 from impact_damper.stages.balance_map import balance_map
 from impact_damper.stages.harmonic_balance import harmonic_balance_response, optimum_clearance
 from impact_damper.system.parameters import Damper
+from impact_damper.system.settling import Settling
 from impact_damper.tables.balance_map import balance_map as table_of
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_folds

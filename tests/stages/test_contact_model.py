@@ -12,9 +12,9 @@ from impact_damper.contact.logged_contacts import extreme_motions, logged_contac
 from impact_damper.data.datasets import flag
 from impact_damper.data.variables import VARIABLES
 from impact_damper.figures.contact_model import draw_contact_model
-from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import simulate
 from impact_damper.stages.contact_model import contact_map, contact_model, spread_loads
+from impact_damper.system.settling import Settling
 from impact_damper.tables.contact import contact_model as model_table
 from impact_damper.tables.contact import contact_motions as motion_table
 
@@ -87,7 +87,7 @@ def test_dataset(model):
 
 def test_why_a_motion_without_pull_is_not_given():
     """A motion is told that has not settled, or whose contacts are not those of the orbit."""
-    settling = ensemble.Settling()
+    settling = Settling()
     motion, _ = extreme_motions(PAPER, INELASTIC, 2.0, 2, 1995, settling)
     names = VARIABLES["scene_without_pull_status"].flags
     changes = {

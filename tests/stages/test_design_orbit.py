@@ -9,6 +9,7 @@ from impact_damper.motions import ensemble
 from impact_damper.stages.design_orbit import design_orbit
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.system.settling import Settling
 from impact_damper.theory.design_rule import peak_frequency
 
 LINEAR = Oscillator(0.215, 1.5)
@@ -26,7 +27,7 @@ def settles(damping, data):
     oscillator = Oscillator(float(data["followed_value"][place]), 1.5)
     p = pack(oscillator, RULE, peak_frequency(LINEAR))
     state = data["orbit_state"].values[place] + np.array([1e-3, 0, 1e-3, 0])
-    settling = ensemble.Settling(patience=300, limit=2000)
+    settling = Settling(patience=300, limit=2000)
     assert_allclose(data["orbit_phase"][place], np.pi / 2)
     record = ensemble.settle(p[None], state[None], settling, from_strobe=True)[0]
     near = abs(record["maximum_displacement"] - float(data["orbit_displacement"][place])) < 1e-6

@@ -9,10 +9,10 @@ from scipy.stats import CensoredData, ecdf
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.data.shares import escape_rate, survival, wilson
 from impact_damper.migration.damper_release import release_case
-from impact_damper.motions.ensemble import Settling
 from impact_damper.stages.migration import migrate, trials
 from impact_damper.stages.release_scan import release_scan
 from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.system.settling import Settling
 from impact_damper.theory.free_oscillator import free_solutions
 
 CUBIC = Oscillator(0.215)

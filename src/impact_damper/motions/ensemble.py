@@ -5,7 +5,6 @@ computed by itself, hence nothing depends on how the work is shared out.
 """
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 
 import numpy as np
 from tqdm import tqdm
@@ -14,52 +13,12 @@ from impact_damper.motions.records import MOTION, measure
 from impact_damper.motions.settling import settle_many
 from impact_damper.system import packed
 from impact_damper.system.bounds import (
-    LIMIT_RANGE,
-    PATIENCE_RANGE,
-    TOLERANCE_RANGE,
-    WATCHED_RANGE,
     check_count,
-    check_number,
 )
 from impact_damper.system.packed import FREQUENCY
+from impact_damper.system.settling import Settling
 
 CHUNK = 128
-
-
-@dataclass(frozen=True)
-class Settling:
-    """How long motions are run and how closely.
-
-    Attributes
-    ----------
-    tolerance : float
-        Local error allowed in a step of the integrator, dimensionless.
-    patience : int
-        Forcing periods after which a motion that is chaotic beyond doubt is let go, and so is
-        one in which the loose mass hardly moves and has met no wall for as long.
-    limit : int
-        Forcing periods after which any motion is stopped: chaotic, if that is certain by then,
-        or unresolved.
-    watched : int
-        Further forcing periods over which a motion that has not settled is measured.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a value is not a number or out of range.
-    """
-
-    tolerance: float = 1e-9
-    patience: int = 300
-    limit: int = 1500
-    watched: int = 50
-
-    def __post_init__(self):
-        check_number("tolerance", self.tolerance, **TOLERANCE_RANGE)
-        check_count("patience", self.patience, **PATIENCE_RANGE)
-        limits = LIMIT_RANGE | {"least": self.patience, "why": "not below patience"}
-        check_count("limit", self.limit, **limits)
-        check_count("watched", self.watched, **WATCHED_RANGE)
 
 
 def run_chunks(work, count, workers, progress, size=CHUNK, stop=None):

@@ -217,7 +217,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
     start : array, shape (m,)
         Times at which the states are given, at most the strobe's.
     tolerance, patience, limit
-        As of `ensemble.Settling`.
+        Of `Settling`.
     out : array of recording.MOTION, shape (m,)
         Gets what `watch` finds, and the last state at a strobe or that on the orbit.
     stop : array of bool, shape (1,)

@@ -14,6 +14,7 @@ from impact_damper.system.bounds import (
 from impact_damper.system.checks import check_numbers
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
+from impact_damper.system.settling import Settling
 
 # Below this share of the first harmonic of Z1 another one is rounding and has no phase.
 PHASELESS = 1e-9
@@ -50,11 +51,11 @@ def check_state(state, damper):
     return values
 
 
-def check_settling(settling) -> ensemble.Settling:
+def check_settling(settling) -> Settling:
     """Return how motions are run, the default for None, or raise TypeError."""
     if settling is None:
-        return ensemble.Settling()
-    if not isinstance(settling, ensemble.Settling):
+        return Settling()
+    if not isinstance(settling, Settling):
         raise TypeError(f"settling = {shown(settling)}: must be a Settling")
     return settling
 

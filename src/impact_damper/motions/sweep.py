@@ -181,7 +181,7 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
         Name of the dimension it gives the data.
     states : array, shape (n, m, 4)
         Random starts at T = 0.
-    settling : ensemble.Settling
+    settling : Settling
     workers, progress
         As in `ensemble.settle`.
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble
-from impact_damper.motions.ensemble import Settling
 from impact_damper.motions.following import StrobeOrbit
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.orbits.compliant_orbits import compliant_orbit
@@ -23,6 +22,7 @@ from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, describe
+from impact_damper.system.settling import Settling
 from impact_damper.theory.free_oscillator import free_solutions
 
 LABELS = COMPARED["stable_steps"]

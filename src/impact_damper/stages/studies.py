@@ -19,6 +19,7 @@ from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, describe
+from impact_damper.system.settling import Settling
 
 CELL = np.dtype(
     [
@@ -69,7 +70,7 @@ def study_chunk(
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
-    settling = settling or ensemble.Settling()
+    settling = settling or Settling()
     check_count("starts", starts, most=10**6)
     axes = _checked(axes)
     shape = [len(values) for values in axes.values()]

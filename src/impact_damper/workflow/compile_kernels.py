@@ -53,8 +53,8 @@ def warm_up_settling() -> None:
     batch.send(pool, 0, 0.0, 0.01, False)
     batch.advance_some(pool, places, places.copy())
 
-    from impact_damper.motions.ensemble import Settling
     from impact_damper.stages.response import frequency_response
+    from impact_damper.system.settling import Settling
 
     settling = Settling(patience=100, limit=100, watched=1)
     frequency_response(

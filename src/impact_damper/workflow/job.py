@@ -59,8 +59,8 @@ class Entry:
 
     @property
     def settling(self):
-        """How long and how closely motions are run, a `motions.ensemble.Settling`."""
-        from impact_damper.motions.ensemble import Settling
+        """How long and how closely motions are run, a `system.settling.Settling`."""
+        from impact_damper.system.settling import Settling
 
         return Settling(**self["settling"])
 
