@@ -120,5 +120,6 @@ def test_stages_are_gathered_from_the_pipelines_timings(tmp_path):
     assert stages.table(tmp_path / "nothing").empty
 
 
+@pytest.mark.workflow
 def test_the_start_of_a_job_takes_time():
     assert overhead.start_up_of_a_job() > 0

@@ -1,5 +1,7 @@
 """Every figure of data: quiet, whole on its sheet, with all that it draws in its legend."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -192,13 +194,19 @@ DRAWINGS = {
 }
 
 
+@cache
+def drawn_once(name):
+    """The figure of this name, drawn in the style in use; tests only look at it."""
+    drawn = DRAWINGS[name][0]()
+    FigureCanvasAgg(drawn).draw()
+    return drawn
+
+
 @pytest.fixture(params=DRAWINGS)
 def drawing(request):
-    draw, roles = DRAWINGS[request.param]
+    _, roles = DRAWINGS[request.param]
     with style():
-        drawn = draw()
-        FigureCanvasAgg(drawn).draw()
-        yield drawn, {ROLES[role]["label"] for role in roles}
+        yield drawn_once(request.param), {ROLES[role]["label"] for role in roles}
 
 
 def words(drawn):

@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 import sys
+from functools import cache
 from itertools import combinations
 
 import pytest
@@ -52,12 +53,18 @@ def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
     assert len(list(tmp_path.iterdir())) == 6, "parts left behind"
 
 
+@cache
+def drawn_once(name):
+    """The schematic of this name, drawn in the style in use; tests only look at it."""
+    figure = getattr(schematics, name)()
+    FigureCanvasAgg(figure).draw()
+    return figure
+
+
 @pytest.fixture(params=NAMES)
 def drawn(request):
     with style():
-        figure = getattr(schematics, request.param)()
-        FigureCanvasAgg(figure).draw()
-        yield figure
+        yield drawn_once(request.param)
 
 
 def boxes(figure):
