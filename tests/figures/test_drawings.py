@@ -11,9 +11,10 @@ from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, OU
 from impact_damper.figures.branches import draw_branches
 from impact_damper.figures.free import draw_free
 from impact_damper.figures.harmonic_balance import draw_harmonic_balance
-from impact_damper.figures.migration import draw_migration, draw_release
+from impact_damper.figures.migration import draw_migration
 from impact_damper.figures.motion import draw_motion
 from impact_damper.figures.optimum import draw_optimum
+from impact_damper.figures.release import draw_release
 from impact_damper.figures.response import draw_response
 from impact_damper.figures.style import ROLES, style
 

@@ -60,7 +60,7 @@ FILES = {
     "requirements.lock": None,
     "src/impact_damper/figures/style.py": chapters(*CHAPTERS),
     "src/impact_damper/tables/migration.py": chapters("migration"),
-    "workflow/report/response.rst": chapters("responses"),
+    "src/impact_damper/figures/response.py": chapters("responses"),
     "workflow/scripts/motion.py": {"motion/figure_04", *chapters("responses", "claims")},
     "src/impact_damper/stages/studies.py": {"studies/design_plane", *chapters("clearance")},
 }

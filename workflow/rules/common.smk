@@ -145,12 +145,6 @@ def chapter_parameters(chapter):
     return drawn | {"tables": {"tables": tables}}
 
 
-def chapter_templates(chapter):
-    """Templates of the captions of a chapter's figures."""
-    kinds = {config["figures"][name]["kind"] for name in selection.figures_of(config, chapter)}
-    return [local(ROOT / f"workflow/report/{kind}.rst") for kind in sorted(kinds)]
-
-
 def chapter_files(chapter):
     """Files of a chapter: each figure and table, in two formats, and its caption."""
     figures = selection.figures_of(config, chapter)

@@ -16,7 +16,6 @@ for chapter in filter(chapter_files, CHAPTERS):
             f"chapter_{chapter}"
         input:
             **data_by_stage(selection.chapter_data(config, chapter)),
-            templates=chapter_templates(chapter),
             code=code("chapter", *selection.chapter_modules(config, chapter)),
         output:
             chapter_files(chapter),

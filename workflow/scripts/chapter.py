@@ -1,15 +1,12 @@
 """Figures and tables of a chapter of the report, with their captions."""
 
-from pathlib import Path
-
 from impact_damper.workflow.chapter import draw_figure, make_table
 from impact_damper.workflow.job import Job
 
 job = Job(snakemake)
-templates = {Path(path).stem: Path(path).read_text() for path in snakemake.input.templates}
 for key, figure in job.given.items():
     if key != "tables":
         path = job.results / "figures" / key.removeprefix("figure_")
-        draw_figure(figure, job.datasets, path, templates[figure["kind"]])
+        draw_figure(figure, job.datasets, path)
 for name in job["tables"]:
     make_table(name, job.datasets, job.results / "tables" / name)

@@ -19,6 +19,19 @@ from impact_damper.figures.style import (
 )
 from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
 
+CAPTION = """
+Error over work. Work is the number of floating-point operations, counted and not timed, with an
+elementary function as 20: from the source code for the Taylor series and for Merson's method, by
+formulas for the other methods. Points along a line are tolerances of an integrator, or numbers of
+harmonics of a balance. Integrators start from the state of the scene. Models of orbits need no
+start; of several solutions the nearest to the orbit is drawn. Kink: the method integrates through
+the kinks of the force without locating contacts. Cross: wrong number of contacts. Open markers with
+a plus at the upper edge: the run failed or exceeded the allowed evaluations. Reference: a run of an
+independent program in 80-bit arithmetic; for a chaotic motion, which is judged by averages with
+their standard errors, a longer run of the Taylor series, whose standard error is shaded. Dashed:
+the accuracy that the scene requires. The paper has no such figure.
+"""
+
 # Models of orbits: label, colour, marker and line.
 ORBIT_ROLES = {
     "rigid": ("rigid impacts", GREY, "s", "none"),

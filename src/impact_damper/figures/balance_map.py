@@ -24,6 +24,20 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = """
+(a) The quiet motion. Balance: the solution of (7) with the smallest amplitude, below half of the
+free resonance, with its stability by the slow flow (17). Orbit: the exact periodic orbit with two
+symmetric contacts, stable or unstable by its Floquet multipliers, continued from motions that
+settled. Beyond the solid line the orbit does not exist: it ends there in a fold. Dots: a start at
+the solution of (7) leads to chaos, small or violent, even if a stable orbit exists. (b) The high
+motion. Balance: the stable solution of (7) with the largest amplitude above this half. Then the
+motion that a start at this solution leads to, or without such a solution a start on the free
+resonance branch. Chaotic: the largest Lyapunov exponent exceeds zero by four standard errors after
+the configured number of periods; the motion may be a long transient. Near: within 20 per cent of
+the amplitude of (7). Free resonance: the upper branch of the free response. Harmonic balance
+assumes elastic contact, so its verdict does not depend on e. The paper has no such figure.
+"""
+
 PARAMETERS = {
     "damping": "Damping, $h$",
     "mass_ratio": "Mass ratio, $r_m$",

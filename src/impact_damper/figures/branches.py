@@ -19,6 +19,18 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = """
+Largest displacement over the forcing frequency of the exact periodic orbits on every branch on
+which a settled motion was found, by pseudo-arclength continuation. Solid: stable, all Floquet
+multipliers below 1 in modulus. Dotted: unstable. Grey and black: without the damper. Markers:
+bifurcations and changes of contact, located to at least eight digits. A branch ends at the limits
+of the frequency range or where it meets a branch of higher symmetry. Crosses: the branch continues,
+but was not followed further, because a new contact begins there and the branch turns too sharply,
+or because the orbit is too unstable (a multiplier above 100, or a disturbance that grows by more
+than 300 in one period): it is one of the many unstable orbits within the chaotic motion. Branches
+without any stable orbit are not searched for. Chaotic motions are not drawn.
+"""
+
 EVENTS = {
     "fold": ("fold", "o", BLACK),
     "symmetry_breaking": ("loss of symmetry", "s", BLACK),

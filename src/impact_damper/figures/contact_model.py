@@ -18,6 +18,18 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = """
+Each cell is one contact in closed form, valid for any mass ratio and stiffness. The restitution e
+sets the dashpot by (25). The load g is the acceleration of the primary mass towards the wall by all
+other forces, taken as constant, divided by the natural frequency of the contact and the approach
+speed v0; a positive load presses the masses together. Left: contact ends at zero penetration, as in
+appendix B. Right: contact ends at zero force, since a wall cannot pull. (a, b) Relative error of
+the realised restitution; zero on the left without load. (c, d) Time in contact over the time for e
+= 1. Hatched: the contact does not end. Markers in (a): contacts of simulated motions with the
+paper's rule, from the smallest settled and the largest motion that random starts reach at each
+frequency. The paper only states that the model fails at low e.
+"""
+
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LINES = {0.01: "solid", 0.05: "dotted"}
 TIMES = {0.95: "solid", 1.05: "solid", 0.5: "dotted", 1.5: "dotted"}

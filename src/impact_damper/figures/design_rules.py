@@ -18,6 +18,16 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = """
+Left: clearance with the smallest largest displacement. Right: clearance with the smallest first
+harmonic of the displacement. Points: optima of the exact quiet motion, by Newton's method on its
+orbit; a cross marks an optimum at which the motion is unstable and therefore not observed. Lines:
+theory of straight flights between the walls, corrected for contact time, restitution, damping and
+linear stiffness. Last row: for each rule the share of all optima, stable or unstable, that the rule
+predicts within a given error; the explicit formula applies to elastic contact only. The paper has
+rule (18) alone.
+"""
+
 SWEPT = {
     "restitution": "linear",
     "contact_stiffness": "log",

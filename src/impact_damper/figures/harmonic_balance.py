@@ -6,6 +6,15 @@ from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.figures.motion_lines import draw_lines, lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
+CAPTION = """
+Amplitude by harmonic balance over the forcing frequency, one panel for each clearance. Thick:
+stable solutions of equations (7) with contact. Thin: response without the damper, stable (solid)
+and unstable (dashed). Shaded: the suppression band. The paper does not define the band; it is taken
+as the frequencies around the peak at which (7) has a single stable solution, with an amplitude
+below the free resonance motion. Its upper end is the end of the free resonance branch. Motions with
+the loose mass at rest are left out, as in the paper.
+"""
+
 
 @style()
 def draw_harmonic_balance(*, harmonic_balance):

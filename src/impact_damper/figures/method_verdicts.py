@@ -22,6 +22,17 @@ from impact_damper.figures.style import (
 )
 from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 
+CAPTION = """
+Each cell is a run from a start near a periodic orbit. Whether this orbit exists and is stable is
+known exactly from its Floquet multipliers; the table of verdicts lists the scenes. All methods are
+judged by the same rule, from the states once a forcing period: the motion has settled if the last
+six states repeat within 0.001 with a period of at most six, and it is on an orbit if Z1 and Z1'
+agree within 0.005. Wrong period or branch: the motion settles, but not on the orbit on which the
+exact motion settles. SciPy's methods take a hundred times as long and are run in some scenes at few
+tolerances; white cells were not run. Fixed steps, and methods marked kink, integrate through the
+kink of the force without locating contacts. The paper has no such figure.
+"""
+
 ROLES = {
     "not_run": (WHITE, "not run"),
     "right": (PALE_SKY, "right"),

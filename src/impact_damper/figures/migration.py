@@ -1,8 +1,8 @@
-"""Migration control: a run over time, and releases by destination (figures 13 to 16)."""
+"""Migration control: a run over time: figures 13, 15 and 16 (kind migration)."""
 
 import numpy as np
 
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.style import (
     BLACK,
     ROLES,
@@ -13,21 +13,13 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = """
+Displacement of the primary mass over time, (a) in a whole run and (b) around its last release. The
+damper is on where the background is shaded. The run drawn is the first one that arrives on the
+non-resonance branch with the median number of switchings, or the first of all runs if none arrives.
+"""
+
 AROUND = -15, 25  # forcing periods drawn before and after the last release
-# Role of each destination, and title of the panel of each damped motion.
-DESTINATIONS = {
-    "non_resonance": "non_resonance",
-    "subharmonic": "subharmonic",
-    "resonance": "resonance",
-    "other": "other",
-    "unresolved": "lost",
-}
-MOTIONS = {
-    "unsettled": "before it has settled",
-    "quiet": "quiet motion",
-    "violent": "violent motion",
-    "subharmonic": "subharmonic motion",
-}
 
 
 @style({"axes.titley": None})  # keeps the letters clear of the upper axis
@@ -71,52 +63,3 @@ def draw_run(axes, run, span, width):
             axes.axvline(time, **ROLES[role])
     axes.set(xlim=span)
     axes.tick_params(top=False)
-
-
-@style()
-def draw_release(*, migration):
-    """Draw the states at which each damped motion is released, marked by destination.
-
-    Parameters
-    ----------
-    migration : list of xarray.Dataset
-        Datasets of the stage migration.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
-    sources = [(runs, row) for runs in migration for row in range(runs.sizes["damped"])]
-    rows = -(-len(sources) // 2)
-    drawn = figure("double", 0.6 + 2.6 * rows)
-    panels = drawn.subplots(rows, 2, squeeze=False).ravel()
-    for axes, (runs, row) in zip(panels, sources, strict=False):
-        draw_releases(axes, runs.isel(damped=row))
-    for axes in panels[len(sources) :]:
-        axes.remove()
-    letter_panels(panels[: len(sources)])
-    legend(drawn, 3)
-    return drawn
-
-
-def draw_releases(axes, releases):
-    """Draw the releases of one damped motion."""
-    for destination, role in DESTINATIONS.items():
-        value = flag("release_destination", destination)
-        chosen = releases["release_destination"].values == value
-        if chosen.any():
-            axes.plot(
-                releases["release_displacement"].values[chosen],
-                releases["release_velocity"].values[chosen],
-                **ROLES[role],
-            )
-    (words,) = (
-        words
-        for kind, words in MOTIONS.items()
-        if releases["damped_kind"] == flag("damped_kind", kind)
-    )
-    axes.set(
-        title=words,
-        xlabel=axis_label(releases["release_displacement"]),
-        ylabel=axis_label(releases["release_velocity"]),
-    )

@@ -13,6 +13,12 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = """
+Velocity over displacement of the primary mass during one period of the motion. Thick: contact with
+a wall. A contact is short: it reverses the velocity at nearly constant displacement, so that the
+motion differs strongly from the single harmonic of equations (7).
+"""
+
 WALLS = {
     1: {"label": "contact, $Z_2 \\geq d_0$", "color": BLUE, "solid_capstyle": "butt"},
     -1: {"label": "contact, $Z_2 \\leq -d_0$", "color": ORANGE, "linestyle": (0, (1.2, 0.5))},

@@ -6,6 +6,18 @@ from impact_damper.figures.harmonic_balance import draw_balance, draw_band
 from impact_damper.figures.motion_lines import branch_lines, draw_lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
+CAPTION = """
+Largest displacement over the forcing frequency of all motions that were found, from random starts
+and by continuing each motion to the neighbouring frequencies. Lines join the settled motions of a
+branch and extend to its ends. The motions without damper and the dotted unstable ones with damper
+are exact periodic orbits. A chaotic motion is a point at the largest displacement observed. A
+motion without contact is one of the free oscillator. A motion with damper is called subharmonic if
+its period is a multiple of three forcing periods. Harmonic balance, for elastic contact only, gives
+the amplitude of the first harmonic, which is below the largest displacement where higher harmonics
+matter. The paper draws few motions at each frequency and calls the chaotic ranges narrow; here
+several motions coexist at most frequencies, and all are drawn.
+"""
+
 JOINED = {"linestyle": "-", "linewidth": 0.5}
 STATUSES = ("chaotic", "non_colliding", "unresolved")
 

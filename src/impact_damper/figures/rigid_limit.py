@@ -20,6 +20,20 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = """
+The quiet motion (period 1, two symmetric contacts, stable or unstable) with compliant contact, in
+each cell, and with instantaneous impacts, at each frequency; computed by Newton's method and
+continued from the W above. Upper row: relative error of the largest displacement with instantaneous
+impacts. Lower row: error of the modulus of the dominant Floquet multiplier, that is of the decay in
+one period; small in wide areas, where the multipliers are complex pairs whose modulus hardly
+depends on r1. Dots: both motions are unstable. Hatched: one of the motions was not reached from the
+neighbouring cell, in steps down to 1/32 of their distance. Last panel: errors at the W above. The
+mended rigid model moves the walls outwards by v tc e/(1 + e), with the approach speed v and the
+time in contact tc, and corrects the restitution to the same order. Its error decreases as 1/r1, the
+error of the plain model as r1^(-1/2); both decrease as r1^(-1/2) where the displacement is largest
+during a contact. The paper uses rigid walls for (13) and (14) only.
+"""
+
 SMALLEST = 1e-4  # lower end of the colour scale
 THRESHOLDS = ("solid", "dotted")
 OWN = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (6, 3))}

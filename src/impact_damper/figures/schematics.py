@@ -32,6 +32,8 @@ from impact_damper.figures.style import (
     style,
 )
 
+CAPTION = ""  # the title and the remark of a schematic say all
+
 
 def carriage(axes):
     """Draw the primary mass on its rail, with springs and dashpot on the left and the force."""

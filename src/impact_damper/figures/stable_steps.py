@@ -24,6 +24,16 @@ from impact_damper.figures.style import (
 )
 from impact_damper.rivals.methods import METHODS
 
+CAPTION = """
+Each cell is a run that starts on the exact quiet orbit for this stiffness and integrates through
+the kinks with equal steps, an integer number of them in a forcing period. omega_c is the natural
+frequency of an undamped contact; a contact lasts half a natural period. Colour: largest deviation
+of max abs(Z1) from the exact value in any period. Solid lines: largest step such that this and all
+smaller steps tested, at least four, keep the accuracy. Dashed: linear stability limit of the
+method. Dotted: equal numbers of steps a period. White: more steps than allowed, not run. The paper
+used one stiffness, 2000, and has no such figure.
+"""
+
 ROLES = {
     "no_orbit": (WHITE, "no quiet motion"),
     "not_run": (WHITE, "not run"),

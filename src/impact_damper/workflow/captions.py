@@ -1,6 +1,20 @@
-"""Parameters in words, for the captions of figures; imports no NumPy."""
+"""Captions of figures, with the parameters in words; imports no NumPy."""
 
 from impact_damper.system.parameters import SYMBOLS
+
+
+def caption(figure, text) -> str:
+    """Return the caption of a figure as one paragraph of reStructuredText.
+
+    Parameters
+    ----------
+    figure : dict
+        As `selection.figure_values` returns it.
+    text : str
+        `CAPTION` of the module that draws the kind of figure.
+    """
+    head = f"{figure['title']}: {figure['cases']}." if figure["cases"] else f"{figure['title']}."
+    return "\n".join(part for part in (head, text.strip(), figure["remark"]) if part)
 
 
 def in_words(values) -> str:

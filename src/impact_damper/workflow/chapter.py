@@ -2,9 +2,8 @@
 
 from importlib import import_module
 
-import jinja2
-
 from impact_damper.data.whole_files import whole
+from impact_damper.workflow.captions import caption
 from impact_damper.workflow.registry import KINDS, TABLES
 
 
@@ -32,7 +31,7 @@ def make_table(name, datasets, path) -> None:
     _write(f"{path}.rst", table.caption)
 
 
-def draw_figure(figure, datasets, path, template) -> None:
+def draw_figure(figure, datasets, path) -> None:
     """Draw a figure as PDF and PNG, and write its caption.
 
     Parameters
@@ -43,8 +42,6 @@ def draw_figure(figure, datasets, path, template) -> None:
         By stage and entry.
     path : pathlib.Path
         Name of the files, without suffix.
-    template : str
-        Jinja template of the caption, for the variable `figure`.
     """
     from impact_damper.figures.style import save
 
@@ -62,8 +59,7 @@ def draw_figure(figure, datasets, path, template) -> None:
         (name,) = figure["data"]
         drawing = getattr(module, name)()
     save(drawing, path)
-    caption = jinja2.Template(template, undefined=jinja2.StrictUndefined)
-    _write(f"{path}.rst", caption.render(figure=figure))
+    _write(f"{path}.rst", caption(figure, module.CAPTION))
 
 
 def _write(path, text):

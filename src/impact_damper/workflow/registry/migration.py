@@ -32,7 +32,7 @@ STAGES = (
 )
 KINDS = (
     Kind("migration", ("migration",)),
-    Kind("release", ("migration",), module="figures.migration"),
+    Kind("release", ("migration",)),
 )
 TABLES = (
     Table(

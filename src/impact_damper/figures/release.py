@@ -1,0 +1,76 @@
+"""States at which the damper is switched off, by destination: figure 14 (kind release)."""
+
+from impact_damper.data.datasets import flag
+from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
+
+CAPTION = """
+States of the primary mass at which the damper is switched off, marked by the motion on which the
+free oscillator then settles: first the releases before the motion with the damper has settled, then
+the releases from each settled motion, evenly spaced over its period. The paper draws one motion
+with releases to the subharmonic and to the non-resonance motion. Where the free oscillator has no
+one-third subharmonic (see its table), no release can lead to it.
+"""
+
+# Role of each destination, and title of the panel of each damped motion.
+DESTINATIONS = {
+    "non_resonance": "non_resonance",
+    "subharmonic": "subharmonic",
+    "resonance": "resonance",
+    "other": "other",
+    "unresolved": "lost",
+}
+MOTIONS = {
+    "unsettled": "before it has settled",
+    "quiet": "quiet motion",
+    "violent": "violent motion",
+    "subharmonic": "subharmonic motion",
+}
+
+
+@style()
+def draw_release(*, migration):
+    """Draw the states at which each damped motion is released, marked by destination.
+
+    Parameters
+    ----------
+    migration : list of xarray.Dataset
+        Datasets of the stage migration.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    sources = [(runs, row) for runs in migration for row in range(runs.sizes["damped"])]
+    rows = -(-len(sources) // 2)
+    drawn = figure("double", 0.6 + 2.6 * rows)
+    panels = drawn.subplots(rows, 2, squeeze=False).ravel()
+    for axes, (runs, row) in zip(panels, sources, strict=False):
+        draw_releases(axes, runs.isel(damped=row))
+    for axes in panels[len(sources) :]:
+        axes.remove()
+    letter_panels(panels[: len(sources)])
+    legend(drawn, 3)
+    return drawn
+
+
+def draw_releases(axes, releases):
+    """Draw the releases of one damped motion."""
+    for destination, role in DESTINATIONS.items():
+        value = flag("release_destination", destination)
+        chosen = releases["release_destination"].values == value
+        if chosen.any():
+            axes.plot(
+                releases["release_displacement"].values[chosen],
+                releases["release_velocity"].values[chosen],
+                **ROLES[role],
+            )
+    (words,) = (
+        words
+        for kind, words in MOTIONS.items()
+        if releases["damped_kind"] == flag("damped_kind", kind)
+    )
+    axes.set(
+        title=words,
+        xlabel=axis_label(releases["release_displacement"]),
+        ylabel=axis_label(releases["release_velocity"]),
+    )
