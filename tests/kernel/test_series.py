@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 
 from impact_damper.kernel import recurrence
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
+from impact_damper.system import packed
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 
@@ -40,8 +41,8 @@ def filled(lanes, p, state, phase):
     module = instance(lanes)
     a = np.zeros((module.SIZE // lanes, lanes))
     for i in range(lanes):
-        a[:7, i] = np.multiply(p, 1.0 + 0.01 * (i - LANE % lanes))
-        a[7:11, i] = np.multiply(state, 1.0 + 0.1 * (i - LANE % lanes))
+        a[: packed.COUNT, i] = np.multiply(p, 1.0 + 0.01 * (i - LANE % lanes))
+        a[packed.COUNT : packed.COUNT + 4, i] = np.multiply(state, 1.0 + 0.1 * (i - LANE % lanes))
     a[module.SIDE // lanes] = 1.0
     a[module.Y2 // lanes] += p[3]
     a[module.COSINE // lanes], a[module.SINE // lanes] = math.cos(ANGLE), math.sin(ANGLE)
@@ -221,7 +222,7 @@ def test_recurrence_without_rounding(phase, order):
 def test_kept_series(p):
     module = instance(1)
     a = np.zeros(module.SIZE)
-    a[:7] = p
+    a[: packed.COUNT] = p
     pointed(module.kept_series)(a)
     k = np.arange(max(ORDERS.values()) - 1)
     signs = np.array([1, -1, -1, 1])[k % 4]

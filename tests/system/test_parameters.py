@@ -82,10 +82,8 @@ def test_pack_refuses_what_is_out_of_range_or_of_another_type():
 
 
 def test_describe():
-    assert describe(Oscillator(0.1), None, Damper(0.2, 1.0)) == {
-        "damping": 0.1, "linear_frequency": 0.0, "mass_ratio": 0.2, "clearance": 1.0,
-        "restitution": 1.0, "contact_stiffness": 2000.0,
-    }  # fmt: skip
+    oscillator, damper = Oscillator(0.1), Damper(0.2, 1.0)
+    assert describe(oscillator, None, damper) == vars(oscillator) | vars(damper)
 
 
 def test_pick_takes_all_fields_of_a_dataclass_and_nothing_else():

@@ -58,6 +58,11 @@ class Oscillator:
     def __post_init__(self):
         check_parameters(self)
 
+    @property
+    def hardening(self) -> float:
+        """Coefficient of a^3 in the first harmonic of the spring's force under Z1 = a cos t."""
+        return 0.75
+
 
 @dataclass(frozen=True)
 class Damper:

@@ -11,7 +11,8 @@ def peak_frequency(oscillator) -> float:
     below, see `free_oscillator.maximum_response`.
     """
     stiffness = oscillator.linear_frequency**2
-    return math.sqrt((stiffness + math.hypot(stiffness, math.sqrt(3) / oscillator.damping)) / 2)
+    cubic = 2 * math.sqrt(oscillator.hardening) / oscillator.damping
+    return math.sqrt((stiffness + math.hypot(stiffness, cubic)) / 2)
 
 
 def rule_clearance(oscillator, mass_ratio) -> float:

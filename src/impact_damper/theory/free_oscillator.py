@@ -47,10 +47,10 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
         If the frequency is not a number or out of range.
     """
     detuning = oscillator.linear_frequency**2 - check_frequency(frequency) ** 2
-    drag = oscillator.damping * frequency
-    squares = polynomial_roots([-1, detuning**2 + drag**2, 1.5 * detuning, 0.5625])
+    drag, hardening = oscillator.damping * frequency, oscillator.hardening
+    squares = polynomial_roots([-1, detuning**2 + drag**2, 2 * hardening * detuning, hardening**2])
     amplitude = np.sqrt(squares)
-    inline = amplitude * (detuning + 0.75 * squares)
+    inline = amplitude * (detuning + hardening * squares)
     return FreeSolutions(amplitude, np.arctan2(-drag * amplitude, inline))
 
 
@@ -67,9 +67,9 @@ def maximum_response(oscillator) -> Point:
         If the damping is so large that the amplitude decreases from W = 0 on.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
-    linear = damping * (stiffness - damping / 4)
-    amplitude = (-linear + np.sqrt(linear**2 + 3 * damping)) / (1.5 * damping)
-    square = stiffness + 0.75 * amplitude - damping / 2
+    linear, hardening = damping * (stiffness - damping / 4), oscillator.hardening
+    amplitude = (-linear + np.sqrt(linear**2 + 4 * hardening * damping)) / (2 * hardening * damping)
+    square = stiffness + hardening * amplitude - damping / 2
     if square <= 0:
         raise ValueError(f"damping = {oscillator.damping:g}: too large, the response has no peak")
     return Point(float(np.sqrt(square)), float(np.sqrt(amplitude)))
@@ -83,11 +83,12 @@ def free_folds(oscillator) -> list[Point]:
     of degree five in u.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
-    squares = polynomial_roots(
-        [1, 0, 1.5 * damping, -2.25, 2.25 * damping * stiffness, 1.6875 * damping]
-    )
+    g = oscillator.hardening
+    cubic, linear = 4 * g**3 * damping, 4 * g**2 * damping * stiffness
+    squares = polynomial_roots([1, 0, 2 * g * damping, -4 * g**2, linear, cubic])
     squares = squares[squares > 0]
-    frequencies = stiffness + 0.75 * squares - damping / 2 + (1 / squares**2 + 0.75 * damping) / 1.5
+    root = (1 / squares**2 + g * damping) / (2 * g)
+    frequencies = stiffness + g * squares - damping / 2 + root
     return [
         Point(float(np.sqrt(square)), float(np.sqrt(u)))
         for square, u in zip(frequencies, squares, strict=True)

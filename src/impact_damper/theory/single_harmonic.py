@@ -101,7 +101,7 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
     detuning = oscillator.linear_frequency**2 - frequency**2
     drag = oscillator.damping * frequency
     odd = -2 / drag * (detuning - inertia)
-    cubic = -6 / drag**3
+    cubic = -8 * oscillator.hardening / drag**3
     push = inertia * damper.clearance
     tangent = polynomial_roots(
         [push - 1, odd, 3 * push - 1, cubic + 2 * odd, 3 * push + 1, odd, push + 1]
@@ -109,7 +109,7 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
     amplitude = -2 * tangent / (drag * (1 + tangent**2))
     phase = 2 * np.arctan(tangent)
     residual = (
-        amplitude * (detuning + 0.75 * amplitude**2)
+        amplitude * (detuning + oscillator.hardening * amplitude**2)
         + inertia * (damper.clearance - amplitude)
         - np.cos(phase)
     )
@@ -173,6 +173,7 @@ class _Balance:
         self.clearance = damper.clearance
         self.detuning = oscillator.linear_frequency**2 - frequency**2
         self.drag = oscillator.damping * frequency
+        self.hardening = oscillator.hardening
         self.inertia = damper.mass_ratio * frequency**2
         self.stiffness = 2 * damper.contact_stiffness / (np.pi * self.inertia)
 
@@ -181,7 +182,8 @@ class _Balance:
         cosine = np.cos(angle)
         scaled = self.scaled_amplitude(angle)
         force = self.inertia * (self.clearance - scaled)
-        inline = scaled * (self.detuning * cosine**2 + 0.75 * scaled**2) + force * cosine**2
+        spring = self.detuning * cosine**2 + self.hardening * scaled**2
+        inline = scaled * spring + force * cosine**2
         return cosine, scaled, inline, self.drag * scaled * cosine**2
 
     def scaled_amplitude(self, angle):
@@ -201,7 +203,8 @@ class _Balance:
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled
-        inline_error = error * ((abs(self.detuning) + self.inertia) * square + 2.25 * scaled**2)
+        slope = (abs(self.detuning) + self.inertia) * square + 3 * self.hardening * scaled**2
+        inline_error = error * slope
         return (
             2 * np.abs(inline) * inline_error
             + 2 * np.abs(quadrature) * self.drag * error * square
@@ -219,7 +222,7 @@ class _Balance:
         lower, upper = self._angles_within(reach)
         constant = 1 + self.inertia * self.clearance / np.cos(upper)
         slope = abs(self.detuning) + self.inertia
-        bound = max(np.sqrt(slope / 0.375), np.cbrt(constant / 0.375))
+        bound = max(np.sqrt(2 * slope / self.hardening), np.cbrt(2 * constant / self.hardening))
         return self._angles_within(bound) if bound < reach else (lower, upper)
 
     def _angles_within(self, reach):
@@ -229,7 +232,8 @@ class _Balance:
         the first root of (a - reach) cos(p), which increases and then decreases, or 0.
         """
         reach *= 1 + 1e-6
-        largest = reach + (1 + reach * (abs(self.detuning) + 0.75 * reach**2)) / self.inertia
+        spring = reach * (abs(self.detuning) + self.hardening * reach**2)
+        largest = reach + (1 + spring) / self.inertia
         last = np.arccos(min(1, self.clearance / largest))
 
         def above(angle, amplitude):

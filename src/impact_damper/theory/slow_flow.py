@@ -42,7 +42,8 @@ def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
     state = np.asarray(state, float)
     primary = state[..., 0] + 1j * state[..., 1]
     drag = oscillator.damping * frequency * primary
-    spring = (oscillator.linear_frequency**2 + 0.75 * np.abs(primary) ** 2) * primary
+    spring = oscillator.linear_frequency**2 + oscillator.hardening * np.abs(primary) ** 2
+    spring = spring * primary
     first = drag + 1j * (1 - spring + frequency**2 * primary)
     if damper is None:
         rates = [first]
@@ -72,8 +73,8 @@ def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
     state = np.asarray(state, float)
     primary = state[..., 0] + 1j * state[..., 1]
     drag = oscillator.damping * frequency
-    spring = oscillator.linear_frequency**2 + 1.5 * np.abs(primary) ** 2
-    twisted = -0.75j * primary**2
+    spring = oscillator.linear_frequency**2 + 2 * oscillator.hardening * np.abs(primary) ** 2
+    twisted = -1j * oscillator.hardening * primary**2
     own = _block(drag + 1j * (frequency**2 - spring), twisted)
     if damper is None:
         return -own / (2 * frequency)
