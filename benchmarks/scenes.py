@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 from references import extended
-from references.extended.scenes import configured_scenes
+from references.extended.scenes import configured_scenes, packed
 
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
@@ -67,4 +67,7 @@ def make(name, p, state, periods, count, seed=1995):
 
 def from_configuration(count):
     """Return all scenes of the configuration but chaotic ones, with `count` starts each."""
-    return [make(name, *rest, count) for name, *rest in configured_scenes()]
+    return [
+        make(name, packed(parameters), state, periods, count)
+        for name, parameters, state, periods in configured_scenes()
+    ]

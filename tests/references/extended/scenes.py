@@ -58,11 +58,15 @@ def configured_scenes():
         yield name, parameters, np.array(scene["state"], float), scene["periods"]
 
 
-def reference(parameters, state, periods):
-    """What the file holds of one scene."""
+def packed(parameters):
+    """Parameters by name, as `configured_scenes` yields them, in the array that kernels read."""
     damper = Damper(**pick(Damper, parameters)) if "mass_ratio" in parameters else None
-    oscillator = Oscillator(**pick(Oscillator, parameters))
-    p = pack(oscillator, damper, parameters["frequency"])
+    return pack(Oscillator(**pick(Oscillator, parameters)), damper, parameters["frequency"])
+
+
+def reference(parameters, state, periods):
+    """Entry of the file for one scene, by name of the quantity."""
+    p = packed(parameters)
     period, start = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
     times = start + period * np.arange(1, periods + 1)
     run = extended.run(p, state, start, times)
