@@ -12,7 +12,7 @@ _HOMES = {
     "Damper": "system.parameters",
     "Settling": "system.settling",
     "simulate": "motions.simulate",
-    "steady_motion": "motions.simulate",
+    "steady_motion": "motions.steady",
     "frequency_response": "stages.response",
     "harmonic_balance_response": "stages.harmonic_balance",
     "suppression_band": "stages.harmonic_balance",

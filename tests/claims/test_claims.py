@@ -21,7 +21,7 @@ from impact_damper.claims.extract import ELASTIC
 from impact_damper.claims.suppression import suppression_band
 from impact_damper.claims.verdicts import CLAIMS, claims
 from impact_damper.data.datasets import flag, parameters_of
-from impact_damper.motions.simulate import steady_motion
+from impact_damper.motions.steady import steady_motion
 from impact_damper.stages.branches import orbit_branch
 from impact_damper.system.parameters import Oscillator
 

@@ -11,14 +11,9 @@ from scipy import stats
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.motions import ensemble, records
 from impact_damper.motions.following import follow_stable
-from impact_damper.motions.simulate import (
-    COMPONENTS,
-    random_states,
-    simulate,
-    steady_motion,
-    steady_orbit,
-    tabulate,
-)
+from impact_damper.motions.records import tabulate
+from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
+from impact_damper.motions.steady import steady_motion, steady_orbit
 from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper

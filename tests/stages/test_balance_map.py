@@ -6,7 +6,8 @@ from helpers.known_orbits import PAPER
 
 from impact_damper.data.datasets import flag
 from impact_damper.data.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
-from impact_damper.motions.simulate import simulate, steady_motion
+from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
 from impact_damper.stages.balance_map import balance_map
 from impact_damper.stages.harmonic_balance import harmonic_balance_response, optimum_clearance
 from impact_damper.system.parameters import Damper

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from impact_damper.motions.simulate import simulate, steady_motion
+from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
 from impact_damper.stages.branches import periodic_orbit
 from impact_damper.system.parameters import Damper, Oscillator
 

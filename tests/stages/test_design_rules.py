@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.figures.design_rules import draw_design_rules
 from impact_damper.motions import strobe_map
-from impact_damper.motions.simulate import steady_motion
+from impact_damper.motions.steady import steady_motion
 from impact_damper.stages.design_rules import (
     CRITERIA,
     RULES,

@@ -15,7 +15,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 from impact_damper.data.datasets import dataset, load, save
 from impact_damper.data.variables.studies import OUTCOMES
 from impact_damper.data.whole_files import BrokenFileError
-from impact_damper.motions.simulate import random_states, steady_motion
+from impact_damper.motions.simulate import random_states
+from impact_damper.motions.steady import steady_motion
 from impact_damper.stages import studies
 from impact_damper.stages.study_grid import blocks, gather_chunks
 from impact_damper.system.parameters import Damper

@@ -6,7 +6,8 @@ from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.motions.free_subharmonic import free_subharmonic, switched_on
-from impact_damper.motions.simulate import simulate, steady_motion
+from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
 from impact_damper.stages.subharmonic import SWITCHED_MOTIONS, _suppression, subharmonic_suppression
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator

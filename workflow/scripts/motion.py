@@ -1,6 +1,6 @@
 """A steady motion over its period (figure 4)."""
 
-from impact_damper.motions.simulate import steady_orbit
+from impact_damper.motions.steady import steady_orbit
 from impact_damper.workflow.job import Job
 
 job = Job(snakemake)

@@ -10,6 +10,8 @@ from impact_damper.kernel.single import Q, X, assign, polynomial, side_of, step,
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
+# Below this share of the first harmonic of Z1 another one is rounding and has no phase.
+PHASELESS = 1e-9
 SAMPLES = 64
 # Steps of a trace in one call of its kernel, a fraction of a second.
 STEPS_AT_ONCE = 50_000
@@ -227,3 +229,29 @@ def first_collisions(parameters, states, limit, tolerance, periods):
             length, side = step(p, y, none, side, t, end - t, tolerance, work)
             t += length
         periods[i] = t * p[FREQUENCY] / (2.0 * math.pi) if side != 0 else np.inf
+
+
+def phase_of(harmonic, reference):
+    """Phase of complex amplitudes to others, radian, NaN where the others are rounding only."""
+    phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
+    return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
+
+
+def tabulate(records):
+    """Registered variables, by name, of an array of motion records of any shape."""
+    first, second = records["harmonic_displacement"], records["harmonic_relative"]
+    return {
+        "outcome": records["outcome"],
+        "period": records["period"],
+        "contacts": records["contacts"],
+        "maximum_displacement": records["maximum_displacement"],
+        "asymmetry": records["asymmetry"],
+        "phase_relative": phase_of(first, second),
+        "phase_loose": phase_of(first, first - second),
+        "multiplier_real": records["multiplier"].real,
+        "multiplier_imaginary": records["multiplier"].imag,
+        "residual": records["residual"],
+        "lyapunov_exponent": records["lyapunov_exponent"],
+        "lyapunov_error": records["lyapunov_error"],
+        "periods_run": records["periods_run"],
+    }

@@ -1,9 +1,9 @@
-"""Single motions with labels: simulate one, find the steady motion it settles to."""
+"""Simulate one motion, from a given state or a random one."""
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, is_settled
-from impact_damper.motions import ensemble, records
+from impact_damper.data.datasets import dataset
+from impact_damper.motions import records
 from impact_damper.system.bounds import (
     MOST_RADIUS,
     RADIUS_RANGE,
@@ -14,10 +14,7 @@ from impact_damper.system.bounds import (
 from impact_damper.system.checks import check_numbers
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
-from impact_damper.system.settling import Settling
 
-# Below this share of the first harmonic of Z1 another one is rounding and has no phase.
-PHASELESS = 1e-9
 # Beyond these a state moves so fast that a forcing period has no end.
 FARTHEST, FASTEST = 1e3, 1e6
 MOST_SEED = 2**63 - 1
@@ -49,15 +46,6 @@ def check_state(state, damper):
     for i, (value, most) in enumerate(zip(values, [FARTHEST, FASTEST] * 2, strict=True)):
         check_number(f"state[{i}]", value, least=-most, most=most)
     return values
-
-
-def check_settling(settling) -> Settling:
-    """Return how motions are run, the default for None, or raise TypeError."""
-    if settling is None:
-        return Settling()
-    if not isinstance(settling, Settling):
-        raise TypeError(f"settling = {shown(settling)}: must be a Settling")
-    return settling
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
@@ -175,102 +163,3 @@ def simulate(
     }
     made = describe(oscillator, damper) | {"frequency": float(frequency), "tolerance": tolerance}
     return dataset(data, {"time": times}, made, "Motion of the oscillator")
-
-
-def phase_of(harmonic, reference):
-    """Phase of complex amplitudes to others, radian, NaN where the others are rounding only."""
-    phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
-    return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
-
-
-def tabulate(records):
-    """Registered variables, by name, of an array of motion records of any shape."""
-    first, second = records["harmonic_displacement"], records["harmonic_relative"]
-    return {
-        "outcome": records["outcome"],
-        "period": records["period"],
-        "contacts": records["contacts"],
-        "maximum_displacement": records["maximum_displacement"],
-        "asymmetry": records["asymmetry"],
-        "phase_relative": phase_of(first, second),
-        "phase_loose": phase_of(first, first - second),
-        "multiplier_real": records["multiplier"].real,
-        "multiplier_imaginary": records["multiplier"].imag,
-        "residual": records["residual"],
-        "lyapunov_exponent": records["lyapunov_exponent"],
-        "lyapunov_error": records["lyapunov_error"],
-        "periods_run": records["periods_run"],
-    }
-
-
-def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
-    """The steady motion that a state at T = 0 leads to.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float
-        Forcing frequency W, dimensionless.
-    state : sequence of 4 floats, or 2 without a damper
-        Z1, Z1', Z2, Z2' at T = 0.
-    settling : Settling, optional
-
-    Returns
-    -------
-    xarray.Dataset
-        Scalars: outcome, period (in forcing periods), contacts per forcing period, extremum of
-        |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent; and `state`,
-        a state of the motion at W T = pi/2.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
-    """
-    settling = check_settling(settling)
-    p = pack(oscillator, damper, frequency)
-    record = ensemble.settle(p[None], check_state(state, damper)[None], settling)[0]
-    data = {name: ((), value) for name, value in tabulate(record).items()}
-    data["state"] = (("component",), record["state"])
-    made = describe(oscillator, damper, settling) | {"frequency": float(frequency)}
-    return dataset(data, {"component": list(COMPONENTS)}, made, "Steady motion of the oscillator")
-
-
-def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=None):
-    """One period, sampled, of the steady motion that a state at T = 0 settles to.
-
-    Parameters
-    ----------
-    oscillator, damper, frequency, state, settling
-        As in `steady_motion`.
-    samples : int
-        Samples per forcing period.
-
-    Returns
-    -------
-    xarray.Dataset
-        As of `simulate`, from W T = pi/2 on.
-
-    Raises
-    ------
-    ArithmeticError
-        If the motion does not settle.
-    """
-    settling = check_settling(settling)
-    steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
-    if not is_settled(steady):
-        raise ArithmeticError(
-            f"settling.limit = {settling.limit}: the motion has not settled by then; "
-            "a larger limit lets it run on, and steady_motion tells what it came to"
-        )
-    return simulate(
-        oscillator,
-        damper,
-        frequency,
-        steady["state"].values,
-        periods=int(steady["period"]),
-        samples=samples,
-        start=np.pi / (2 * frequency),
-        tolerance=settling.tolerance,
-    )

@@ -14,8 +14,7 @@ from scipy.sparse.csgraph import connected_components
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit, follow_stable
-from impact_damper.motions.records import MOTION, measured
-from impact_damper.motions.simulate import tabulate
+from impact_damper.motions.records import MOTION, measured, tabulate
 
 SAME = 1e-6
 CHAOTIC_GAP = 1.5

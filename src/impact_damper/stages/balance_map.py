@@ -14,7 +14,6 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
-from impact_damper.motions.simulate import check_settling
 from impact_damper.orbits.quiet_orbits import (
     follow_quiet_orbits,
     is_symmetric_pair,
@@ -26,6 +25,7 @@ from impact_damper.system.bounds import check_number
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper, Oscillator, pick
+from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, balance_cells
 

@@ -11,7 +11,8 @@ import xarray as xr
 from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.motions.simulate import COMPONENTS, check_state, phase_of
+from impact_damper.motions.records import phase_of
+from impact_damper.motions.simulate import COMPONENTS, check_state
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import STROBE, find_orbit
 from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown

@@ -13,10 +13,10 @@ from impact_damper.contact.contact_law import EXIT_RULES, contact, damping_ratio
 from impact_damper.contact.logged_contacts import CLOSE, FAIR, SIZES, extreme_motions, scene
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.contact import SCENE, VARIABLES
-from impact_damper.motions.simulate import check_settling
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.parameters import check_damper, describe
+from impact_damper.system.settling import check_settling
 
 LINEAR = 1e-3
 LOG = ("contact_used", "contact_row", "contact_size")

@@ -11,13 +11,14 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble
-from impact_damper.motions.simulate import check_settling, random_states
+from impact_damper.motions.simulate import random_states
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.stages.branches import branches_dataset
 from impact_damper.system.families import family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
+from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 
 HEAVY = 2.0

@@ -23,10 +23,11 @@ from impact_damper.migration.damper_release import (
     watch,
 )
 from impact_damper.motions import ensemble
-from impact_damper.motions.simulate import MOST_SEED, check_settling
+from impact_damper.motions.simulate import MOST_SEED
 from impact_damper.system.bounds import check_count
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
+from impact_damper.system.settling import check_settling
 
 PAPER_CYCLES = 350
 

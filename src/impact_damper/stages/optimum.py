@@ -13,7 +13,7 @@ from scipy.optimize import brentq, minimize_scalar
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.following import RESOLUTION, follow_stable
 from impact_damper.motions.records import measured
-from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
+from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, random_states
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.motions.sweep import SAME, sweep
 from impact_damper.stages.harmonic_balance import optimum_clearance
@@ -26,6 +26,7 @@ from impact_damper.system.checks import (
 )
 from impact_damper.system.packed import CLEARANCE, pack
 from impact_damper.system.parameters import Damper, describe
+from impact_damper.system.settling import check_settling
 from impact_damper.theory.optimum_clearance import analytical_table, excess_table
 
 NEAR_MINIMUM = 1.1

@@ -7,10 +7,10 @@ from impact_damper.data.shares import BOUNDS, LEAD
 from impact_damper.data.variables import VARIABLES
 from impact_damper.migration.damper_release import DESTINATIONS, release_case, release_data, watch
 from impact_damper.motions import records
-from impact_damper.motions.simulate import check_settling
 from impact_damper.stages.response import frequency_response
 from impact_damper.system.bounds import check_count
 from impact_damper.system.parameters import describe
+from impact_damper.system.settling import check_settling
 
 
 def _scan_records(response):

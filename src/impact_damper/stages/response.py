@@ -4,12 +4,13 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset
 from impact_damper.motions import records
-from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
+from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, random_states
 from impact_damper.motions.sweep import sweep
 from impact_damper.system.bounds import check_count, check_number
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
+from impact_damper.system.settling import check_settling
 
 
 def frequency_response(

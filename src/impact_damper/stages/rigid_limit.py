@@ -12,13 +12,13 @@ import numpy as np
 from impact_damper.contact.logged_contacts import extreme_motions
 from impact_damper.contact.rigid_orbits import mended_orbit, rigid_orbit
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.motions.simulate import check_settling
 from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.orbits.grid_following import Grid, follow_line
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_frequencies, check_frequency, check_increasing
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
+from impact_damper.system.settling import check_settling
 
 THRESHOLDS = (0.01, 0.1)
 # Largest distance of an orbit from its prediction.

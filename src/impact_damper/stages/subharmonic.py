@@ -14,12 +14,13 @@ from impact_damper.motions.free_subharmonic import (
     is_subharmonic,
     switched_on,
 )
-from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, check_settling, random_states
+from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, random_states
 from impact_damper.motions.sweep import SAME, sweep
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, describe
+from impact_damper.system.settling import check_settling
 
 BEYOND = 0.1
 REDUCED = 0.95

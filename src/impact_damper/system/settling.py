@@ -9,6 +9,7 @@ from impact_damper.system.bounds import (
     WATCHED_RANGE,
     check_count,
     check_number,
+    shown,
 )
 
 
@@ -46,3 +47,12 @@ class Settling:
         limits = LIMIT_RANGE | {"least": self.patience, "why": "not below patience"}
         check_count("limit", self.limit, **limits)
         check_count("watched", self.watched, **WATCHED_RANGE)
+
+
+def check_settling(settling) -> Settling:
+    """Return how motions are run, the default for None, or raise TypeError."""
+    if settling is None:
+        return Settling()
+    if not isinstance(settling, Settling):
+        raise TypeError(f"settling = {shown(settling)}: must be a Settling")
+    return settling
