@@ -84,8 +84,8 @@ def free_folds(oscillator) -> list[Point]:
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     g = oscillator.hardening
-    cubic, linear = 4 * g**3 * damping, 4 * g**2 * damping * stiffness
-    squares = polynomial_roots([1, 0, 2 * g * damping, -4 * g**2, linear, cubic])
+    fifth, fourth = 4 * g**3 * damping, 4 * g**2 * damping * stiffness
+    squares = polynomial_roots([1, 0, 2 * g * damping, -4 * g**2, fourth, fifth])
     squares = squares[squares > 0]
     root = (1 / squares**2 + g * damping) / (2 * g)
     frequencies = stiffness + g * squares - damping / 2 + root
