@@ -29,7 +29,7 @@ ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
 KERNELS = ancient("<results>/kernels.compiled")
 
 
-# Whether `--cache` is given. Without it Snakemake prints a line for each rule with `cache: True`.
+# Whether `--cache` is given: otherwise Snakemake prints a line for each cacheable rule.
 SHARED = workflow.workflow_settings.cache is not None
 
 

@@ -6,11 +6,11 @@ rule compile_kernels:
         touch("<results>/kernels.compiled"),
     log:
         "<logs>/compile_kernels.log",
-    conda:
-        ENVIRONMENT
     # Most jobs wait for it. Next (2) are the jobs that others wait for, then (1) the longest ones,
     # so that no long job is left for the end, when a core would idle beside it.
     priority: 3
+    conda:
+        ENVIRONMENT
     threads: 2
     resources:
         mem_mb=2000,

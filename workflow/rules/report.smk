@@ -1,6 +1,8 @@
 rule figures:
     input:
-        expand("<results>/figures/{name}.{kind}", name=config["figures"], kind=["pdf", "png", "rst"]),
+        expand(
+            "<results>/figures/{name}.{kind}", name=config["figures"], kind=["pdf", "png", "rst"]
+        ),
 
 
 rule tables:
