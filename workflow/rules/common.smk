@@ -15,7 +15,7 @@ from impact_damper.workflow.configuration import (
     check_file,
     without_left_out,
 )
-from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES
+from impact_damper.workflow.registry import CHAPTERS, STAGES, TABLES
 from impact_damper.workflow.registry.clearance import study_chunk
 from impact_damper.workflow.sources import module_file, sources
 
