@@ -9,18 +9,13 @@ from impact_damper.data.datasets import flag, load, save
 from impact_damper.figures.design_rules import draw_design_rules
 from impact_damper.motions import strobe_map
 from impact_damper.motions.steady import steady_motion
-from impact_damper.stages.design_rules import (
-    CRITERIA,
-    RULES,
-    QuietMotion,
-    design_rules,
-    first_harmonic,
-)
+from impact_damper.stages.design_rules import QuietMotion, design_rules, first_harmonic
 from impact_damper.stages.optimum import clearance_sweep
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.tables.clearance import RULE_NAMES, SWEEPS
 from impact_damper.tables.clearance import design_rules as table_of
+from impact_damper.theory.clearance_rules import CRITERIA, RULES
 
 PAPER = Oscillator(0.215)
 GIVEN = {"mass_ratio": 0.25, "restitution": 0.75, "contact_stiffness": 2000.0}

@@ -27,11 +27,9 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper, Oscillator, pick
 from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
-from impact_damper.theory.map_cells import HIGH, balance_cells
+from impact_damper.theory.map_cells import HIGH, NEAR, balance_cells
 
 PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
-# A settled motion is near a predicted one if max |Z1| differs by at most this share.
-NEAR = 0.2
 # CHECKED chaotic high motions are rerun with LONG times the patience, to see if the chaos lasts.
 CHECKED = 50
 LONG = 10

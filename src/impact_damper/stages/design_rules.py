@@ -18,17 +18,11 @@ from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper, describe
-from impact_damper.theory.optimum_clearance import FIRST_HARMONIC_RATIO
+from impact_damper.theory.clearance_rules import CRITERIA, RULES, rule_ratios
 from impact_damper.theory.straight_flight import (
-    Flight,
-    elastic_ratios,
     flight_of,
-    least_displacement_ratio,
-    least_harmonic_ratio,
 )
 
-CRITERIA = ("displacement", "first_harmonic")
-RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 SAMPLES = 1024
 SAME = 1e-4
@@ -100,27 +94,6 @@ def design_rules(
     coordinates = dict(zip(SWEPT, given.values(), strict=True))
     coordinates |= {"criterion": list(CRITERIA), "rule": list(RULES)}
     return dataset(data, coordinates, describe(oscillator), "Rules for the optimum clearance")
-
-
-def rule_ratios(oscillator, damper, frequency):
-    """rm W^2 d0 by each rule for each criterion, shape (2, 5), as `CRITERIA` and `RULES`.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-        Of any clearance.
-    frequency : float
-    """
-    flight = flight_of(oscillator, damper, frequency)
-    straight = Flight(damper.mass_ratio, damper.restitution)
-    elastic = elastic_ratios(flight)
-    return np.array(
-        [
-            [1.0, FIRST_HARMONIC_RATIO, least(straight), elastic[i], least(flight)]
-            for i, least in enumerate((least_displacement_ratio, least_harmonic_ratio))
-        ]
-    )
 
 
 def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):

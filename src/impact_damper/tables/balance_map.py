@@ -8,7 +8,7 @@ from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.data.shares import wilson
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.variables.balance_map import BALANCE_VERDICT
-from impact_damper.stages.balance_map import NEAR
+from impact_damper.theory.map_cells import NEAR
 
 QUESTIONS = {
     "quiet motion": "quiet_verdict",

@@ -17,6 +17,8 @@ from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 # A motion is high if its amplitude is at least this share of the free resonance amplitude.
 HIGH = 0.5
+# A settled motion is near a predicted one if max |Z1| differs by at most this share.
+NEAR = 0.2
 
 
 class Cells(NamedTuple):
