@@ -13,7 +13,7 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.motions.records import NEVER, SETTLED, UNRESOLVED, measure, trace
-from impact_damper.motions.settling import NEAR, NEAREST, RING, land, nearby_period
+from impact_damper.motions.settling import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
@@ -62,7 +62,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
         n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)
         if n > 0:
             orbit = y.copy()
-            if land(p, orbit, n, near, out):
+            if move_onto_orbit(p, orbit, n, near, out):
                 assign(out.state, orbit)
                 break
             near = max(0.1 * near, NEAREST)
@@ -89,7 +89,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
         Number of the first strobe.
     tolerance, limit, path
         As in `run`.
-    out : array of recording.MOTION, shape (1,)
+    out : array of records.MOTION, shape (1,)
         Gets what `run` finds and, of a settled motion, what `measure` does.
 
     Returns

@@ -1,7 +1,7 @@
-"""Ensembles of motions on all cores, with progress shown; the same results for any number.
+"""Run many motions on several threads, with a progress bar.
 
-Kernels release the interpreter lock, so threads run them side by side. Every motion is
-computed by itself, hence nothing depends on how the work is shared out.
+Kernels release the interpreter lock, so threads run in parallel. Each motion is computed by
+itself, so results do not depend on the number of threads.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -18,6 +18,7 @@ from impact_damper.system.bounds import (
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.settling import Settling
 
+# Number of motions that a thread takes at once.
 CHUNK = 128
 
 
@@ -70,7 +71,7 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
 
     Returns
     -------
-    numpy.ndarray of recording.MOTION, shape (m,)
+    numpy.ndarray of records.MOTION, shape (m,)
 
     Raises
     ------

@@ -13,6 +13,7 @@ from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.settling import check_settling
 
+# Number of frequencies at which the subharmonic is looked for.
 SEARCHED = 81
 
 
@@ -22,11 +23,12 @@ class FreeSubharmonic(NamedTuple):
     Attributes
     ----------
     parameters, states : numpy.ndarray, shapes (n, packed.COUNT) and (n, 4)
-        It at the frequencies where it was found, at W T = pi/2; empty if it was not.
+        Packed parameters at the frequencies where the motion was found, and its states there at
+        W T = pi/2; empty if it was not found.
     ends : numpy.ndarray, shape (2,)
-        Frequencies between which it exists, NaN if it was not found.
+        Frequencies between which the motion exists, NaN if it was not found.
     events : numpy.ndarray, shape (2,)
-        What ends it there, flags of `free_subharmonic_event`.
+        Events at these ends, flags of `free_subharmonic_event`.
     """
 
     parameters: np.ndarray
@@ -36,10 +38,11 @@ class FreeSubharmonic(NamedTuple):
 
     @property
     def found(self):
+        """Whether there is a subharmonic."""
         return len(self.states) > 0
 
     def at(self, frequency):
-        """Record of the motion at a frequency, or None where it does not exist."""
+        """Return a `records.MOTION` at a frequency, or None where the motion does not exist."""
         if not self.ends[0] <= frequency <= self.ends[1]:
             return None
         k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))
@@ -49,7 +52,21 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=2.0, seed=1995, settling=None, workers=1
 ) -> FreeSubharmonic:
-    """The symmetric motion of period 3 without a damper, sought from one frequency to another."""
+    """Find the symmetric motion of period 3 of the free oscillator between two frequencies.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    first, last : float
+        Frequencies W.
+    starts, radius, seed, settling, workers
+        As of `stages.response.frequency_response`.
+
+    Returns
+    -------
+    FreeSubharmonic
+        Of several branches the one found at most frequencies.
+    """
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     states = np.array(
@@ -71,7 +88,7 @@ def free_subharmonic(
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """States at T = 0 after the damper was switched on to the subharmonic at a random time.
+    """Return states after the damper was switched on during the subharmonic, at random times.
 
     Parameters
     ----------
@@ -79,14 +96,15 @@ def switched_on(oscillator, p, state, loose, generator):
     p : array, shape (packed.COUNT,)
         Packed parameters with the damper.
     state : array, shape (4,)
-        The free subharmonic at W T = pi/2.
+        State of the free subharmonic at W T = pi/2.
     loose : array, shape (m, 4)
-        Z2 and Z2' of the loose mass in the last two columns; every second Z2' is replaced by 0.
+        Z2 and Z2' at the switching, in the last two columns; every second Z2' is replaced by 0.
     generator : numpy.random.Generator
 
     Returns
     -------
     numpy.ndarray, shape (m, 4)
+        States at the beginning of the next forcing period.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
@@ -103,14 +121,28 @@ def switched_on(oscillator, p, state, loose, generator):
 
 
 def is_subharmonic(data):
-    """True for the settled motions whose period is a multiple of 3."""
+    """Return where motions have settled with a period that is a multiple of 3."""
     return (data["outcome"][1] == flag("outcome", "settled")) & (data["period"][1] % 3 == 0)
 
 
 def branch_ends(data, branch, grid, rows):
-    """Both ends of a branch found at some rows of a sweep's grid, and their events.
+    """Return both ends of a branch in the swept parameter, and flags of their events.
 
-    Where no end was located it is the last point of the grid, flagged.
+    Parameters
+    ----------
+    data : dict
+        As from `sweep`.
+    branch : int
+    grid : array
+        Values of the swept parameter.
+    rows : array of int
+        Rows of the grid at which the branch was found.
+
+    Returns
+    -------
+    ends, events : numpy.ndarray, shape (2,)
+        An end that was not located is the last point of the grid with the branch; its event is
+        sweep_ends if this is the end of the grid, else not_found.
     """
     ends = grid[[min(rows), max(rows)]]
     events = np.full(2, flag("free_subharmonic_event", "not_found"))

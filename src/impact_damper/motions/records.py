@@ -1,4 +1,4 @@
-"""Records of motions: extremum, contacts and harmonics of an orbit, traces, first collisions."""
+"""Measurements of motions: largest |Z1|, contacts, harmonics, sampled states, first collisions."""
 
 import math
 
@@ -41,7 +41,10 @@ MOTION = np.dtype(
 
 @kernel
 def extremum(c, order, length, start):
-    """Largest |polynomial| over [0, length], at least `start`: eight points, then Newton's."""
+    """Return the largest |polynomial| over [0, length], or `start` if that is larger.
+
+    Newton's method for its extrema starts at nine points whose values come close to the largest.
+    """
     best = start
     for i in range(9):
         t = length * i / 8.0
@@ -61,7 +64,10 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def series_of_step(work, side, y, t):
-    """Z1, its rate, Z2 or the signed penetration, and its rate, at time t into a step from y."""
+    """Return Z1, Z1', Z2 and Z2' at the time t within a step from y.
+
+    In contact the third is the penetration with the sign of the wall in place of Z2.
+    """
     if side == 0:
         x, v = polynomial(work[X:], FLIGHT_ORDER, t)
         return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
@@ -72,7 +78,7 @@ def series_of_step(work, side, y, t):
 
 @inlined
 def measure_one(p, y, periods, tolerance, out, stop):
-    """`measure` of one motion over so many forcing periods."""
+    """`measure` for one motion, over a number of forcing periods."""
     work = workspace()
     none = np.empty((0, 4))
     period = 2.0 * math.pi / p[FREQUENCY]
@@ -113,14 +119,18 @@ def measure_one(p, y, periods, tolerance, out, stop):
 
 @kernel
 def measure(parameters, tolerance, watched, out, stop):
-    """Add to records what is found from their states at a strobe on, unless they have diverged.
+    """Complete records by measurements from their states at the strobe, unless they diverged.
 
-    Each is followed over its `period`, or over `watched` forcing periods where that is 0.
-    `maximum_displacement` is the extremum of |Z1|; `contacts` is per forcing period;
-    `asymmetry` the distance of the state half the time later from the mirrored start, which
-    vanishes for a symmetric motion of odd period; the harmonics are complex amplitudes c of
-    Re(c exp(i W T)) in Z1 and Z2, by the trapezoidal rule. Once `stop[0]` is true nothing more
-    is done.
+    Each motion is integrated over its `period`, or over `watched` forcing periods if that is 0.
+
+    - maximum_displacement: largest |Z1|;
+    - contacts: number a forcing period;
+    - asymmetry: distance of the state half the time later from the mirrored first state, zero for
+      a symmetric motion of odd period;
+    - harmonic_displacement, harmonic_relative: complex amplitudes c of Re(c exp(i W T)) in Z1 and
+      Z2, by the trapezoidal rule over SAMPLES a period.
+
+    Once `stop[0]` is true, set by another thread, the rest is left as it is.
     """
     for i in range(len(out)):
         if out[i].outcome != DIVERGED:
@@ -129,7 +139,7 @@ def measure(parameters, tolerance, watched, out, stop):
 
 
 def measured(p, y, periods, tolerance):
-    """Record of `measure` alone, over so many forcing periods from a state on an orbit."""
+    """Return a record with only the fields of `measure`, over `periods` from a state y."""
     records = np.zeros(1, MOTION)
     records["state"] = y
     measure(p[None], tolerance, periods, records, NEVER)
@@ -207,7 +217,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
 
 @kernel_only
 def record_beginning(log, contacts, side, t, speed):
-    """Open a row of the contact log; returns the number of contacts."""
+    """Begin a row of the contact log; return the number of contacts."""
     if contacts < len(log):
         log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
         log[contacts, 3], log[contacts, 4] = speed, np.nan
@@ -216,7 +226,10 @@ def record_beginning(log, contacts, side, t, speed):
 
 @kernel
 def first_collisions(parameters, states, limit, tolerance, periods):
-    """Forcing periods from T = 0 to the first contact of each motion, infinite if none by then."""
+    """Write the forcing periods from T = 0 to the first contact of each motion to `periods`.
+
+    Infinite without a contact within `limit` periods.
+    """
     none = np.empty((0, 4))
     work = workspace()
     for i in range(len(states)):

@@ -1,10 +1,9 @@
-"""Motions run until they settle, with their Lyapunov exponent while they do not.
+"""Run motions until they settle on a stable orbit, and measure how chaotic those are that do not.
 
-When the states n and 2n periods apart approach each other so fast that the distance still
-to go, by a geometric series, is small, Newton's method on the n-period map with its exact
-derivative takes the state onto the orbit. The motion has settled if that orbit is close by
-and stable. A slow passage near a fold, where the states hardly move, is therefore not taken
-for an orbit.
+States n periods apart approach each other geometrically as a motion settles. Once the sum of the
+remaining geometric series is small, Newton's method on the n-period map, with its exact
+derivative, moves the state onto the orbit. The motion has settled if that orbit is close and
+stable. A slow passage near a fold, where states hardly change, is thus not taken for an orbit.
 """
 
 import math
@@ -34,16 +33,23 @@ from impact_damper.motions.strobe_map import (
 )
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
+# Longest period looked for, in forcing periods, and number of strobe states kept for it.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
+# Lyapunov exponent: periods in a batch, recent batches that must still grow, standard errors by
+# which the exponent must be positive, and below which value per unit time it is weak.
 BLOCK = 10
 RECENT = 5
 CONFIDENCE = 4.0
 WEAK = 0.05
+# Distance from an orbit at which Newton's method is first tried, and at which it is tried last.
 NEAR = 1e-4
 NEAREST = 1e-9
-# What is kept of a motion on its way: which it is, strobes and periods without contact so far, how
-# near an orbit it must come; and of its tangent, the growth over periods and batches of them.
+# Speed or displacement beyond which a motion has diverged.
+DIVERGING = 1e6
+# State of the watch over one motion: its index, the number of strobes and of periods without
+# contact so far, and the distance at which Newton's method is tried next; for its tangent the
+# number of periods, the growth in the present batch, and mean, squares and last values of batches.
 SEEN = np.dtype(
     [
         ("index", "i8"),
@@ -61,9 +67,10 @@ SEEN = np.dtype(
 
 @kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
-    """Period of an orbit that the motion approaches and is within `tolerance` of, or 0.
+    """Return the period of an orbit within `tolerance` of the motion, or 0.
 
-    `ring[k % RING]` is the last of k + 1 states; `floor` is the rounding of the integration.
+    `ring[k % RING]` is the last of k + 1 strobe states; distances below `floor` are errors of the
+    integration.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -82,12 +89,13 @@ def nearby_period(ring, k, weight, floor, tolerance):
 
 
 @inlined
-def land(p, y, periods, near, out):
-    """Take a motion onto the stable orbit that it is near; false if there is none.
+def move_onto_orbit(p, y, periods, near, out):
+    """Move a state y onto the stable orbit near it; return whether there is one.
 
-    A motion that spirals in seems to repeat after several periods: its divisors are tried first.
-    Within NEAREST a motion counts as the orbit even where Newton's method fails, for the map may
-    not be smooth there; its residual and multiplier are then NaN.
+    A motion that spirals towards an orbit seems to repeat after a multiple of its period, so the
+    divisors of `periods` are tried first. At a distance below NEAREST a motion counts as an orbit
+    even if Newton's method fails, since the map may not be smooth there; its residual and
+    multiplier are then NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -106,9 +114,9 @@ def land(p, y, periods, near, out):
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Renormalise a tangent after a period and add its growth to its batch of BLOCK periods.
+    """Normalise a tangent after a period, and add the logarithm of its growth to the batch.
 
-    The mean and the sum of squares of finished batches are updated by Welford's recurrence.
+    Mean and sum of squares over complete batches, of BLOCK periods, follow Welford's recurrence.
     """
     size = 0.0
     for i in range(4):
@@ -129,7 +137,10 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Mean growth of a batch, its standard error, and whether the last batches grow as well."""
+    """Return mean growth of a batch, its standard error, and whether recent batches grow too.
+
+    Recent batches must grow by more than half the mean.
+    """
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -140,7 +151,7 @@ def exponent(growth):
 
 @inlined
 def begin_watch(seen, index, out):
-    """Begin to watch a motion: the record of what is seen, and the record to be filled."""
+    """Reset the watch `seen` and the record `out` for the motion with an index."""
     seen.index, seen.strobes, seen.quiet, seen.near = index, 0, 0, NEAR
     seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
     out.outcome, out.period = UNRESOLVED, 0
@@ -150,18 +161,21 @@ def begin_watch(seen, index, out):
 
 @inlined
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
-    """Look at a motion at a strobe; whether it needs to go on no further.
+    """Judge a motion at a strobe; return whether it can be stopped.
 
-    After half the patience the largest Lyapunov exponent is followed as well, by one
-    tangent, its error from batches of BLOCK periods. A motion that is chaotic beyond doubt
-    (CONFIDENCE standard errors, its last batches included, since a transient may just have
-    ended) is let go after `patience` periods, or at the limit if its exponent is WEAK: a slow
-    spiral can look like weak chaos for a while. One in doubt is not let go. A loose mass that
-    has not touched a wall for `patience` periods and drifts by less than 1 % of the clearance
-    within the limit is taken as non-colliding, and so is a settled motion without contacts.
+    It is stopped
 
-    To the record `out` go outcome, period, residual, dominant multiplier, periods_run, and the
-    exponent per unit time; y is taken onto the orbit if there is one.
+    - when it has settled, or diverged, or at `limit`;
+    - as non-colliding when it has settled without contacts, or when the loose mass has touched no
+      wall for `patience` periods and would drift by less than 1 % of the clearance until `limit`;
+    - as chaotic after `patience` periods if the largest Lyapunov exponent is positive by
+      CONFIDENCE standard errors and recent batches grow too (a chaotic transient may just have
+      ended). With a WEAK exponent it is stopped only at `limit`, because a slow spiral can look
+      like weak chaos for a while.
+
+    The exponent is computed from one tangent, from half of `patience` on. Outcome, period,
+    residual, dominant multiplier, periods_run and the exponent per unit time are written to the
+    record `out`; y is moved onto the orbit if there is one.
     """
     k = seen.strobes
     if k == limit:
@@ -172,12 +186,12 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     out.periods_run = k
     if k > 0:
         seen.quiet = seen.quiet + 1 if contacts == 0 and side == 0 else 0
-    if not abs(y[0]) + abs(y[1]) + abs(y[3]) < 1e6:
+    if not abs(y[0]) + abs(y[1]) + abs(y[3]) < DIVERGING:
         out.outcome = DIVERGED
         return True
     n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
     if n > 0:
-        if land(p, y, n, seen.near, out):
+        if move_onto_orbit(p, y, n, seen.near, out):
             if seen.quiet >= out.period and p[CLEARANCE] < math.inf:
                 out.outcome = NON_COLLIDING
             return True
@@ -215,13 +229,13 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
         Packed parameters.
     states : array, shape (m, 4)
     start : array, shape (m,)
-        Times at which the states are given, at most the strobe's.
+        Times of the states, not after the first strobe.
     tolerance, patience, limit
         Of `Settling`.
-    out : array of recording.MOTION, shape (m,)
-        Gets what `watch` finds, and the last state at a strobe or that on the orbit.
+    out : array of records.MOTION, shape (m,)
+        Filled by `watch`; `state` is the last one at a strobe, or the one on the orbit.
     stop : array of bool, shape (1,)
-        Once it is true, perhaps set by another thread, the motions are given up.
+        Set to true by another thread, it ends the run; records are then incomplete.
     """
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
@@ -255,7 +269,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Give a place of the pool to motion i, if there is one."""
+    """Put motion i, if it exists, into the place m of the pool."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])

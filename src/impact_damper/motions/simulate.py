@@ -15,7 +15,7 @@ from impact_damper.system.checks import check_numbers
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
-# Beyond these a state moves so fast that a forcing period has no end.
+# Largest displacements and velocities of a start: beyond them a forcing period takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
 MOST_SEED = 2**63 - 1
 MOST_SAMPLES = 10**7
@@ -23,9 +23,9 @@ COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_vel
 
 
 def check_state(state, damper):
-    """Return a state as an array of four, or raise.
+    """Return a state as an array of shape (4,), or raise.
 
-    Without a damper the loose mass is left at rest at the origin, Z2 = Z1.
+    Without a damper the loose mass is at rest in the origin: Z2 = Z1, Z2' = Z1'.
 
     Raises
     ------
@@ -49,19 +49,19 @@ def check_state(state, damper):
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
-    """States drawn uniformly from a ball around the origin.
+    """Draw states uniformly from a ball around the origin.
 
     Parameters
     ----------
     count : int
     radius : float
-        Dimensionless; 2 in the paper. Within the gap at most 1000 clearances.
+        Dimensionless; 2 in the paper. At most 1000 clearances if draws are within the gap.
     damper : Damper or None
-        Without a damper the ball is that of (Z1, Z1'), and Z2 = Z1.
+        Without a damper states are drawn from a disk of (Z1, Z1'), with Z2 = Z1 and Z2' = Z1'.
     seed : int or sequence of int
     within_gap : bool
-        Draw again where |Z2| exceeds the clearance: beyond the wall the contact spring is
-        loaded, with an energy unlike that of any motion at rest. False is the literal ball.
+        Whether draws with |Z2| beyond the clearance are repeated. There the contact spring is
+        loaded with a large energy. False gives the paper's ball literally.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def simulate(
     start=0.0,
     tolerance=1e-12,
 ):
-    """Integrate one motion and label it.
+    """Integrate one motion.
 
     Parameters
     ----------

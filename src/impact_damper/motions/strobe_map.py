@@ -1,7 +1,7 @@
-"""Periodic orbits: the map over whole forcing periods, Newton's method on it, and following.
+"""The strobe map, from one forcing period to the next, and Newton's method for its periodic orbits.
 
-Motions are looked at once a forcing period, at the phase W T = pi/2: well between the
-contacts of a damper at its design point, which fall near 0 and pi.
+The strobe is the phase W T = pi/2, midway between the contacts of a damper at its design point,
+which fall near 0 and pi.
 """
 
 import math
@@ -12,27 +12,33 @@ from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
+# Newton's method: number of corrections, the largest correction of a converged orbit, and the
+# smallest determinant of a regular matrix.
+ITERATIONS = 10
 CONVERGED = 1e-9
+REGULAR = 1e-12
+# Local error allowed in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
+# States closer than this are the same, in `repeats_sooner`.
 SAME_STATE = 1e-4
 
 
 @kernel
 def strobe_time(p):
-    """The time within a forcing period at which motions are looked at."""
+    """Return the first time T at the strobe, W T = pi/2."""
     return 0.5 * math.pi / p[FREQUENCY]
 
 
 @inlined
 def one_period(p, y, tangents, side, tolerance, work):
-    """Integrate from strobe to strobe; returns what `advance` returns."""
+    """Integrate a state in place from one strobe to the next; returns as `advance`."""
     t = strobe_time(p)
     return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[FREQUENCY], tolerance, work)
 
 
 @kernel_only
 def speed_weight(p, side):
-    """Weight of Z2' in `distance`: 1 in flight; in contact it moves faster than Z2 by 1/weight."""
+    """Return the weight of Z2' in `distance`: 1 in flight, 1/frequency of a contact during it."""
     if side == 0:
         return 1.0
     return 1.0 / math.sqrt(1.0 + p[CONTACT_STIFFNESS] * (1.0 + p[INVERSE_MASS_RATIO]))
@@ -40,17 +46,18 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Largest difference of two states, the loose mass's speed multiplied by the weight."""
+    """Return the largest difference between components of two states, that of Z2' weighted."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
 
 @kernel
 def flow(p, state, tangents, begin, periods, half, tolerance):
-    """Integrate over whole forcing periods from `begin` on, and half a one more if asked for.
+    """Integrate over `periods` forcing periods from the time `begin`, and half a period if `half`.
 
-    The state and the tangents (rows) are replaced. Returns the contacts begun and the time in
-    contact. No array is returned: numba loses a Ctrl-C that arrives while it makes one.
+    The state (4,) and the tangents, rows of an array (n, 4), are replaced. Returns the number of
+    contacts that began and the time in contact. It returns no array, because numba loses a Ctrl-C
+    that arrives while an array is returned.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
     work = workspace()
@@ -66,7 +73,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 
 def flow_map(p, y, begin, periods, half, tolerance):
-    """Return what a state becomes by `flow`, the derivative (4, 4), and the time in contact."""
+    """Return the state after `flow`, its derivative (4, 4), and the time in contact."""
     state, tangents = y.copy(), np.eye(4)
     _, touching = flow(p, state, tangents, begin, periods, half, tolerance)
     return state, tangents.T.copy(), touching
@@ -74,8 +81,8 @@ def flow_map(p, y, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return what a state at the strobe becomes, the derivative (4, 4), and the contacts begun."""
-    half = np.bool_(False)  # a literal would have the map compiled for it alone
+    """Return the state `periods` after a strobe, its derivative (4, 4), and the contacts begun."""
+    half = np.bool_(False)  # for a literal the map would be compiled once more
     state, tangents = y.copy(), np.eye(4)
     contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
     return state, tangents.T.copy(), contacts
@@ -83,9 +90,9 @@ def period_map(p, y, periods, tolerance):
 
 @kernel
 def solve(matrix, right):
-    """Solve a small linear system by elimination, in place; returns the determinant.
+    """Solve a small linear system in place by elimination with pivoting; return the determinant.
 
-    Numba's own solver takes longer to compile than all the rest of this module.
+    numpy.linalg.solve takes longer to compile than all the rest of this module.
     """
     size = len(right)
     determinant = 1.0
@@ -113,8 +120,8 @@ def solve(matrix, right):
 
 
 @kernel
-def largest(values):
-    """Largest modulus of some numbers."""
+def largest_modulus(values):
+    """Return the largest modulus of an array of numbers."""
     size = 0.0
     for value in values:
         size = max(size, abs(value))
@@ -123,34 +130,34 @@ def largest(values):
 
 @kernel
 def dominant(values):
-    """The value of largest modulus, of a conjugate pair the one with positive imaginary part."""
-    found = values[0]
+    """Return the value of largest modulus, its imaginary part made positive."""
+    best = values[0]
     for value in values:
-        if abs(value) > abs(found):
-            found = value
-    return complex(found.real, abs(found.imag))
+        if abs(value) > abs(best):
+            best = value
+    return complex(best.real, abs(best.imag))
 
 
 @kernel
 def polish(p, y, periods, reach, tolerance):
-    """Newton's method for a fixed point of the map over `periods` from a state near it.
+    """Newton's method for a fixed point of the map over `periods` from a state y near it.
 
-    Without contacts the loose mass keeps its place and only (Z1, Z1') is sought. Returns
-    whether it converged to an orbit within `reach` of the start, the residual, and the
-    dominant Floquet multiplier; y is replaced only if it converged.
+    Without contacts the loose mass keeps its place and only Z1 and Z1' are unknown. Returns whether
+    the method converged to an orbit within `reach` of y (Z2' not counted), the residual, and the
+    dominant Floquet multiplier, both NaN otherwise. y is replaced if it converged.
     """
     orbit = y.copy()
-    for _ in range(10):
+    for _ in range(ITERATIONS):
         state, matrix, contacts = period_map(p, orbit, periods, tolerance)
         active = 4 if contacts > 0 or side_of(p, orbit) != 0 else 2
         newton = matrix[:active, :active].copy()
         change = orbit[:active] - state[:active]
-        residual = largest(change)
+        residual = largest_modulus(change)
         for i in range(active):
             newton[i, i] -= 1.0
-        if abs(solve(newton, change)) < 1e-12:
+        if abs(solve(newton, change)) < REGULAR:
             break
-        if largest(change) < CONVERGED:
+        if largest_modulus(change) < CONVERGED:
             assign(y, orbit)
             square = matrix[:active, :active].astype(np.complex128)
             return True, residual, dominant(np.linalg.eigvals(square))
@@ -165,7 +172,7 @@ def polish(p, y, periods, reach, tolerance):
 
 @kernel
 def repeats_sooner(p, y, periods, tolerance):
-    """Whether a state of an orbit returns after a proper divisor of the periods already."""
+    """Return whether the state of an orbit repeats after fewer periods, a divisor of `periods`."""
     work = workspace()
     none = np.empty((0, 4))
     state = y.copy()

@@ -1,8 +1,8 @@
-"""Every motion along a sweep of one parameter that random starts and following reach.
+"""All motions along a sweep of one parameter that random starts and following reach.
 
-At each value motions are run from random starts. Each settled motion is then followed
-by Newton's method to the next value, upward and downward, so that motions with small
-basins are found too; where it cannot be followed, its branch has an end.
+At each value motions are run from random starts. Each settled motion is then followed by Newton's
+method to the next value, upward and downward, so that motions with small basins of attraction are
+found too. A branch ends where its motion cannot be followed.
 """
 
 from itertools import count
@@ -16,22 +16,37 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit, follow_stable
 from impact_damper.motions.records import MOTION, measured, tabulate
 
+# Motions whose max |Z1| differs relatively by less are the same, if periods and contacts agree.
+# The same limit tells a symmetric motion by its asymmetry.
 SAME = 1e-6
+# Motions that have not settled are the same if their max |Z1| differs by a smaller factor.
 CHAOTIC_GAP = 1.5
+# End of a branch: least modulus of a multiplier at a bifurcation, least imaginary part of a complex
+# one, and largest difference in max |Z1| between a motion and the one that splits off.
+CRITICAL = 0.98
+COMPLEX = 1e-3
+CLOSE = 0.05
 
 
 class Catalogue:
-    """The distinct motions known at one value of the parameter.
+    """Distinct motions at one value of the swept parameter.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    numbering : iterator of int
+        Gives new motions their numbers.
 
     Attributes
     ----------
-    records : list of recording.MOTION
+    records : list of records.MOTION
     numbers : list of int
-        A number for each motion, unique over the sweep.
+        Numbers of the motions, unique over the sweep.
     origins : list of int
-        Flags: found by a random start, or by following only.
+        Flags of `origin`: reached from a random start, or by following only.
     shares : list of int
-        Random starts that lead to it.
+        Numbers of random starts that lead to the motions.
     """
 
     def __init__(self, p, numbering):
@@ -40,7 +55,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.shares = [], [], [], []
 
     def find(self, record):
-        """Index of a motion, its mirror image counting as the same, or None."""
+        """Return the index of a motion or of its mirror image, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
@@ -52,7 +67,10 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Index of a motion, entered if it was not known; of two records the larger is kept."""
+        """Return the index of a motion, which is entered if it is new.
+
+        Of two records of one motion that has not settled the larger is kept.
+        """
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -66,22 +84,30 @@ class Catalogue:
         return i
 
     def order(self):
-        """Indices of the motions, the larger first."""
+        """Return the indices of the motions in order of falling max |Z1|."""
         return np.argsort([record["maximum_displacement"] for record in self.records])[::-1]
 
 
 def _end_event(record, multiplier, beyond):
-    """What ends a branch, from the dominant multiplier at its last orbit and what lies beyond.
+    """Return the name of the event that ends a branch.
 
-    An orbit without a multiplier is one where Newton's method fails: the map is not smooth there.
+    Parameters
+    ----------
+    record : records.MOTION
+        The motion followed.
+    multiplier : complex
+        Dominant multiplier of its last orbit; NaN where Newton's method fails because the map is
+        not smooth.
+    beyond : records.MOTION
+        The motion reached from the last orbit at the next value of the parameter.
     """
-    if not abs(multiplier) >= 0.98:
+    if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
-    if abs(multiplier.imag) > 1e-3:
+    if abs(multiplier.imag) > COMPLEX:
         return "neimark_sacker"
     if multiplier.real < 0:
         return "period_doubling"
-    close = abs(beyond["maximum_displacement"] - record["maximum_displacement"]) < 0.05
+    close = abs(beyond["maximum_displacement"] - record["maximum_displacement"]) < CLOSE
     splits = record["asymmetry"] < SAME and not beyond["asymmetry"] < SAME
     if close and splits and beyond["period"] == record["period"]:
         return "symmetry_breaking"
@@ -89,7 +115,11 @@ def _end_event(record, multiplier, beyond):
 
 
 def _follow(here, there, index, settling, links, ends):
-    """Follow every motion of one catalogue to the next value, noting links and ends."""
+    """Follow all motions of one catalogue to the next value of the parameter.
+
+    Motions found there are entered in the catalogue `there`; `links` gets pairs of numbers of
+    motions on one branch, `ends` a dictionary for each branch that ends on the way.
+    """
     followed = [
         follow_stable(here.p, record["state"], record["period"], index, there.p[index])
         if is_settled(record)
@@ -125,14 +155,14 @@ def _follow(here, there, index, settling, links, ends):
 
 
 def _branches(catalogues, links):
-    """Branch of every motion by its number: the connected components of the links."""
+    """Return the branch of each motion by number: the connected components of the links."""
     size = sum(len(catalogue.records) for catalogue in catalogues)
     pairs = np.array(links or [(0, 0)]).T
     return connected_components(coo_array((np.ones(len(pairs[0])), pairs), (size, size)), False)[1]
 
 
 def _tables(catalogues, branches, dimension):
-    """Arrays over (dimension, motion), the larger motions first, padded with 'absent'."""
+    """Return variables over (dimension, motion), the larger motions first, padded by 'absent'."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -168,16 +198,16 @@ def _tables(catalogues, branches, dimension):
 
 
 def sweep(parameters, index, dimension, states, settling, *, workers=1, progress=None):
-    """All motions found along a sweep of one parameter.
+    """Find all motions along a sweep of one parameter.
 
     Parameters
     ----------
     parameters : array, shape (n, packed.COUNT)
-        Packed parameters in the order of the sweep, alike but for one.
+        Packed parameters in the order of the sweep, equal but for one.
     index : int
-        Which parameter varies: FREQUENCY or CLEARANCE.
+        Place of the parameter that varies: FREQUENCY or CLEARANCE.
     dimension : str
-        Name of the dimension it gives the data.
+        Name of the dimension of the data that stands for this parameter.
     states : array, shape (n, m, 4)
         Random starts at T = 0.
     settling : Settling
@@ -188,7 +218,7 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
     -------
     dict
         Registered variables with their dimensions: over (dimension, motion) the distinct
-        motions, over (dimension, start) what the runs came to, over `end` the branches' ends.
+        motions, over (dimension, start) the outcomes of the runs, over `end` the ends of branches.
     """
     size, starts = states.shape[:2]
     runs = ensemble.settle(
@@ -205,7 +235,7 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
         for catalogue, row in zip(catalogues, runs, strict=True)
     ]
     links, ends = [], {}
-    # The second sweep upward also follows what the one downward found.
+    # the second sweep upward also follows motions that the sweep downward found
     for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
         ends[turn] = []
         for here, there in zip(order, order[1:], strict=False):

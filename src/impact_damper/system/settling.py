@@ -1,4 +1,4 @@
-"""How long and how closely motions are run; imports no NumPy."""
+"""How long motions are run, and how accurately; imports no NumPy."""
 
 from dataclasses import dataclass
 
@@ -15,18 +15,18 @@ from impact_damper.system.bounds import (
 
 @dataclass(frozen=True)
 class Settling:
-    """How long and how closely motions are run.
+    """How long motions are run, and how accurately.
 
     Attributes
     ----------
     tolerance : float
         Local error allowed in a step of the integrator, dimensionless.
     patience : int
-        Forcing periods after which a motion that is chaotic beyond doubt is let go, and so is
-        one in which the loose mass hardly moves and has met no wall for as long.
+        Forcing periods after which a motion is stopped if it is certainly chaotic, or if the loose
+        mass hardly moves and has touched no wall during these periods.
     limit : int
-        Forcing periods after which any motion is stopped: chaotic, if that is certain by then,
-        or unresolved.
+        Forcing periods after which every motion is stopped, as chaotic if that is certain, else as
+        unresolved.
     watched : int
         Further forcing periods over which a motion that has not settled is measured.
 
