@@ -1,19 +1,19 @@
 """One contact of the damper in closed form, under a constant load, with two rules for its end.
 
-While the loose mass touches a wall, equations (20) to (23) give the penetration q as
+While the loose mass touches a wall, equations (20) to (23) give for the penetration q
 
     q'' + 2 z wn q' + wn^2 q = g,   wn^2 = r1 (1 + 1/rm),   z = zeta_c sqrt(1 + rm),
 
-where g is the acceleration of Z1 towards the wall by all other forces, which hardly changes
-in so short a time. With s = wn t and u = wn q/v0, v0 the approach speed, this is
+where g is the acceleration of Z1 towards the wall by all other forces, nearly constant during the
+short contact. With s = wn t, u = wn q/v0 and the approach speed v0 this is
 
     u'' + 2 z u' + u = G,   u(0) = 0,   u'(0) = 1,   G = g/(wn v0):
 
-the restitution e, which sets z by (25), and the load G decide everything. A positive load
-presses the bodies together. The force of the wall is F = u + 2 z u'.
+so that a contact depends on the restitution e, which gives z by (25), and on the load G alone. A
+positive load presses the bodies together. The force of the wall is F = u + 2 z u'.
 
 Exit rules: `zero_penetration` (appendix B) ends the contact where u = 0, and the wall may pull
-before; `no_tension` ends it where F = 0.
+before that; `no_tension` ends it where F = 0.
 """
 
 import math
@@ -27,18 +27,18 @@ EXIT_RULES = ("zero_penetration", "no_tension")
 
 
 class Exit(NamedTuple):
-    """How a contact ends.
+    """End of a contact.
 
     Attributes
     ----------
     outcome : str
-        "released"; "falls_back" if the loose mass leaves the wall, which cannot pull, but the load
-        turns it before it is back at zero penetration; "no_release" if the contact does not end.
+        "released"; "falls_back" if the loose mass leaves a wall that cannot pull, but the load
+        returns it before it is back at zero penetration; "no_release" if the contact does not end.
     duration : float
         wn t, infinite if the contact does not end.
     departure : float
-        The realised restitution: speed back at zero penetration over approach speed, a free
-        flight under the load from the end of the contact on included; NaN unless released.
+        The realised restitution: speed at zero penetration over approach speed, after a flight
+        under the load if the contact ended before; NaN unless released.
     """
 
     outcome: str
@@ -54,7 +54,7 @@ class Tension(NamedTuple):
     time : float
         Share of the contact in which the wall pulls.
     impulse : float
-        Impulse of the pull over that of the push.
+        Impulse of the pull over the impulse of the push.
     peak : float
         Largest pull over the largest push.
     """
@@ -78,19 +78,19 @@ class _Wave(NamedTuple):
         return self.level + decay * (self.a * math.cos(self.w * s) + self.b * math.sin(self.w * s))
 
     def slope(self):
-        """Its derivative."""
+        """Return the derivative, a `_Wave`."""
         a, b, z, w = self.a, self.b, self.z, self.w
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
     def first_extrema(self):
-        """Where it is largest first, or 0 if it falls from the beginning, and the minimum next."""
+        """Return the places of the first maximum, 0 if it falls there, and of the next minimum."""
         slope = self.slope()
         turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
         rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
         return (turn / self.w, (turn + math.pi) / self.w) if rising else (0.0, turn / self.w)
 
     def first_fall(self):
-        """Where it falls to zero first, infinite if it does not: later minima are no deeper."""
+        """Return where it first falls to zero, or infinity: later minima are no deeper."""
         top, bottom = self.first_extrema()
         if self(bottom) > 0:
             return math.inf
@@ -98,18 +98,18 @@ class _Wave(NamedTuple):
 
 
 def damping_ratio(restitution) -> float:
-    """Damping ratio z of the relative motion, from e = exp(-pi z/sqrt(1 - z^2))."""
+    """Return the damping ratio z of the relative motion, from e = exp(-pi z/sqrt(1 - z^2))."""
     logarithm = math.log(1 / restitution)
     return logarithm / math.hypot(math.pi, logarithm)
 
 
 def natural_frequency(damper) -> float:
-    """wn = sqrt(r1 (1 + 1/rm)) of a `Damper`; half its period is the time of elastic contact."""
+    """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`; elastic contact without load lasts pi/wn."""
     return math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
 
 
 def _waves(restitution, load):
-    """Penetration u and force F of a contact."""
+    """Return penetration u and force F of a contact as functions of s = wn t."""
     check_number("restitution", restitution, above=0.0, most=1.0)
     check_number("load", load)
     z = damping_ratio(restitution)
@@ -120,12 +120,12 @@ def _waves(restitution, load):
 
 
 def contact(restitution, load, rule) -> Exit:
-    """How a contact ends.
+    """Return how a contact ends.
 
     Parameters
     ----------
     restitution : float
-        e for which (25) sets the dashpot.
+        The intended e, for which (25) gives the dashpot.
     load : float
         G = g/(wn v0), dimensionless.
     rule : str
@@ -150,9 +150,15 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def tension(restitution, load) -> Tension:
-    """How long, how much and how hard the wall pulls under the rule `zero_penetration`.
+    """Return time, impulse and peak of the pull of the wall under the rule `zero_penetration`.
 
-    The impulse of the wall between two instants is that of the load less the change of speed.
+    The impulse of the wall between two instants is the impulse of the load less the change of
+    speed.
+
+    Parameters
+    ----------
+    restitution, load : float
+        As of `contact`.
     """
     penetration, force = _waves(restitution, load)
     speed = penetration.slope()

@@ -1,7 +1,7 @@
-"""Contacts of simulated motions: how they are loaded, and what they return.
+"""Contacts of simulated motions: their load, and the restitution they realise.
 
-At each restitution and frequency the smallest settled motion and the largest motion that
-random starts reach are looked at, as far as they have contacts.
+They are those of two motions with contacts: the smallest settled one and the largest one of all
+that random starts reach.
 """
 
 from dataclasses import replace
@@ -16,30 +16,35 @@ from impact_damper.motions.following import follow_stable
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.packed import DASHPOT, FREQUENCY, pack
 
+# Relative errors of the restitution up to which it is close to the intended one, or fair.
 CLOSE, FAIR = 0.01, 0.05
 SIZES = ("smallest", "largest")
+# Following in the dashpot's coefficient ends to this accuracy.
 RESOLUTION = 1e-6
+# Largest number of contacts that are logged.
 LARGEST_LOG = 10**5
-# Share of the contacts that an error stated for a motion covers.
+# An error stated for a motion is not exceeded by this share of its contacts.
 MOST = 0.99
 
 
 def logged_contacts(oscillator, damper, frequency, state, periods):
-    """Contacts of a motion from a state at W T = pi/2 on that begin and end within some periods.
+    """Log the contacts of a motion that begin and end within a number of forcing periods.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     frequency : float
+        W.
     state : array, shape (4,)
+        State at W T = pi/2.
     periods : int
 
     Returns
     -------
-    dict
-        Over the contacts: `load` g/(wn v0) at the beginning, `restitution` that is realised, and
-        `duration` over that of an elastic contact.
+    dict of numpy.ndarray
+        Over the contacts: `load`, g/(wn v0) at the beginning; `restitution`, speed of departure
+        over speed of approach; `duration` over the duration of an elastic contact.
 
     Raises
     ------
@@ -53,8 +58,8 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     tolerance = strobe_map.POLISH_TOLERANCE
     count = records.trace(p, np.array(state), begin, times, tolerance, states, log)
     if count > LARGEST_LOG:
-        raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in so many")
-    # the same steps again, now with samples where contacts begin
+        raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in this time")
+    # the same integration again, sampled where contacts begin
     times = np.append(log[:count, 1], times)
     states = np.empty((len(times), 4))
     records.trace(p, np.array(state), begin, times, tolerance, states, log)
@@ -70,7 +75,21 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Records of the smallest settled and the largest motion with contacts, None if absent."""
+    """Return records of the smallest settled and of the largest motion with contacts.
+
+    Each is a `records.MOTION`, or None if there is no such motion.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequency : float
+        W.
+    starts : int
+        Number of random starts within the gap.
+    seed : int or sequence of int
+    settling : Settling
+    """
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     found = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
@@ -82,27 +101,37 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
     )
 
 
-def scene(oscillator, damper, frequency, motion, periods):
-    """What the contacts of one motion return, against e and against the closed form.
+def compare_contacts(oscillator, damper, frequency, motion, periods):
+    """Compare the restitution in the contacts of a motion with e and with the closed form.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequency : float
+        W.
+    motion : records.MOTION or None
+    periods : int
+        Forcing periods over which contacts are logged.
 
     Returns
     -------
     table : dict
         Registered variables.
-    seen : dict or None
-        `logged_contacts`, None without a motion.
+    logged : dict or None
+        As from `logged_contacts`; None without a motion.
     """
     if motion is None:
         return {
             "scene_outcome": flag("outcome", "absent"),
             "scene_without_pull_status": flag("scene_without_pull_status", "absent"),
         }, None
-    seen = logged_contacts(oscillator, damper, frequency, motion["state"], periods)
-    ends = [contact(damper.restitution, load, "zero_penetration") for load in seen["load"]]
+    logged = logged_contacts(oscillator, damper, frequency, motion["state"], periods)
+    ends = [contact(damper.restitution, load, "zero_penetration") for load in logged["load"]]
     released = np.array([end.outcome == "released" for end in ends])
     restitution = np.array([end.departure for end in ends])
     duration = np.array([end.duration for end in ends]) / np.pi
-    error = np.abs(seen["restitution"] / damper.restitution - 1)
+    error = np.abs(logged["restitution"] / damper.restitution - 1)
     displacement, status = without_pull(oscillator, damper, frequency, motion)
     table = {
         "scene_outcome": motion["outcome"],
@@ -116,32 +145,33 @@ def scene(oscillator, damper, frequency, motion, periods):
         table |= {
             "scene_close": np.mean(error <= CLOSE),
             "scene_fair": np.mean(error <= FAIR),
-            "scene_load": np.quantile(np.abs(seen["load"]), MOST),
-            "scene_restitution_low": seen["restitution"].min(),
-            "scene_restitution_high": seen["restitution"].max(),
-            "scene_restitution_error": _most(restitution - seen["restitution"], released),
-            "scene_duration_error": _most(duration - seen["duration"], released),
+            "scene_load": np.quantile(np.abs(logged["load"]), MOST),
+            "scene_restitution_low": logged["restitution"].min(),
+            "scene_restitution_high": logged["restitution"].max(),
+            "scene_restitution_error": _most(restitution - logged["restitution"], released),
+            "scene_duration_error": _most(duration - logged["duration"], released),
         }
-    return table, seen
+    return table, logged
 
 
 def _most(error, released):
+    """Return the error, in modulus, that is not exceeded by the share MOST of released contacts."""
     return np.quantile(np.abs(error[released]), MOST)
 
 
 def without_pull(oscillator, damper, frequency, motion):
-    """max |Z1| of a settled motion for the restitution that walls without pull would return.
+    """Return max |Z1| of a settled motion if the walls did not pull the loose mass.
 
-    The rule `no_tension` is mapped to the restitution it returns without load: the time in
-    contact stays that of the rule `zero_penetration`.
+    The exit rule `no_tension` is represented by the restitution it realises without load; the
+    duration of contacts remains that of the rule `zero_penetration`.
 
     Returns
     -------
     displacement : float
         NaN unless found.
     status : int
-        Flag of `scene_without_pull_status`: whether the motion has settled, its orbit can be
-        followed there, and has as many contacts there.
+        Flag of `scene_without_pull_status`: found, not_settled, not_followed if the orbit cannot be
+        followed to that restitution, or other_contacts if it has another number of contacts there.
     """
     if not is_settled(motion):
         return np.nan, flag("scene_without_pull_status", "not_settled")

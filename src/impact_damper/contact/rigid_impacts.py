@@ -1,8 +1,8 @@
-"""The rigid-impact model: free flight between walls without give, and instantaneous impacts.
+"""The rigid-impact model: free flight between rigid walls, and instantaneous impacts.
 
-An impact turns Z2' into -e Z2' and keeps the momentum Z1' + rm (Z1' - Z2'). It is what the
-contact of equations (20) to (25) becomes as r1 grows without bound, where forces other than
-the contact's have no time to act.
+An impact changes Z2' to -e Z2' and keeps the momentum Z1' + rm (Z1' - Z2'). This is the limit of
+the contact of equations (20) to (25) as r1 goes to infinity, where forces other than that of the
+contact have no time to act.
 """
 
 import math
@@ -17,13 +17,13 @@ from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO
 
-# With e < 1 impacts may follow each other without end, closer and closer.
+# Largest number of impacts in a forcing period: with e < 1 infinitely many may follow each other.
 MOST_IMPACTS = 200
 
 
 @kernel
 def rebound(p, restitution, y, tangents, t):
-    """Instantaneous impact of a state, in place, and its saltation matrix on the tangents.
+    """Apply an instantaneous impact to a state, and its saltation matrix to the tangents, in place.
 
     With k = (1 + e)/(1 + 1/rm) and the acceleration a of Z1 before the impact,
 
@@ -31,7 +31,7 @@ def rebound(p, restitution, y, tangents, t):
         d(Z1, Z1', Z2, Z2') -> S d,   S = [1 0 -k 0; 0 1 k (a/Z2' + h) -k;
                                            0 0 -e 0; 0 0 (1 + e) a/Z2' + h k -e].
 
-    The determinant of S is e^2: volume of state space shrinks by e^2 in each impact.
+    The determinant of S is e^2, the factor by which an impact shrinks volumes of the state space.
     """
     share = (1.0 + restitution) / (1.0 + p[INVERSE_MASS_RATIO])
     speed = y[3]
@@ -49,12 +49,12 @@ def rebound(p, restitution, y, tangents, t):
 
 @kernel
 def rigid_map(p, restitution, y, tolerance):
-    """The rigid model over one forcing period, from W T = pi/2 on.
+    """Integrate the rigid model over one forcing period, from W T = pi/2.
 
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
-        Packed parameters (`packed.pack`) with dashpot 0; the stiffness does not count.
+        Packed parameters (`packed.pack`) with dashpot 0; r1 has no effect.
     restitution : float
         e.
     y : array, shape (4,)
@@ -68,7 +68,7 @@ def rigid_map(p, restitution, y, tolerance):
     matrix : array, shape (4, 4)
         Derivative of the map.
     impacts : int
-        MOST_IMPACTS if the period was not finished with so many; nothing else counts then.
+        Number of impacts. If it is MOST_IMPACTS the period was not finished: the rest is void.
     speed : float
         Smallest |Z2'| at which a wall is approached, infinite without impacts.
     first : tuple of two floats
@@ -80,13 +80,13 @@ def rigid_map(p, restitution, y, tolerance):
     state = y.copy()
     tangents = np.eye(4)
     work = workspace()
-    flight = np.int64(0)  # a literal would have the step compiled for it alone
+    flight = np.int64(0)  # for a literal the step would be compiled once more
     t = strobe_time(p)
     end = t + 2.0 * math.pi / p[FREQUENCY]
     impacts, speed, first, largest = 0, math.inf, (math.nan, math.nan), abs(y[0])
     while t < end and impacts < MOST_IMPACTS:
         length, side = step(p, state, tangents, flight, t, end - t, tolerance, work)
-        # Z1 may be largest at an impact, where it turns without a stationary point
+        # Z1 may be largest at an impact, where Z1' changes its sign in a jump
         largest = max(extremum(work[X:], FLIGHT_ORDER, length, largest), abs(state[0]))
         t = end if length >= end - t else t + length
         if side != 0:

@@ -1,10 +1,10 @@
-"""Orbits of the rigid-impact model with two impacts a forcing period, and walls to mend it.
+"""Orbits of the rigid-impact model with two impacts a forcing period, and a correction for it.
 
-At finite r1 a contact takes the time tc, in which the loose mass overshoots the wall. Rigid
-walls that stand further out by delta = v tc e/(1 + e), v the approach speed, let it return to
-d0 when the contact would end. The load changes the speed with which it does so: `mended` gives
-the restitution e' that a rigid wall needs. With both the orbit is right to the order 1/r1,
-where the plain rigid model is right to 1/sqrt(r1).
+At finite r1 a contact takes the time tc, during which the loose mass penetrates the wall. If rigid
+walls stand further out by delta = v tc e/(1 + e), with the approach speed v, the loose mass returns
+to d0 at the time when the compliant contact ends. The load changes its speed there: `mended_walls`
+gives the restitution e' that the rigid wall needs. With both corrections the error of the orbit is
+of order 1/r1; without them of order 1/sqrt(r1).
 """
 
 from typing import NamedTuple
@@ -35,9 +35,9 @@ class RigidOrbit(NamedTuple):
     speed : float
         Approach speed |Z2'| of the impacts.
     acceleration : float
-        Of Z1 towards the wall before an impact.
+        Acceleration of Z1 towards the wall before an impact.
     maps : int
-        Maps over a forcing period that Newton's method took.
+        Number of maps over a forcing period that Newton's method computed.
     """
 
     state: np.ndarray
@@ -49,7 +49,7 @@ class RigidOrbit(NamedTuple):
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
-    """Newton's method onto an orbit of the rigid model, whose r1 does not count.
+    """Find an orbit of the rigid model by Newton's method; r1 of the damper has no effect.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
     guess : array, shape (4,)
         State near the orbit at W T = pi/2.
     reach : float
-        How far the orbit may be from it.
+        Largest distance of the orbit from the guess.
 
     Returns
     -------
@@ -73,6 +73,7 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 
 
 def _solve(p, restitution, guess, reach):
+    """`rigid_orbit` for packed parameters and a restitution."""
     p = p.copy()
     p[DASHPOT] = 0.0
     restitution = float(restitution)  # a whole number would have the map compiled again
@@ -99,15 +100,15 @@ def _solve(p, restitution, guess, reach):
     return None, "not_followed"
 
 
-def mended(oscillator, damper, orbit):
-    """Clearance d0 + delta and restitution e' of rigid walls that stand for soft ones.
+def mended_walls(oscillator, damper, orbit):
+    """Return clearance d0 + delta and restitution e' of rigid walls that replace compliant ones.
 
-    To first order in 1/wn: the damping h of Z1 acts on the relative motion in contact as
-    another h rm/(1 + rm), whose damping ratio adds to z; without it the load would be
-    G = (a + h rm/(1 + rm) v)/(wn v), with a the acceleration of Z1 towards the wall before the
-    contact, and changes the restitution by -2 z (1 + e) G. To return so from the
-    outer wall, after flights over delta under the accelerations before and after, takes
-    e' = e + (change) + (delta/v^2) (a_after/e - e a).
+    All to first order in 1/wn. In contact the damping h of Z1 acts on the relative motion as a
+    damping h rm/(1 + rm), whose ratio adds to z. The load is then
+    G = (a + h rm/(1 + rm) v)/(wn v), with the acceleration a of Z1 towards the wall before the
+    contact, and changes the restitution by -2 z (1 + e) G. With the flights over delta, before and
+    after the impact at the outer wall, under the accelerations a and a_after, the restitution
+    needed is e' = e + (both changes) + (delta/v^2) (a_after/e - e a).
 
     Parameters
     ----------
@@ -119,7 +120,7 @@ def mended(oscillator, damper, orbit):
     Returns
     -------
     clearance, restitution : float
-        e' may exceed 1.
+        The restitution e' may exceed 1.
     """
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     share = damper.mass_ratio / (1 + damper.mass_ratio)
@@ -134,8 +135,8 @@ def mended(oscillator, damper, orbit):
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """`rigid_orbit` between the walls of `mended`, from the orbit of the plain rigid model."""
-    clearance, restitution = mended(oscillator, damper, orbit)
+    """`rigid_orbit` between `mended_walls`, from the orbit of the plain rigid model."""
+    clearance, restitution = mended_walls(oscillator, damper, orbit)
     p = pack(oscillator, damper, frequency)
     p[CLEARANCE] = clearance
     return _solve(p, restitution, orbit.state, reach)

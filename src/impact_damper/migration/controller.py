@@ -1,10 +1,9 @@
-"""A run of the migration controller, in numbers.
+"""One run of the migration controller.
 
 From the resonance branch the damper is switched on and off again, until the free oscillator
-settles on its non-resonance branch. See `releases` for how the damper is switched on. It is
-switched off in the forcing periods after its motion is recognised as settled, near a stable
-orbit, at a phase drawn uniformly over the period of that motion; or, if it has not settled
-within a longest hold, in the forcing period after that.
+settles on its non-resonance branch. The damper is switched on as described in `damper_release`. It
+is switched off after its motion has settled, at a phase drawn uniformly over the period of that
+motion; if the motion has not settled within a longest hold, in the forcing period after that.
 """
 
 import numpy as np
@@ -16,7 +15,9 @@ from impact_damper.migration.damper_release import destination, kinds
 from impact_damper.motions.records import MOTION, trace
 from impact_damper.system.packed import FREQUENCY
 
+# A course begins and ends this number of forcing periods before and after the run.
 MARGIN = 10
+# Samples of a course in a forcing period.
 SAMPLES = 40
 SWITCHING = np.dtype(
     [
@@ -32,12 +33,15 @@ SWITCHING = np.dtype(
 
 
 def draw(seed, switchings):
-    """Phases and places of one run: the first rows are the same for any number of switchings."""
+    """Draw phases and places of one run, shape (switchings, 3), uniformly from 0 to 1.
+
+    The first rows do not depend on the number of switchings.
+    """
     return np.random.default_rng(seed).random((switchings, 3))
 
 
 def blank(shape):
-    """Log of switchings that are not made."""
+    """Return a log of a shape whose switchings have not taken place."""
     log = np.zeros(shape, SWITCHING)
     for name in SWITCHING.names:
         if SWITCHING[name].kind == "f":
@@ -46,14 +50,28 @@ def blank(shape):
     return log
 
 
-def control(here, draws, longest_hold, settling, periods):
-    """One run of the controller: rows of its path, and its log.
+def control(case, draws, longest_hold, settling, periods):
+    """Return path and log of one run of the controller.
 
-    A row of `draws` holds for one switching the phase of switching on, the place of the loose
-    mass and the phase of release, phases as a share of the period of the motion before. A row of
-    the path is (forcing periods from the first strobe, state), at each strobe and switching.
+    Parameters
+    ----------
+    case : ReleaseCase
+    draws : array, shape (n, 3)
+        For each switching the phase of switching on, the place of the loose mass and the phase of
+        release, as from `draw`. Phases are shares of the period of the motion before.
+    longest_hold : int
+        Forcing periods after which the damper is switched off though its motion has not settled.
+    settling : Settling
+    periods : int
+        Forcing periods after which no switching begins.
+
+    Returns
+    -------
+    path : numpy.ndarray, shape (m, 5)
+        Rows (forcing periods from the first strobe, state) at each strobe and switching.
+    log : numpy.ndarray of SWITCHING, shape (n,)
     """
-    y = here.state.copy()
+    y = case.state.copy()
     records = np.zeros(1, MOTION)
     record = records[0]
     record["period"] = 1
@@ -72,26 +90,26 @@ def control(here, draws, longest_hold, settling, periods):
         return instant
 
     for entry, draw in zip(log, draws, strict=True):
-        entry["on_time"] = leg(here.off, here.on, draw[0], 2 * draw[1] - 1, longest_hold)
+        entry["on_time"] = leg(case.off, case.on, draw[0], 2 * draw[1] - 1, longest_hold)
         entry["released_period"] = record["period"]
         entry["released_displacement"] = record["maximum_displacement"]
-        entry["off_time"] = leg(here.on, here.off, draw[2], 0.0, settling.limit)
+        entry["off_time"] = leg(case.on, case.off, draw[2], 0.0, settling.limit)
         entry["end_time"] = strobe
-        entry["destination"] = destination(here.known, record)
+        entry["destination"] = destination(case.known, record)
         entry["destination_displacement"] = record["maximum_displacement"]
         if entry["destination"] == FREE_MOTION["non_resonance"] or strobe >= periods:
             break
     return np.concatenate(path), log
 
 
-def course(here, path, log, tolerance):
-    """Times T and Z1 along a run, and MARGIN periods before its first strobe and after its end.
+def course(case, path, log, tolerance):
+    """Return times T and Z1 along a run, with MARGIN forcing periods before and after it.
 
-    Each stretch between two rows of the path is integrated by itself, so that a chaotic motion
-    is the very one that was controlled.
+    Each stretch between two rows of the path is integrated by itself, so that a chaotic motion is
+    the one that was controlled.
     """
-    period = 2 * np.pi / here.on[FREQUENCY]
-    path = np.vstack([np.append(-MARGIN, here.state), path])
+    period = 2 * np.pi / case.on[FREQUENCY]
+    path = np.vstack([np.append(-MARGIN, case.state), path])
     ends = np.append(path[1:, 0], path[-1, 0] + MARGIN)
     times = np.arange(-MARGIN * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
     log = log[log["destination"] != FREE_MOTION["none"]]
@@ -101,7 +119,7 @@ def course(here, path, log, tolerance):
     states = np.empty((len(times), 4))
     for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False):
         trace(
-            here.on if on else here.off,
+            case.on if on else case.off,
             row[1:].copy(),
             (row[0] + 0.25) * period,
             (times[first:last] + 0.25) * period,
@@ -112,10 +130,10 @@ def course(here, path, log, tolerance):
     return (times + 0.25) * period, states[:, 0]
 
 
-def switching_data(logs, here):
-    """Registered variables of each switching, over (..., switching)."""
-    period = 2 * np.pi / here.on[FREQUENCY]
-    kind = kinds(logs["released_period"], logs["released_displacement"], here.known)
+def switching_data(logs, case):
+    """Return registered variables of the switchings, over (..., switching)."""
+    period = 2 * np.pi / case.on[FREQUENCY]
+    kind = kinds(logs["released_period"], logs["released_displacement"], case.known)
     absent = logs["destination"] == FREE_MOTION["none"]
     data = {name: (logs[name] + 0.25) * period for name in ("on_time", "off_time", "end_time")}
     data["released_from"] = np.where(absent, DAMPED_MOTION["none"], kind)
@@ -123,7 +141,7 @@ def switching_data(logs, here):
 
 
 def run_totals(logs):
-    """Registered variables of whole runs, in forcing periods from the first switching."""
+    """Return registered variables of whole runs, in forcing periods from the first switching."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     return {

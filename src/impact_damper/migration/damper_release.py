@@ -1,8 +1,8 @@
-"""Where releases of the damper lead, and how long the violent motion lives (section 5).
+"""Motions to which releases of the damper lead, and lifetimes of the violent motion (section 5).
 
-The damper is switched on while the free oscillator moves on its resonance branch, at a
-forcing phase drawn uniformly; the loose mass is then somewhere in the gap, drawn uniformly,
-at rest relative to the primary, as if a clamp had held it there.
+Release means switching the damper off. Before, it is switched on while the free oscillator is on
+its resonance branch, at a phase of the forcing drawn uniformly; the loose mass is then at rest
+relative to the primary at a place in the gap drawn uniformly, as if a clamp had held it there.
 """
 
 from dataclasses import replace
@@ -25,6 +25,7 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.single_harmonic import impacting_solutions
 
+# Free motions are the same if their max |Z1| differs by less.
 ALIKE = 1e-6
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
@@ -34,13 +35,14 @@ DESTINATIONS = list(FREE_MOTION)[1:]
 
 
 class ReleaseCase(NamedTuple):
-    """Arguments of the kernels of `legs`: parameters, the start, and the known free motions.
+    """Parameters, the start, and the known free motions at one frequency.
 
     Attributes
     ----------
     on, off : array, shape (packed.COUNT,)
+        Packed parameters with and without the damper.
     state : array, shape (4,)
-        Free resonance motion at a strobe.
+        State of the free resonance motion at a strobe.
     known : array, shape (2,)
         max |Z1| of the free non-resonance and resonance motion.
     """
@@ -52,7 +54,11 @@ class ReleaseCase(NamedTuple):
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Period-1 motion at a frequency, followed from the harmonic balance at another, or None."""
+    """Return a record of a free period-1 motion at a frequency, or None.
+
+    The motion is settled at the frequency `start` from the solution of harmonic balance with the
+    index `which`, and followed from there.
+    """
     p = pack(oscillator, None, start)
     free = free_solutions(oscillator, start)
     angle = free.phase[which] + np.pi / 2
@@ -87,20 +93,23 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     if not known[0] + ALIKE < known[1]:
         raise ValueError(
             f"frequency = {frequency:g}: the free oscillator must have a non-resonance and a "
-            "resonance motion here, since migration leads from one to the other"
+            "resonance motion case, since migration leads from one to the other"
         )
     return ReleaseCase(on, off, resonance["state"].copy(), known)
 
 
 def kinds(period, displacement, known):
-    """Flags of damped motions: a period-1 motion is quiet below half the resonance motion."""
+    """Return flags of damped motions by period and max |Z1|; `known` as in `ReleaseCase`.
+
+    A motion of period 1 is quiet if it is smaller than half the free resonance motion.
+    """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Flag of the free motion that a record is of, `known` as in `ReleaseCase`."""
+    """Return the flag of the free motion of a record; `known` as in `ReleaseCase`."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:
@@ -111,12 +120,15 @@ def destination(known, record):
     return FREE_MOTION["other"]
 
 
-def _release(here, state, wait, settling, path, entry):
-    """Switch the damper off `wait` forcing periods after a strobe, and see where that leads."""
+def _release(case, state, wait, settling, path, entry):
+    """Switch the damper off `wait` forcing periods after a strobe, and fill the entry of a release.
+
+    The entry gets phase and state of the release and the free motion that is reached.
+    """
     records = np.zeros(1, MOTION)
     legs.leg(
-        here.on,
-        here.off,
+        case.on,
+        case.off,
         state.copy(),
         wait,
         0.0,
@@ -127,20 +139,20 @@ def _release(here, state, wait, settling, path, entry):
         records,
     )
     entry["phase"], entry["displacement"], entry["velocity"] = wait, path[0, 1], path[0, 2]
-    entry["destination"] = destination(here.known, records[0])
+    entry["destination"] = destination(case.known, records[0])
 
 
-def _watch_one(here, draws, lifetime, settling, path, records, entry):
-    """A run with the damper on, released once on its way. Returns its life.
+def _watch_one(case, draws, lifetime, settling, path, records, entry):
+    """Run with the damper on, release once, and return the lifetime in forcing periods.
 
-    The draws give the phase of switching on, the place of the loose mass, the instant of the
-    release, uniform from LEAD strobes on until the run is captured, if it lives so long, and
-    the phase of the release in its forcing period.
+    Four numbers drawn uniformly from 0 to 1 give the phase of switching on, the place of the loose
+    mass, the strobe of the release between the LEAD-th one and the capture, and the phase after
+    this strobe. A run that is captured before the LEAD-th strobe is not released.
     """
     legs.leg(
-        here.off,
-        here.on,
-        here.state.copy(),
+        case.off,
+        case.on,
+        case.state.copy(),
         draws[0],
         2 * draws[1] - 1,
         0.0,
@@ -151,16 +163,36 @@ def _watch_one(here, draws, lifetime, settling, path, records, entry):
     )
     life = lifetime
     if is_settled(records[0]):
-        life = legs.life(here.on, path, records[0], settling.tolerance)
+        life = legs.life(case.on, path, records[0], settling.tolerance)
     if life > LEAD:
         k = LEAD + int(draws[2] * (life - LEAD))
         rest = np.empty((settling.limit + 2, 5))
-        _release(here, path[k + 1, 1:], draws[3], settling, rest, entry)
+        _release(case, path[k + 1, 1:], draws[3], settling, rest, entry)
     return life
 
 
-def watch(here, seeds, lifetime, settling, workers, progress):
-    """Runs from the resonance branch, each released once: lives, records and releases."""
+def watch_runs(case, seeds, lifetime, settling, workers, progress):
+    """Run with the damper on from the resonance branch, and release each run once.
+
+    Parameters
+    ----------
+    case : ReleaseCase
+    seeds : list of numpy.random.SeedSequence
+        One for each run.
+    lifetime : int
+        Forcing periods of a run at most.
+    settling : Settling
+    workers, progress
+        As of `ensemble.settle`.
+
+    Returns
+    -------
+    lives : numpy.ndarray, shape (n,)
+        Forcing periods before the runs are captured, or `lifetime`.
+    motions : numpy.ndarray of records.MOTION, shape (n,)
+        Motions on which they settle.
+    entries : numpy.ndarray of RELEASE, shape (n,)
+    """
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     lives = np.empty(len(draws))
     motions = np.zeros(len(draws), MOTION)
@@ -173,17 +205,17 @@ def watch(here, seeds, lifetime, settling, workers, progress):
         path = np.empty((lifetime + 2, 5))
         for i in range(part.start, part.stop):
             motion = motions[i : i + 1]
-            lives[i] = _watch_one(here, draws[i], lifetime, settling, path, motion, entries[i])
+            lives[i] = _watch_one(case, draws[i], lifetime, settling, path, motion, entries[i])
 
     ensemble.run_chunks(work, len(draws), workers, progress, size=8)
     return lives, motions, entries
 
 
 def transient_data(lives, motions, lifetime, known):
-    """Registered variables of the life of transients, and its coordinate.
+    """Return registered variables of the lifetimes of transients, and their coordinate `age`.
 
-    A run is known to be captured only once it has settled, so the horizon is the lifetime less
-    the longest time between capture and settling.
+    A capture is known only once the run has settled. Lifetimes are therefore complete only up to
+    the horizon: the time watched less the longest time between capture and settling.
     """
     settled = is_settled(motions)
     delay = np.max(motions["periods_run"][settled] - lives[settled], initial=0)
@@ -200,12 +232,13 @@ def transient_data(lives, motions, lifetime, known):
     }, {"age": times}
 
 
-def release_data(here, motions, entries, settling):
-    """Registered variables of releases: of the unsettled motion, then of each settled one.
+def release_data(case, motions, entries, settling):
+    """Return registered variables of releases, of the unsettled motion and of each settled one.
 
-    Settled motions are released at as many phases as there are `entries`, evenly over the period.
-    Between contacts the primary moves as it does without the damper, so that all releases within
-    one flight are one: a share counts the flights, and the short contacts, that lead somewhere.
+    Settled motions are released at phases spread evenly over their period, as many as there are
+    `entries` for the unsettled motion. In flight the primary moves as without the damper, so all
+    releases within one flight lead to the same motion: shares are shares of flights, weighted by
+    their durations, and of the short contacts.
     """
     number = len(entries)
     rows = [entries]
@@ -214,7 +247,7 @@ def release_data(here, motions, entries, settling):
         rows.append(np.zeros(number, RELEASE))
         for k, entry in enumerate(rows[-1]):
             wait = k * record["period"] / number
-            _release(here, record["state"], wait, settling, path, entry)
+            _release(case, record["state"], wait, settling, path, entry)
     table = np.array(rows)
     valid = np.sum(table["destination"] >= 0, axis=1)
     shares = [
@@ -224,7 +257,7 @@ def release_data(here, motions, entries, settling):
     period = np.array([0] + [record["period"] for record in motions])
     displacement = np.array([np.nan] + [record["maximum_displacement"] for record in motions])
     return {
-        "damped_kind": kinds(period, displacement, here.known),
+        "damped_kind": kinds(period, displacement, case.known),
         "damped_period": period,
         "damped_displacement": displacement,
         "damped_contacts": np.array([np.nan] + [record["contacts"] for record in motions]),
@@ -237,12 +270,13 @@ def release_data(here, motions, entries, settling):
 
 
 def settled_motions(oscillator, damper, frequency, seed, settling, workers, found):
-    """The distinct settled damped motions, small ones first.
+    """Return records of the distinct settled damped motions, in order of rising max |Z1|.
 
-    Among `found`, from random starts within the gap, and from harmonic balance.
+    Motions are those of the records `found`, and those reached from random starts within the gap
+    and from the solutions of harmonic balance.
     """
     on = pack(oscillator, damper, frequency)
-    # Starts only, so the solutions of the elastic damper will do for an inelastic one.
+    # these are starts only, so the solutions for elastic contact serve an inelastic damper too
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     angle = balance.phase + np.pi / 2
     columns = [

@@ -1,9 +1,9 @@
-"""Legs of a run of migration control, with the damper switched on or off between them.
+"""Legs of a run of migration control: stretches between two switchings of the damper.
 
-A run is looked at once a forcing period, at the strobe of `orbits`. A leg begins where the
-damper is switched, somewhere between two strobes; Z1 and Z1' go through it unchanged. It
-ends at the strobe where the motion is near a stable orbit or its time is up. The state is
-left where it is, not taken onto that orbit, so that a run is one continuous motion.
+A leg begins where the damper is switched, at any phase of the forcing; Z1 and Z1' are continuous
+there. It ends at the first strobe (`motions.strobe_map`) at which the motion is near a stable
+orbit, or after a limit. The state is not moved onto that orbit, so that a run is one continuous
+motion.
 """
 
 import math
@@ -17,19 +17,33 @@ from impact_damper.motions.settling import NEAR, NEAREST, RING, move_onto_orbit,
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# A run counts as captured by an orbit after the last strobe at which (Z1, Z1') is farther from
-# it than this.
+# A run is captured by an orbit after the last strobe at which its distance from the orbit, in Z1
+# or Z1', exceeds this.
 CAPTURE = 0.1
 # Forcing periods in one call of a kernel, a fraction of a second: Ctrl-C waits for its end.
 STROBES_AT_ONCE = 50_000
 
 
 def run(p, y, ahead, strobe, tolerance, limit, path, out):
-    """Run for `limit` strobes, or until near a stable orbit.
+    """Run until near a stable orbit, or for `limit` strobes.
 
-    `path` gets a row (forcing periods, state) at the start, `ahead` periods before the strobe
-    numbered `strobe`, and at each strobe: at most limit + 2. To the record `out` go outcome,
-    period, periods_run and, of a settled motion, its orbit.
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    y : array, shape (4,)
+        State at the start; replaced by the last one.
+    ahead : float
+        Forcing periods from the start to the first strobe.
+    strobe : float
+        Number of the first strobe.
+    tolerance : float
+        Local error allowed.
+    limit : int
+    path : array, shape (limit + 2, 5)
+        Gets rows (forcing periods, state), one at the start and one at each strobe.
+    out : records.MOTION
+        Gets outcome, period and periods_run, and the state on the orbit if the motion settled.
     """
     out["outcome"], out["period"], out["maximum_displacement"] = UNRESOLVED, 0, np.nan
     path[0, 0], path[0, 1:] = strobe - ahead, y
@@ -72,25 +86,25 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
-    """Go on for `wait` forcing periods after a strobe, switch, `run`, and measure what settles.
+    """Wait after a strobe, switch the damper, `run`, and measure the motion if it has settled.
 
     Parameters
     ----------
     before, after : array, shape (packed.COUNT,)
         Packed parameters before and after the switching, one of them without the damper.
     y : array, shape (4,)
-        State at the strobe; replaced by that at the last one.
+        State at the strobe; replaced by the state at the last strobe.
     wait : float
         Forcing periods from the strobe to the switching.
     place : float
-        Where in the gap, from -1 to 1, the loose mass is when the damper is switched on, at
-        rest relative to the primary; switched off, it is of no account.
+        Z2/d0 of the loose mass when the damper is switched on, at rest relative to the primary;
+        without effect when it is switched off.
     strobe : float
         Number of the first strobe.
     tolerance, limit, path
         As in `run`.
     out : array of records.MOTION, shape (1,)
-        Gets what `run` finds and, of a settled motion, what `measure` does.
+        Filled by `run` and, for a settled motion, by `measure`.
 
     Returns
     -------
@@ -114,7 +128,19 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
 
 
 def life(p, path, record, tolerance):
-    """Forcing periods until a run came within CAPTURE of the orbit it settled on, for good."""
+    """Return the forcing periods after which a run stays within CAPTURE of its final orbit.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    path : array
+        As from `run`.
+    record : records.MOTION
+        The motion on which the run settled.
+    tolerance : float
+        Local error allowed.
+    """
     orbit = np.empty((record["period"], 4))
     begin = strobe_time(p)
     strobes = begin + np.arange(len(orbit)) * 2.0 * math.pi / p[FREQUENCY]

@@ -12,9 +12,7 @@ from tqdm import tqdm
 from impact_damper.motions.records import MOTION, measure
 from impact_damper.motions.settling import settle_many
 from impact_damper.system import packed
-from impact_damper.system.bounds import (
-    check_count,
-)
+from impact_damper.system.bounds import check_count
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.settling import Settling
 

@@ -114,37 +114,37 @@ def _end_event(record, multiplier, beyond):
     return "fold"
 
 
-def _follow(here, there, index, settling, links, ends):
+def _follow(source, target, index, settling, links, ends):
     """Follow all motions of one catalogue to the next value of the parameter.
 
-    Motions found there are entered in the catalogue `there`; `links` gets pairs of numbers of
+    Motions reached are entered in the catalogue `target`; `links` gets pairs of numbers of
     motions on one branch, `ends` a dictionary for each branch that ends on the way.
     """
     followed = [
-        follow_stable(here.p, record["state"], record["period"], index, there.p[index])
+        follow_stable(source.p, record["state"], record["period"], index, target.p[index])
         if is_settled(record)
-        else (here.p, StrobeOrbit(record["state"], complex(np.nan)))
-        for record in here.records
+        else (source.p, StrobeOrbit(record["state"], complex(np.nan)))
+        for record in source.records
     ]
     states = np.array([orbit.state for _, orbit in followed]).reshape(-1, 4)
-    rows = np.tile(there.p, (len(states), 1))
+    rows = np.tile(target.p, (len(states), 1))
     settled = ensemble.settle(rows, states, settling, from_strobe=True)
-    for i, (record, beyond) in enumerate(zip(list(here.records), settled, strict=True)):
+    for i, (record, beyond) in enumerate(zip(list(source.records), settled, strict=True)):
         p, (state, multiplier) = followed[i]
-        j = there.add(beyond, "followed")
+        j = target.add(beyond, "followed")
         if not is_settled(record):
             continue
-        arrived = p[index] == there.p[index]
+        arrived = p[index] == target.p[index]
         if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
-            links.append((here.numbers[i], there.numbers[j]))
+            links.append((source.numbers[i], target.numbers[j]))
             continue
         last = measured(p, state, int(record["period"]), settling.tolerance)
         ends.append(
             {
                 "end_value": p[index],
-                "end_motion": here.numbers[i],
+                "end_motion": source.numbers[i],
                 "end_direction": flag(
-                    "end_direction", "up" if there.p[index] > p[index] else "down"
+                    "end_direction", "up" if target.p[index] > p[index] else "down"
                 ),
                 "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
                 "end_displacement": last["maximum_displacement"],
@@ -238,8 +238,8 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
     # the second sweep upward also follows motions that the sweep downward found
     for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
         ends[turn] = []
-        for here, there in zip(order, order[1:], strict=False):
-            _follow(here, there, index, settling, links, ends[turn])
+        for source, target in zip(order, order[1:], strict=False):
+            _follow(source, target, index, settling, links, ends[turn])
     branches = _branches(catalogues, links)
     ends = ends["down"] + ends["up"]
     data = _tables(catalogues, branches, dimension)

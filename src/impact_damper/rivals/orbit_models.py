@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rebound, rigid_map
-from impact_damper.contact.rigid_orbits import mended, mended_orbit, rigid_orbit
+from impact_damper.contact.rigid_orbits import mended_orbit, mended_walls, rigid_orbit
 from impact_damper.kernel.single import step, workspace
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.orbits.shooting import find_orbit
@@ -238,7 +238,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
     better, _ = mended_orbit(oscillator, damper, frequency, orbit, REACH)
     if better is None:
         return models | {"rigid_mended": without("failed", work)}
-    p[CLEARANCE], restitution = mended(oscillator, damper, orbit)
+    p[CLEARANCE], restitution = mended_walls(oscillator, damper, orbit)
     run = rigid(p, restitution, better.state, strobe_time(p), 1, POLISH_TOLERANCE)
     phases = _phases(p, run)
     work += better.maps * each

@@ -10,7 +10,13 @@ from dataclasses import replace
 import numpy as np
 
 from impact_damper.contact.contact_law import EXIT_RULES, contact, damping_ratio, tension
-from impact_damper.contact.logged_contacts import CLOSE, FAIR, SIZES, extreme_motions, scene
+from impact_damper.contact.logged_contacts import (
+    CLOSE,
+    FAIR,
+    SIZES,
+    compare_contacts,
+    extreme_motions,
+)
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.contact import SCENE, VARIABLES
 from impact_damper.system.bounds import check_count, check_number
@@ -20,7 +26,7 @@ from impact_damper.system.settling import check_settling
 
 LINEAR = 1e-3
 LOG = ("contact_used", "contact_row", "contact_size")
-SEEN = {
+LOGGED = {
     "load": "contact_load",
     "restitution": "contact_restitution",
     "duration": "contact_time",
@@ -174,19 +180,19 @@ def _motions(oscillator, dampers, frequencies, starts, periods, seed, settling):
         if entry.dims == SCENE
     }
     log = {name: [np.empty(0, np.int64)] for name in LOG} | {
-        name: [np.empty(0)] for name in SEEN.values()
+        name: [np.empty(0)] for name in LOGGED.values()
     }
     for i, damper in enumerate(dampers):
         for j, frequency in enumerate(frequencies):
             found = extreme_motions(oscillator, damper, frequency, starts, [seed, i, j], settling)
             for k, motion in enumerate(found):
-                row, seen = scene(oscillator, damper, frequency, motion, periods)
+                row, logged = compare_contacts(oscillator, damper, frequency, motion, periods)
                 for name, value in row.items():
                     table[name][i, j, k] = value
-                if seen is None:
+                if logged is None:
                     continue
                 for name, place in zip(LOG, (i, j, k), strict=True):
-                    log[name].append(np.full(len(seen["load"]), place))
-                for name, column in SEEN.items():
-                    log[column].append(seen[name])
+                    log[name].append(np.full(len(logged["load"]), place))
+                for name, column in LOGGED.items():
+                    log[column].append(logged[name])
     return table | {name: np.concatenate(parts) for name, parts in log.items()}

@@ -20,7 +20,7 @@ from impact_damper.migration.damper_release import (
     release_data,
     settled_motions,
     transient_data,
-    watch,
+    watch_runs,
 )
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import MOST_SEED
@@ -93,15 +93,15 @@ def migrate(
     settling = check_settling(settling)
     if not isinstance(seed, np.random.SeedSequence):
         check_count("seed", seed, least=0, most=MOST_SEED)
-    here, made = _checked(
+    case, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )
-    path, log = control(here, draw(seed, switchings), longest_hold, settling, periods)
+    path, log = control(case, draw(seed, switchings), longest_hold, settling, periods)
     totals = run_totals(log)
     log = log[: totals["switchings"]]
-    times, displacement = course(here, path, log, settling.tolerance)
+    times, displacement = course(case, path, log, settling.tolerance)
     data = {"displacement": displacement}
-    data |= {name: ("switching", values) for name, values in switching_data(log, here).items()}
+    data |= {name: ("switching", values) for name, values in switching_data(log, case).items()}
     data |= {name: ((), value) for name, value in totals.items()}
     return dataset(data, {"time": times}, made, "Migration control, one run")
 
@@ -189,7 +189,7 @@ def trials(
     check_count("releases", releases, most=10**6)
     check_count("lifetime", lifetime, least=100, most=10**7)
     check_count("seed", seed, least=0, most=MOST_SEED)
-    here, made = _checked(
+    case, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )
     runs, watched = (
@@ -203,20 +203,20 @@ def trials(
 
     def work(part):
         for i in range(part.start, part.stop):
-            _, logs[i] = control(here, draws[i], longest_hold, settling, periods)
+            _, logs[i] = control(case, draws[i], longest_hold, settling, periods)
 
     ensemble.run_chunks(work, trials, workers, progress, size=8)
     totals = run_totals(logs)
     logs = logs[:, : np.max(totals["switchings"])]
-    data = switching_data(logs, here)
+    data = switching_data(logs, case)
     example = _example(totals)
-    path, log = control(here, draws[example], longest_hold, settling, periods)
-    times, displacement = course(here, path, log, settling.tolerance)
+    path, log = control(case, draws[example], longest_hold, settling, periods)
+    times, displacement = course(case, path, log, settling.tolerance)
     data |= totals | _summary(data, totals) | {"example": example, "displacement": displacement}
-    lives, motions, entries = watch(here, watched, lifetime, settling, workers, progress)
-    life, coordinates = transient_data(lives, motions, lifetime, here.known)
+    lives, motions, entries = watch_runs(case, watched, lifetime, settling, workers, progress)
+    life, coordinates = transient_data(lives, motions, lifetime, case.known)
     records = settled_motions(oscillator, damper, frequency, seed, settling, workers, motions)
-    data |= life | release_data(here, records, entries, settling)
+    data |= life | release_data(case, records, entries, settling)
     coordinates |= {
         "time": times,
         "bound": BOUNDS,

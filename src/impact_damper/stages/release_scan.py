@@ -5,7 +5,12 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.shares import BOUNDS, LEAD
 from impact_damper.data.variables import VARIABLES
-from impact_damper.migration.damper_release import DESTINATIONS, release_case, release_data, watch
+from impact_damper.migration.damper_release import (
+    DESTINATIONS,
+    release_case,
+    release_data,
+    watch_runs,
+)
 from impact_damper.motions import records
 from impact_damper.stages.response import frequency_response
 from impact_damper.system.bounds import check_count
@@ -95,10 +100,12 @@ def release_scan(
     )
     seeds = np.random.SeedSequence(seed).spawn(len(cases))
     rows = []
-    for i, here in enumerate(cases):
-        _, _, entries = watch(here, seeds[i].spawn(releases), lifetime, settling, workers, None)
+    for i, case in enumerate(cases):
+        _, _, entries = watch_runs(
+            case, seeds[i].spawn(releases), lifetime, settling, workers, None
+        )
         rows.append(
-            release_data(here, _scan_records(response.isel(frequency=i)), entries, settling)
+            release_data(case, _scan_records(response.isel(frequency=i)), entries, settling)
         )
     width = max(len(row["damped_kind"]) for row in rows)
     names = (
