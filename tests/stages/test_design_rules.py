@@ -15,7 +15,7 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.tables.clearance import RULE_NAMES, SWEEPS
 from impact_damper.tables.clearance import design_rules as table_of
-from impact_damper.theory.clearance_rules import CRITERIA, RULES
+from impact_damper.theory.optimum_clearance import CRITERIA, RULES
 
 PAPER = Oscillator(0.215)
 GIVEN = {"mass_ratio": 0.25, "restitution": 0.75, "contact_stiffness": 2000.0}

@@ -1,8 +1,8 @@
-"""How well each rule for the clearance predicts the optimum of the motion itself.
+"""Accuracy of each rule for the clearance: its prediction against the optimum of the exact motion.
 
-The quiet motion is found by Newton's method on its exact orbit, from the state that the theory of
-`flight` puts it in, whatever its stability. Clearances are given as rm W^2 d0, which rule (18)
-sets to 1, and displacements as W^2 Z1.
+The quiet motion is computed by Newton's method on its exact orbit, stable or unstable, started from
+the state that `theory.straight_flight` predicts. Clearances are given as rm W^2 d0, which is 1 by
+rule (18), and displacements as W^2 Z1.
 """
 
 import itertools
@@ -18,7 +18,7 @@ from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper, describe
-from impact_damper.theory.clearance_rules import CRITERIA, RULES, rule_ratios
+from impact_damper.theory.optimum_clearance import CRITERIA, RULES, rule_ratios
 from impact_damper.theory.straight_flight import (
     flight_of,
 )
@@ -61,8 +61,8 @@ def design_rules(
         - balance, equation (18): 1;
         - gap_harmonic, pi^2/8: as (18), the loose mass crossing the gap in straight lines;
         - straight_flight: rigid walls, neither damping nor stiffness;
-        - elastic: `flight.elastic_ratios`, explicit, absent for e < 1;
-        - flight: the theory of `flight` with all its corrections.
+        - elastic: `straight_flight.elastic_ratios`, explicit, absent for e < 1;
+        - flight: `straight_flight.Flight` with all corrections.
 
     Raises
     ------

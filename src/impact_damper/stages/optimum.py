@@ -69,7 +69,7 @@ def clearance_sweep(
         minimum it is, both for the motion and for (7); rules (18) and (19); rm W^2 d0 at the
         optimum and which shares of its excess over 1 two corrections of (18) explain: that
         of the first harmonic for a loose mass that flies straight, pi^2/8, and
-        `optimum_theory.straight_flight_ratio`. Over `edge` the range of clearance within 10 % of
+        `optimum_clearance.straight_flight_ratio`. Over `edge` the range of clearance within 10 % of
         the minimum.
 
     Raises

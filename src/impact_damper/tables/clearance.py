@@ -6,7 +6,7 @@ import pandas as pd
 from impact_damper.claims import extract
 from impact_damper.data.datasets import damper_of, flag, oscillator_of, parameters_of
 from impact_damper.tables.columns import parameter_columns
-from impact_damper.theory.clearance_rules import RULES, rule_ratios
+from impact_damper.theory.optimum_clearance import RULES, rule_ratios
 
 WITHIN = (1, 2, 5, 10)  # errors counted, in per cent
 RULE_NAMES = {

@@ -1,4 +1,4 @@
-"""The optimum clearance by harmonic balance and by straight flight, to compare with simulations."""
+"""The optimum clearance by harmonic balance, by straight flight and by rules for designers."""
 
 from dataclasses import replace
 
@@ -8,12 +8,21 @@ from scipy.optimize import brentq
 from impact_damper.data.datasets import flag
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
-from impact_damper.theory.straight_flight import Flight, least_displacement_ratio
+from impact_damper.theory.straight_flight import (
+    Flight,
+    elastic_ratios,
+    flight_of,
+    least_displacement_ratio,
+    least_harmonic_ratio,
+)
 
 # rm W^2 d0 at which the first harmonic of a straight flight between rigid walls spans the gap.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # A solution of (7) with a smaller |a| counts as a = 0.
 ZERO_AMPLITUDE = 1e-6
+# Quantities that are smallest at the optimum, and rules for the clearance.
+CRITERIA = ("displacement", "first_harmonic")
+RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
@@ -113,3 +122,35 @@ def excess_table(ratio, damper):
         "first_harmonic_share": (harmonic - 1) / (ratio - 1),
         "straight_flight_share": (straight - 1) / (ratio - 1),
     }
+
+
+def rule_ratios(oscillator, damper, frequency):
+    """Return rm W^2 d0 by each rule for each criterion.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+        Its clearance is not used.
+    frequency : float
+        W, dimensionless, above omega_l.
+
+    Returns
+    -------
+    numpy.ndarray, shape (2, 5)
+        Dimensionless, in the order of `CRITERIA` and `RULES`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `straight_flight.flight_of`.
+    """
+    flight = flight_of(oscillator, damper, frequency)
+    straight = Flight(damper.mass_ratio, damper.restitution)
+    elastic = elastic_ratios(flight)
+    return np.array(
+        [
+            [1.0, FIRST_HARMONIC_RATIO, least(straight), elastic[i], least(flight)]
+            for i, least in enumerate((least_displacement_ratio, least_harmonic_ratio))
+        ]
+    )
