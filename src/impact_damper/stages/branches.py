@@ -1,4 +1,4 @@
-"""Periodic orbits with labels: one of them, a branch in any parameter, all branches of a response.
+"""Periodic orbits as labelled datasets: one orbit, a branch, and all branches of a response.
 
 Orbits may be stable or not, of any period, and touch the walls in any sequence.
 """
@@ -21,12 +21,13 @@ from impact_damper.system.families import LINEAR, family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import describe
 
-# At a slower contact the 3/2-power term of the map at grazing is felt.
+# Relative speed at the beginning of a contact below which the 3/2-power term of the map at grazing
+# matters, so that multipliers are less accurate.
 SLOW = 0.01
 
 
 def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STROBE):
-    """The periodic orbit near a state, by Newton's method.
+    """Find the periodic orbit near a state by Newton's method.
 
     Parameters
     ----------
@@ -37,15 +38,15 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
     state : sequence of 4 floats, or 2 without a damper
         Z1, Z1', Z2, Z2' near the orbit.
     period : int
-        Its period n in forcing periods.
+        Period n of the orbit in forcing periods.
     phase : float
         Phase W T of the state, radian.
 
     Returns
     -------
     xarray.Dataset
-        The orbit as in `orbit_branch`, one point; and over `contact` walls, times and relative
-        speeds of its contacts. The phase of the state is moved into flight.
+        The orbit as one point of a dataset of `orbit_branch`, its state given at a phase in flight;
+        over `contact` walls, times and relative speeds of its contacts.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
     ArithmeticError
         If Newton's method does not converge.
     """
-    orbit = _found(oscillator, damper, frequency, state, period, phase)
+    orbit = _checked_orbit(oscillator, damper, frequency, state, period, phase)
     log = orbit.contacts
     data = _orbits([(frequency, orbit)]) | {
         "orbit_branch": np.zeros(1, int),
@@ -69,7 +70,7 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
 
 
 def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequency", period=1):
-    """The branch of orbits through the one near a state, followed in a parameter.
+    """Follow the branch of orbits through the orbit near a state, in one parameter.
 
     Parameters
     ----------
@@ -86,9 +87,9 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
         Over `point` the orbits in order along the branch: parameter, largest displacement,
         stability, multipliers, contacts, state and its phase, status, residual, error of
         Liouville's determinant. Over `event` folds, symmetry breakings, period doublings,
-        Neimark-Sacker points, and changes of contact, which are grazing (a contact is born in
-        flight) or merging (two contacts of a wall become one). Over (branch, edge) what ends the
-        branch.
+        Neimark-Sacker bifurcations, and changes of contact, which are grazing (a contact appears in
+        flight) or merging (two contacts with a wall become one). Over (branch, edge) the reasons
+        why the branch ends.
 
     Raises
     ------
@@ -98,7 +99,7 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
         If Newton's method finds no orbit near the state.
     """
     family, value, span = family_of(oscillator, damper, frequency, parameter, span)
-    orbit = _found(oscillator, damper, frequency, state, period, STROBE)
+    orbit = _checked_orbit(oscillator, damper, frequency, state, period, STROBE)
     branch = follow_branch(family, orbit, value, span)
     made = describe(oscillator, damper) | {
         "frequency": float(frequency),
@@ -110,7 +111,7 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
 
 
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
-    """Every branch of orbits over frequency on which settled motions lie, as far as it goes.
+    """Follow all branches of orbits over frequency on which settled motions lie.
 
     Parameters
     ----------
@@ -164,7 +165,7 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
 
 
 def _summary(branches, seeds, lost):
-    """Text: numbers of motions, branches, orbits, events by kind and ends by reason."""
+    """Return as text the numbers of motions, branches, orbits, events and ends of branches."""
 
     def listed(names):
         counts = Counter(names)
@@ -180,8 +181,8 @@ def _summary(branches, seeds, lost):
     )
 
 
-def _found(oscillator, damper, frequency, state, period, phase):
-    """The orbit near a state, or an error that says what is wrong or that there is none."""
+def _checked_orbit(oscillator, damper, frequency, state, period, phase):
+    """Check arguments and return the orbit near a state; errors as of `periodic_orbit`."""
     check_count("period", period, most=1000)
     check_number("phase", phase, least=-1e6, most=1e6)
     p = pack(oscillator, damper, frequency)
@@ -195,7 +196,7 @@ def _found(oscillator, damper, frequency, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Period, frequency, largest displacement and state of the settled motions of datasets."""
+    """Yield period, frequency, max |Z1| and state of the settled motions of datasets."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:
@@ -211,7 +212,7 @@ def _seeds(motions, damper):
 
 
 def _status(orbit):
-    """Flag that says how far an orbit and its multipliers can be relied on."""
+    """Return the flag `orbit_status`: how reliable an orbit and its multipliers are."""
     if not orbit.converged:
         return flag("orbit_status", "not_converged")
     slow = orbit.touching > 0 and orbit.least_speed < SLOW
@@ -219,7 +220,7 @@ def _status(orbit):
 
 
 def _orbits(pairs):
-    """Columns over `point` of pairs of a parameter and its orbit."""
+    """Return registered variables over `point` of pairs of a parameter value and an orbit."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = [orbit.record for orbit in orbits]
     first, second = (
@@ -250,7 +251,21 @@ def _orbits(pairs):
 
 
 def branches_dataset(branches, back, parameters, title):
-    """Dataset of branches; `back` takes the coordinate along a branch to the parameter."""
+    """Return a dataset of branches.
+
+    Parameters
+    ----------
+    branches : list of Branch
+    back : callable
+        Maps the coordinate in which the branches were followed to the parameter.
+    parameters : dict
+        Parameters of the dataset, as from `describe`.
+    title : str
+
+    Returns
+    -------
+    xarray.Dataset
+    """
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [

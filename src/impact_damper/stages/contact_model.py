@@ -1,8 +1,8 @@
-"""The contact model over restitution and load, and the contacts of real motions in it.
+"""The contact model over restitution and load, and the contacts of simulated motions in it.
 
-Restitution e by (25) holds for an isolated contact that ends at zero penetration. Other forces
-load a contact, and walls that cannot pull end it sooner: the map says by how much either one
-changes what the contact returns. Contacts of simulated motions say where in the map a damper works.
+The restitution e by (25) is that of a contact without other forces that ends at zero penetration.
+Other forces load a contact, and walls that cannot pull end it sooner; the map gives the realised
+restitution with either. Contacts of simulated motions show in which part of the map a damper works.
 """
 
 from dataclasses import replace
@@ -24,7 +24,9 @@ from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
+# Load up to which the loads of the map are spread evenly.
 LINEAR = 1e-3
+# Variables over all contacts: indices of their motion, and quantities of `logged_contacts`.
 LOG = ("contact_used", "contact_row", "contact_size")
 LOGGED = {
     "load": "contact_load",
@@ -48,7 +50,7 @@ def contact_model(
     seed=1995,
     settling=None,
 ):
-    """The contact model over restitution and load, and the contacts of motions of one damper.
+    """Map the contact model over restitution and load, and log the contacts of simulated motions.
 
     Parameters
     ----------
@@ -56,13 +58,13 @@ def contact_model(
     damper : Damper
         Its restitution is replaced by those of `used`.
     frequencies : sequence of float
-        Increasing forcing frequencies W at which motions are looked at, dimensionless.
+        Increasing forcing frequencies W of the motions, dimensionless.
     restitutions, loads : sequence of float
         Increasing e and G = g/(wn v0) of the map, dimensionless.
     used : sequence of float
         Increasing restitutions of the motions.
     starts : int
-        Random starts that motions are looked for from, at each restitution and frequency.
+        Number of random starts of the search for motions at each restitution and frequency.
     periods : int
         Forcing periods over which the contacts of a motion are logged.
     seed : int
@@ -71,7 +73,7 @@ def contact_model(
     Returns
     -------
     xarray.Dataset
-        Over (exit_rule, load, restitution) the closed form; over `used` what it says without
+        Over (exit_rule, load, restitution) the closed form; over `used` the closed form without
         load; over (used, frequency, size) the motions; and over `contact` all contacts.
 
     Raises
@@ -109,14 +111,14 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Loads from -largest to largest, evenly spread below LINEAR and in their logarithm above."""
+    """Return loads from -largest to largest, spread evenly below LINEAR, by logarithm above."""
     check_number("largest", largest, above=0.0, most=1e3)
     check_count("count", count, least=2, most=10**5)
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
 def contact_map(restitutions, loads):
-    """Registered variables, over exit rule, load and restitution, of the contact in closed form.
+    """Return registered variables of the contact in closed form, over rule, load and restitution.
 
     Parameters
     ----------
@@ -150,7 +152,7 @@ def contact_map(restitutions, loads):
 
 
 def _verdict(found, restitution):
-    """What a contact came to, or how far its restitution is from the intended one."""
+    """Return the outcome of a contact, or a word for the error of its restitution if released."""
     if found.outcome != "released":
         return found.outcome
     error = abs(found.departure / restitution - 1)
@@ -158,7 +160,7 @@ def _verdict(found, restitution):
 
 
 def unloaded_table(restitutions):
-    """What (25) comes to without a load: the closed form that claim 15 rests on."""
+    """Return registered variables of contacts without load, by (25), over the restitution."""
     ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
     pulls = [tension(e, 0.0) for e in restitutions]
     return {
@@ -172,7 +174,7 @@ def unloaded_table(restitutions):
 
 
 def _motions(oscillator, dampers, frequencies, starts, periods, seed, settling):
-    """Registered variables of the motions and of all their contacts."""
+    """Return registered variables of the motions and of all their contacts."""
     shape = len(dampers), len(frequencies), len(SIZES)
     table = {
         name: np.zeros(shape, np.int64) if name in COUNTED else np.full(shape, np.nan)

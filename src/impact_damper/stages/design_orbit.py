@@ -1,8 +1,8 @@
-"""The true quiet orbit at a design point, stable or not.
+"""The exact quiet orbit at a design point, stable or not.
 
-Harmonic balance designs a damper for the peak frequency. The orbit it stands for may be unstable
-there, where no simulation finds it: with heavy damping every motion settles on it, and from there
-it is followed in the damping h down to that of the oscillator.
+Harmonic balance designs a damper for the peak frequency. The orbit that its solution approximates
+may be unstable, so that no simulation finds it. With heavy damping every motion settles on the
+orbit, which is then followed down to the damping h of the oscillator.
 """
 
 from dataclasses import replace
@@ -21,29 +21,31 @@ from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 
+# Heavy damping h; twice that of the oscillator if this is more.
 HEAVY = 2.0
 
 
 def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settling=None):
-    """The quiet orbit at the peak frequency Wp of rule (19), followed in the damping h.
+    """Find the quiet orbit at the peak frequency Wp of rule (19), and follow it in the damping h.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     starts : int
-        Random starts with heavy damping, h = 2 or twice that of the oscillator.
+        Number of random starts with heavy damping.
     radius : float
-        Radius of the ball from which they are drawn, within the gap.
+        Radius of the ball from which starts are drawn, within the gap.
     seed : int
     settling : Settling, optional
 
     Returns
     -------
     xarray.Dataset
-        As of `periodic.orbit_branch` in the damping, from that of the oscillator up to the heavy
-        one; whether the orbit was found, and followed to the oscillator; over `design_start` what
-        the same starts come to with the oscillator's own damping; and `peak_frequency`.
+        As from `branches.orbit_branch` in the damping, from that of the oscillator up to the heavy
+        one; `design_orbit_status`, whether the orbit was found and followed to the oscillator; over
+        `design_start` the outcomes of the same starts with the damping of the oscillator; and
+        `peak_frequency`.
 
     Raises
     ------

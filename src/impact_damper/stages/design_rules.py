@@ -40,7 +40,7 @@ IMPULSES = 400
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Optimum clearances over a grid of dampers and frequencies, and what rules make of them.
+    """Find optimum clearances over a grid of dampers and frequencies, and the errors of rules.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def design_rules(
 
 
 def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
-    """Optima by both criteria, and what each rule makes of them."""
+    """Return the registered variables of one damper and frequency."""
     damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
     rules = rule_ratios(oscillator, damper, frequency)
     motion = QuietMotion(oscillator, damper, frequency)
@@ -120,7 +120,16 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The symmetric motion of period 1 with two contacts, over the ratio rm W^2 d0."""
+    """The symmetric motion of period 1 with two contacts, over the ratio rm W^2 d0.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+        Of any clearance.
+    frequency : float
+        W.
+    """
 
     def __init__(self, oscillator, damper, frequency):
         flight = flight_of(oscillator, damper, frequency)
@@ -137,9 +146,9 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T
 
     def at(self, ratio):
-        """W^2 max |Z1|, W^2 |first harmonic of Z1|, and the dominant multiplier's modulus.
+        """Return W^2 max |Z1|, W^2 |first harmonic of Z1|, and |dominant multiplier|.
 
-        Infinite, infinite and NaN where there is no such motion.
+        Without such a motion at the ratio, infinity, infinity and NaN.
         """
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
@@ -159,10 +168,21 @@ class QuietMotion:
         return *(p[FREQUENCY] ** 2 * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """The ratio where a size is least, and the kind of minimum; downhill from a guess.
+        """Return the ratio of a local minimum, downhill from a guess, and the kind of minimum.
 
-        The kind is `edge` where MOST_STEPS do not lead to a minimum, `jump` where the motion ends
-        before it.
+        Parameters
+        ----------
+        criterion : int
+            What is minimised: 0 for max |Z1|, 1 for the first harmonic.
+        guess : float
+
+        Returns
+        -------
+        ratio : float
+            NaN if there is no motion at the guess.
+        kind : str
+            "smooth" or "kink"; "edge" if MOST_STEPS do not lead to a minimum, "jump" if the motion
+            ends before it, "not_found".
         """
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
@@ -192,10 +212,17 @@ class QuietMotion:
 
 
 def first_harmonic(p, y) -> complex:
-    """Complex amplitude c of Re(c exp(i W T)) in Z1, of an orbit of period 1 by its strobe state.
+    """Return the complex amplitude c of Re(c exp(i W T)) in Z1.
 
-    From SAMPLES of a period by the trapezoidal rule, whose error for a kink in Z1 is of second
-    order: below 1e-5 of what an impact adds.
+    It is computed from SAMPLES of a period by the trapezoidal rule, whose error for a kink in Z1
+    is of second order: below 1e-5 of the contribution of an impact.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    y : array, shape (4,)
+        State of an orbit of period 1 at W T = pi/2.
     """
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)

@@ -1,4 +1,4 @@
-"""Migration control: the loop of figure 17, which leads the free oscillator to its goal."""
+"""Migration control: the controller of figure 17, from resonance to non-resonance branch."""
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
+# Forcing periods within which the paper's controller reaches the goal.
 PAPER_CYCLES = 350
 
 
@@ -59,7 +60,7 @@ def migrate(
     switchings=100,
     settling=None,
 ):
-    """One run of the controller of figure 17, from the resonance branch.
+    """Run the controller of figure 17 once, from the resonance branch.
 
     Parameters
     ----------
@@ -68,11 +69,11 @@ def migrate(
     frequency : float
         Forcing frequency at which both free period-1 motions exist, dimensionless.
     seed : int or numpy.random.SeedSequence
-        Of the switching phases and of the places of the loose mass.
+        Seed of the switching phases and of the places of the loose mass.
     longest_hold : int
         Forcing periods after which the damper is switched off though its motion has not settled.
     periods : int
-        Forcing periods after which no switching begins any more.
+        Forcing periods after which no switching begins.
     switchings : int
         Largest number of switchings.
     settling : Settling, optional
@@ -107,7 +108,7 @@ def migrate(
 
 
 def _example(totals):
-    """The first run whose number of switchings is the lower median of those that arrive."""
+    """Return the first run with the median number of switchings of the runs that reach the goal."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -116,7 +117,7 @@ def _example(totals):
 
 
 def _summary(logs_data, totals):
-    """Registered shares and counts over all runs."""
+    """Return registered shares and counts over all runs."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     number = len(reached)
     count = [
@@ -153,7 +154,7 @@ def trials(
     workers=1,
     progress=None,
 ):
-    """Many runs of the controller, where releases lead, and the life of the violent motion.
+    """Run the controller many times, release damped motions, and time the violent motion.
 
     Parameters
     ----------

@@ -1,8 +1,7 @@
-"""Largest displacement against clearance, and the clearance where it is least (figures 6, 7, 11).
+"""Largest displacement against clearance, and its minimum (figures 6, 7 and 11).
 
-The quiet motion repeats every forcing period, is symmetric and has two contacts in it. The
-branch that holds it at the clearance nearest to rule (18) is followed over the sweep, and
-its largest displacement is what the figures draw.
+The displacement is that of the quiet motion, which has the period of the forcing, is symmetric and
+has two contacts a period. Its branch is the one at the clearance nearest to rule (18).
 """
 
 from typing import NamedTuple
@@ -46,7 +45,7 @@ def clearance_sweep(
     workers=1,
     progress=None,
 ):
-    """Motions over a sweep of the clearance, and the optimum clearance refined on them.
+    """Find all motions over a sweep of the clearance, and the optimum clearance.
 
     Parameters
     ----------
@@ -141,20 +140,24 @@ class _Branch(NamedTuple):
     displacements: np.ndarray
 
     def follow(self, start, clearance):
-        """Parameters and orbit at which following from the point nearest to `start` ends."""
+        """Follow from the point nearest to `start` to a clearance; return as `follow_stable`."""
         away = np.abs(self.parameters[:, CLEARANCE] - start)
         k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
         return follow_stable(self.parameters[k], self.states[k], 1, CLEARANCE, clearance)
 
     def displacement(self, clearance):
-        """max |Z1| at a clearance, infinite where the branch has ended."""
+        """Return max |Z1| at a clearance, infinity beyond the end of the branch."""
         p, orbit = self.follow(clearance, clearance)
         if p[CLEARANCE] != clearance:
             return np.inf
         return measured(p, orbit.state, 1, POLISH_TOLERANCE)["maximum_displacement"]
 
     def limit(self, clearance, step):
-        """The next point of the sweep, or the end of branch or sweep if that comes first."""
+        """Return the next clearance of the sweep in a direction (-1 or 1), and "crossed".
+
+        If the branch ends before it, its end and "branch_ends"; at the end of the sweep, the
+        clearance itself and "sweep_ends".
+        """
         grid = self.parameters[:, CLEARANCE]
         beyond = grid[grid > clearance][:1] if step > 0 else grid[grid < clearance][-1:]
         if len(beyond) == 0:
@@ -166,7 +169,10 @@ class _Branch(NamedTuple):
 
 
 def _quiet_branch(data, parameters, rule):
-    """The branch of the quiet motion nearest to a clearance, absent everywhere if there is none."""
+    """Return the branch of the quiet motion nearest to the clearance `rule`.
+
+    It is absent everywhere if there is no quiet motion.
+    """
     table = {
         name: data[name][1]
         for name in (
@@ -213,13 +219,13 @@ def _quiet_table(branch):
 
 
 def _largest(data):
-    """max |Z1| over the motions that random starts reach."""
+    """Return the largest max |Z1| of the motions that random starts reach, over the clearance."""
     sizes = np.where(data["share"][1] > 0, data["maximum_displacement"][1], -np.inf)
     return np.max(sizes, axis=1)
 
 
 def _optimum_table(branch):
-    """The least max |Z1| of a branch, what kind of minimum it is, and the range near it."""
+    """Return registered variables of the minimum of max |Z1|, its kind, and the range near it."""
     if not np.isfinite(branch.displacements).any():
         return {
             "optimum_clearance": np.nan,
@@ -252,9 +258,10 @@ def _optimum_table(branch):
 
 
 def _kind(branch, best, least, longest):
-    """Smooth or kink: as the step is halved the rise on both sides falls fourfold or twofold.
+    """Return "smooth" or "kink" for a minimum.
 
-    No step goes beyond `longest`, where the branch may end.
+    When a step away from it is halved, max |Z1| rises by a quarter at a smooth minimum, by half
+    at a kink. No step is longer than `longest`, because the branch may end beyond.
     """
     rises = [
         branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
@@ -264,7 +271,10 @@ def _kind(branch, best, least, longest):
 
 
 def _near(branch, best, level, step):
-    """Where max |Z1| reaches a level on one side of the optimum, or what ends the branch before."""
+    """Return the clearance where max |Z1| reaches a level on one side of the optimum.
+
+    It comes with "crossed"; if branch or sweep ends before, the end and the event of `limit`.
+    """
     outside, event = best, "crossed"
     while event == "crossed":
         inside = outside

@@ -1,4 +1,4 @@
-"""Where releases of the damper lead at each forcing frequency."""
+"""Motions to which releases of the damper lead, over frequency."""
 
 import numpy as np
 
@@ -19,7 +19,10 @@ from impact_damper.system.settling import check_settling
 
 
 def _scan_records(response):
-    """Records of the settled motions at one frequency of a frequency response."""
+    """Return records of the settled motions at one frequency of a frequency response.
+
+    Only the fields that `release_data` reads are set; the smallest motion comes first.
+    """
     keep = response["outcome"].values == flag("outcome", "settled")
     found = np.zeros(np.sum(keep), records.MOTION)
     for name in ("period", "maximum_displacement", "contacts", "state"):
@@ -28,7 +31,7 @@ def _scan_records(response):
 
 
 def _padded(values, length):
-    """Array with its first axis filled up to a length by what stands for nothing."""
+    """Return an array whose first axis is extended to a length by NaN, or by -1 for integers."""
     missing = np.full(
         (length - len(values), *values.shape[1:]),
         np.nan if values.dtype.kind == "f" else -1,
@@ -51,7 +54,7 @@ def release_scan(
     workers=1,
     progress=None,
 ):
-    """Where releases lead from every damped motion, at each frequency.
+    """Release the damper from every damped motion, at each frequency.
 
     Parameters
     ----------
@@ -62,7 +65,7 @@ def release_scan(
     starts : int
         Random starts a frequency; the motions found are followed in frequency as well.
     radius : float
-        Of the ball around rest from which the starts are drawn.
+        Radius of the ball around rest from which starts are drawn.
     releases : int
         Releases of each motion.
     lifetime : int

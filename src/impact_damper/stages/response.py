@@ -1,4 +1,4 @@
-"""Frequency response, and whether random starts lead to collisions."""
+"""All motions over frequency, and the share of random starts that lead to a collision."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ def frequency_response(
     workers=1,
     progress=None,
 ):
-    """All motions found at each frequency, from random starts and by following (section 3).
+    """Find all motions at each frequency, from random starts and by following (section 3).
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def frequency_response(
     frequencies : sequence of float
         Increasing forcing frequencies, dimensionless.
     starts : int
-        Random starts a frequency, uniform in a ball within the gap (`motions.random_states`).
+        Random starts at each frequency, uniform in a ball within the gap (`random_states`).
     radius : float
         Radius of that ball; 2 in the paper (section 3, iii).
     seed : int
@@ -88,13 +88,13 @@ def collisions(
     periods=200,
     tolerance=1e-9,
 ):
-    """Whether starts in the literal ball, and in the ball within the gap, lead to a collision.
+    """Count the random starts that lead to a collision, in the literal ball and within the gap.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper or None
-        Without a damper there is nothing to meet.
+        Without a damper no start collides.
     frequency : float
         Forcing frequency W, dimensionless.
     starts : int

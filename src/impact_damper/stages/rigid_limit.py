@@ -1,8 +1,8 @@
-"""How wrong rigid impacts are at a finite contact stiffness r1, over r1 and frequency.
+"""Errors of rigid impacts against compliant contact, over contact stiffness r1 and frequency.
 
-The subject is the quiet motion: period 1, two symmetric contacts. Its orbit with compliant
-contact is followed over the whole grid, that of the rigid model over frequency, whether stable
-or not; the two are compared cell by cell.
+Compared are the orbits of the quiet motion, of period 1 with two symmetric contacts, whether stable
+or not. The orbit with compliant contact is followed over the whole grid, the orbit of the rigid
+model over frequency.
 """
 
 from dataclasses import replace
@@ -20,28 +20,29 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
+# Errors of max |Z1| for which the stiffness needed is given.
 THRESHOLDS = (0.01, 0.1)
 # Largest distance of an orbit from its prediction.
 REACH = 0.1
-# The order is observed where the contact is short.
+# The order of the error in r1 is fitted from this r1 on, where contacts are short.
 STIFF = 1e4
 
 
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling=None
 ):
-    """Rigid impacts against compliant contact, over stiffness and frequency.
+    """Compare rigid impacts with compliant contact, over frequency and stiffness.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     frequency : float
-        W at which the quiet motion is looked for, with the damper's r1; dimensionless.
+        W at which the quiet motion is searched for, with the r1 of the damper; dimensionless.
     frequencies, stiffnesses : sequence of float
         Increasing W and r1 of the grid, dimensionless; at least two each.
     starts : int
-        Random starts from which it is looked for.
+        Number of random starts of this search.
     seed : int
     settling : Settling, optional
 
@@ -49,13 +50,13 @@ def rigid_limit(
     -------
     xarray.Dataset
         Over (frequency, stiffness) the compliant orbit, the mended rigid one, errors and
-        verdict; over `frequency` the rigid orbit, observed orders, and the stiffness from which
-        on the error of max |Z1| is below each threshold; scalars for the damper's own r1.
+        verdict; over `frequency` the rigid orbit, observed orders, and the stiffness above which
+        the error of max |Z1| is below each threshold; scalars for the r1 of the damper itself.
 
     Raises
     ------
     ArithmeticError
-        If no start leads to a quiet motion.
+        If no start leads to a quiet motion, or it cannot be followed into the grid.
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
@@ -117,7 +118,7 @@ def rigid_limit(
 
 
 def _quiet(oscillator, damper, frequency, starts, seed, settling):
-    """The quiet motion's orbit from random starts."""
+    """Return the orbit of the quiet motion, reached from random starts, or raise."""
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
         p = pack(oscillator, damper, frequency)
@@ -147,7 +148,7 @@ def _reached(followed, key):
 
 
 def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
-    """Orbits of the mended rigid model by cell, and the status of each."""
+    """Return the orbits of the mended rigid model by cell, and their status in all cells."""
     orbits = {}
     flags = np.full((len(frequencies), len(stiffnesses)), flag("mended_status", "not_attempted"))
     for (i,), orbit in rigid.items():
@@ -161,7 +162,7 @@ def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
 
 
 def _columns(name, found, status):
-    """Registered variables of orbits by cell."""
+    """Return registered variables of a model from its orbits by cell."""
     displacement, multiplier = np.full(status.shape, np.nan), np.full(status.shape, np.nan + 0j)
     for cell, orbit in found.items():
         displacement[cell], multiplier[cell] = orbit.displacement, orbit.multiplier
@@ -174,7 +175,7 @@ def _columns(name, found, status):
 
 
 def _errors(data):
-    """Relative errors of max |Z1|, the error of the decay in a period, and the verdict."""
+    """Return relative errors of max |Z1|, errors of the modulus of the multiplier, and verdicts."""
     size = {
         name: np.hypot(data[f"{name}_multiplier_real"], data[f"{name}_multiplier_imaginary"])
         for name in ("compliant", "rigid")
@@ -203,7 +204,7 @@ def _errors(data):
 
 
 def _needed(stiffnesses, errors):
-    """Stiffness from which on |error| stays below each threshold, between two cells of the grid."""
+    """Return the stiffness above which |error| stays below each threshold, interpolated."""
     shape = len(THRESHOLDS), len(errors)
     needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
     for j, row in enumerate(np.abs(errors)):
@@ -224,7 +225,7 @@ def _needed(stiffnesses, errors):
 
 
 def _orders(stiffnesses, errors):
-    """Exponent n of |error| ~ r1^-n by least squares where r1 is at least STIFF, or NaN."""
+    """Return the exponents n of |error| ~ r1^-n, by least squares over r1 >= STIFF, or NaN."""
     orders = np.full(len(errors), np.nan)
     for i, row in enumerate(np.abs(errors)):
         used = np.isfinite(row) & (stiffnesses >= STIFF)

@@ -1,7 +1,7 @@
-"""The one-third subharmonic of the free oscillator, and what a damper makes of it.
+"""The one-third subharmonic of the free oscillator, and its suppression by a damper.
 
-Without the damper it is a symmetric motion of period 3. With the damper every motion is
-counted as one whose period is a multiple of 3.
+Without the damper the subharmonic is a symmetric motion of period 3. With the damper every motion
+whose period is a multiple of 3 counts as a subharmonic.
 """
 
 import numpy as np
@@ -47,16 +47,17 @@ def subharmonic_suppression(
     workers=1,
     progress=None,
 ):
-    """Motions with the damper wherever the free oscillator has its one-third subharmonic.
+    """Find all motions with the damper where the free oscillator has its one-third subharmonic.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     frequencies : sequence of float
-        Increasing frequencies W, dimensionless. The free subharmonic is sought from the first
-        to the last; the damped motions are sought at as many frequencies, spread over its range
-        and a tenth of the width beyond each end. Without a free subharmonic at these themselves.
+        Increasing frequencies W, dimensionless. The free subharmonic is searched for from the first
+        to the last. Damped motions are searched for at the same number of frequencies, spread over
+        the range of the free subharmonic and a tenth of its width beyond each end; without a free
+        subharmonic, at the given frequencies.
     starts : int
         Starts a frequency. Where the free subharmonic exists one half is random as in
         `response.frequency_response`, and the other has the damper switched on to the
@@ -126,7 +127,7 @@ def subharmonic_suppression(
 
 
 def _starts(oscillator, damper, parameters, free, starts, radius, seed):
-    """Starts (n, starts, 4), and max |Z1| (n,) of the free subharmonic or NaN."""
+    """Return starts, shape (n, starts, 4), and max |Z1| of the free subharmonic or NaN, (n,)."""
     states = np.array(
         [random_states(starts, radius, damper, [seed, i]) for i in range(len(parameters))]
     )
@@ -144,7 +145,7 @@ def _starts(oscillator, damper, parameters, free, starts, radius, seed):
 
 
 def _subharmonic_table(data, free):
-    """Largest displacement, free and damped, over frequency, and what the damper changed."""
+    """Return registered variables over frequency: subharmonics without and with the damper."""
     size = np.where(is_subharmonic(data), data["maximum_displacement"][1], -np.inf)
     place = np.argmax(size, axis=1)
     row = np.arange(len(size))
@@ -162,7 +163,7 @@ def _subharmonic_table(data, free):
 
 
 def _suppression(damped, free):
-    """Flag for what the damper makes of a subharmonic, by its largest displacement."""
+    """Return flags of `suppression`, by max |Z1| with and without the damper."""
     meanings = np.select(
         [np.isnan(free), damped < 0, damped < REDUCED * free],
         ["no_subharmonic_without_damper", "removed", "reduced"],
@@ -172,7 +173,7 @@ def _suppression(damped, free):
 
 
 def _branch_table(data, frequencies):
-    """Ends and largest displacement of each damped branch of subharmonics."""
+    """Return registered variables of the damped branches of subharmonics."""
     found = is_subharmonic(data)
     branch, period = data["branch"][1], data["period"][1]
     rows = []
@@ -190,7 +191,10 @@ def _branch_table(data, frequencies):
 
 
 def _shares(data, present, count):
-    """Share of the first `count` starts by what they lead to, where they were switched on."""
+    """Return the shares of the first `count` starts that lead to each of SWITCHED_MOTIONS.
+
+    NaN at frequencies without a free subharmonic to start from.
+    """
     settled = data["outcome"][1] == flag("outcome", "settled")
     period = data["period"][1]
     symmetric = (np.abs(data["contacts"][1] - 2) < SAME) & (data["asymmetry"][1] < SAME)
