@@ -1,8 +1,8 @@
 """Parameters packed into the array that kernels read.
 
 Kernels take the parameters as an array `p` of COUNT numbers, made by `pack`, and read each by the
-name of its index, as `p[FREQUENCY]`. They are W, h, omega_l^2, d0, r1, 1/rm and the dashpot's
-coefficient 2 zeta_c sqrt(r1 rm).
+name of its index, as `p[FREQUENCY]`. They are W, h, omega_l^2, k3, F, U, d0, r1, 1/rm and the
+dashpot's coefficient 2 zeta_c sqrt(r1 rm).
 """
 
 import math
@@ -17,6 +17,9 @@ NAMES = (
     "FREQUENCY",
     "DAMPING",
     "STIFFNESS",
+    "CUBIC",
+    "FORCE",
+    "UNBALANCE",
     "CLEARANCE",
     "CONTACT_STIFFNESS",
     "INVERSE_MASS_RATIO",
@@ -27,6 +30,9 @@ COUNT = len(NAMES)
     FREQUENCY,
     DAMPING,
     STIFFNESS,
+    CUBIC,
+    FORCE,
+    UNBALANCE,
     CLEARANCE,
     CONTACT_STIFFNESS,
     INVERSE_MASS_RATIO,
@@ -55,6 +61,9 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     check_oscillator(oscillator)
     p[DAMPING] = oscillator.damping
     p[STIFFNESS] = oscillator.linear_frequency**2
+    p[CUBIC] = oscillator.cubic
+    p[FORCE] = oscillator.force
+    p[UNBALANCE] = oscillator.unbalance
     if damper is None:
         p[CLEARANCE] = np.inf
         return p

@@ -10,11 +10,14 @@ from dataclasses import dataclass, fields
 
 from impact_damper.system.bounds import (
     CLEARANCE_RANGE,
+    CUBIC_RANGE,
     DAMPING_RANGE,
+    FORCE_RANGE,
     LINEAR_FREQUENCY_RANGE,
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
+    UNBALANCE_RANGE,
     check_parameters,
     parameter,
     shown,
@@ -35,7 +38,9 @@ def check_damper(damper):
 
 @dataclass(frozen=True)
 class Oscillator:
-    """Harmonically forced hard Duffing oscillator, equation (3) without the damper.
+    """Harmonically forced Duffing oscillator, equation (3) without the damper.
+
+    Its spring hardens with a positive `cubic`, is linear with 0 and softens with a negative one.
 
     Attributes
     ----------
@@ -43,6 +48,14 @@ class Oscillator:
         h = c1/(m1 w0), dimensionless.
     linear_frequency : float
         omega_l = sqrt(kl/(m1 w0^2)), dimensionless; 0 for a purely cubic spring.
+    cubic : float
+        Coefficient k3 of Z1^3 in the spring's force, dimensionless; 1 in the paper's scales.
+    force : float
+        Part F of the forcing amplitude F + U W^2, dimensionless; 1 in the paper's scales. A free
+        decay has neither part.
+    unbalance : float
+        Part U W^2 of the forcing amplitude: by a rotating unbalance, or by a base that moves with
+        the amplitude U, where Z1 and Z2 are relative to the base.
 
     Raises
     ------
@@ -54,6 +67,11 @@ class Oscillator:
     linear_frequency: float = parameter(
         LINEAR_FREQUENCY_RANGE, "omega_l", "0 for a purely cubic spring", default=0.0
     )
+    cubic: float = parameter(CUBIC_RANGE, "k3", "coefficient of the cubic spring", default=1.0)
+    force: float = parameter(FORCE_RANGE, "F", "amplitude of the external force", default=1.0)
+    unbalance: float = parameter(
+        UNBALANCE_RANGE, "U", "adds U W^2 to the amplitude of the force", default=0.0
+    )
 
     def __post_init__(self):
         check_parameters(self)
@@ -61,7 +79,11 @@ class Oscillator:
     @property
     def hardening(self) -> float:
         """Coefficient of a^3 in the first harmonic of the spring's force under Z1 = a cos t."""
-        return 0.75
+        return 0.75 * self.cubic
+
+    def forcing_amplitude(self, frequency):
+        """Return the amplitude F + U W^2 of the external force at forcing frequencies W."""
+        return self.force + self.unbalance * frequency**2
 
 
 @dataclass(frozen=True)
