@@ -9,7 +9,19 @@ from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS
 from references import extended
 from references.extended import scenes
 
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    CUBIC,
+    DAMPING,
+    DASHPOT,
+    FORCE,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+    UNBALANCE,
+    pack,
+)
 from impact_damper.system.parameters import Damper, Oscillator
 
 pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
@@ -28,16 +40,17 @@ MOTIONS = {
 @pytest.fixture(params=list(MOTIONS))
 def case(request):
     p, state, periods = MOTIONS[request.param]
-    period, start = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
+    period, start = 2 * math.pi / p[FREQUENCY], 0.5 * math.pi / p[FREQUENCY]
     return p, state, start, start + period * np.arange(1, periods + 1)
 
 
 def field(p, touching, t, y):
     """The equations (3), (4), (20) to (24) as they are read; y[2] is Z2 from the wall touched."""
-    frequency, damping, stiffness, _, spring, inverse_mass, dashpot = p[:7].astype(Real)
-    force = spring * y[2] + dashpot * y[3] if touching else Real(0)
-    pull = np.cos(frequency * t) - damping * y[1] - stiffness * y[0] - y[0] ** 3 - force
-    return np.array([y[1], pull, y[3], pull - inverse_mass * force])
+    p = p.astype(Real)
+    force = p[CONTACT_STIFFNESS] * y[2] + p[DASHPOT] * y[3] if touching else Real(0)
+    pull = (p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2) * np.cos(p[FREQUENCY] * t) - force
+    pull -= p[DAMPING] * y[1] + p[STIFFNESS] * y[0] + p[CUBIC] * y[0] ** 3
+    return np.array([y[1], pull, y[3], pull - p[INVERSE_MASS_RATIO] * force])
 
 
 def extrapolate(p, touching, t, y, length, columns=8):
@@ -67,22 +80,22 @@ def test_replay_by_extrapolation(case):
     stops = sorted(stop for stop in stops if start < stop[0] <= times[-1])
     y, t = np.array(state, Real), Real(start)
     side = int(run.contacts[0, 0]) if len(run.contacts) and run.contacts[0, 1] == start else 0
-    in_contact = 0.3 / math.sqrt(1 + p[4] * (1 + p[5]))
+    in_contact = 0.3 / math.sqrt(1 + p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
     samples = []
     for stop, wall in stops:
         pieces = math.ceil((stop - t) / (in_contact if side else 0.05))
-        origin = side * p[3] if side else 0
+        origin = side * p[CLEARANCE] if side else 0
         y[2] -= origin
         length = (stop - t) / pieces
         for _ in range(pieces):
             y = extrapolate(p, side, t, y, length)
-            height = side * y[2] if side else abs(y[2]) - p[3]
+            height = side * y[2] if side else abs(y[2]) - p[CLEARANCE]
             assert (height if side else -height) > -allowed
             t += length
         y[2] += origin
         t = stop
         if wall:
-            assert abs(wall * y[2] - p[3]) < allowed
+            assert abs(wall * y[2] - p[CLEARANCE]) < allowed
             speed = run.contacts[np.any(run.contacts[:, 1:3] == stop, axis=1), 3 + (side != 0)]
             assert abs(y[3] - speed) < allowed
             side = 0 if side else wall
@@ -126,8 +139,9 @@ def test_flow_by_differences_and_liouville(case):
             ends.append(extended.run(p, beside, start, times).states[-1])
         slope = (ends[0] - ends[1]) / Real(2e-8)
         assert np.max(np.abs(slope - run.flow[:, j])) < 1e-10 * run.growth**3
-    if np.isfinite(p[3]):
-        shrunk = -p[1] * (times[-1] - start) - p[6] * (1 + p[5]) * np.sum(touched)
+    if np.isfinite(p[CLEARANCE]):
+        dashpot = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
+        shrunk = -p[DAMPING] * (times[-1] - start) - dashpot * np.sum(touched)
         determinant = np.linalg.det(run.flow.astype(float))
         assert determinant == pytest.approx(math.exp(shrunk), rel=1e-13 * float(run.growth) ** 2)
 
@@ -144,7 +158,7 @@ def test_grazing_to_the_last_digit(damper, exponent):
     for sign in (1, -1):
         depth = sign * Real(10) ** -exponent
         shifted = state.copy()
-        shifted[2] = p[3] + depth - (16.0 + height)
+        shifted[2] = p[CLEARANCE] + depth - (16.0 + height)
         run = extended.run(p, shifted, 0.0, [instant + 0.05])
         assert run.begun == (sign == 1)
         if sign == 1 and exponent > 5:  # the deeper, the more the wall holds back
@@ -174,8 +188,10 @@ def test_heyoka_in_the_same_digits(case):
     heyoka = pytest.importorskip("heyoka")
     p, state, start, times = case
     x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
+    drive = (p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2) * heyoka.cos(p[FREQUENCY] * heyoka.time)
+    spring = p[STIFFNESS] * x + p[CUBIC] * x**3
     motion = heyoka.taylor_adaptive(
-        [(x, v), (v, heyoka.cos(p[0] * heyoka.time) - p[1] * v - p[2] * x - x**3)],
+        [(x, v), (v, drive - p[DAMPING] * v - spring)],
         np.array(state[:2], Real),
         time=Real(start),
         fp_type=Real,

@@ -12,7 +12,10 @@ from scipy.optimize import brentq
 from impact_damper.kernel.single import side_of
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.strobe_map import period_map
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import (
+    CLEARANCE,
+    pack,
+)
 from impact_damper.system.parameters import Damper, Oscillator
 
 TOLERANCES = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12]
@@ -74,13 +77,13 @@ def grazing_state(reference, p, depth):
     """A state whose Z2 would pass its first maximum at `depth` beyond the wall, and when."""
     state = np.array([0.3, 0.5, 0.0, 0.9])
     unbounded = p.copy()
-    unbounded[3] = 16.0
+    unbounded[CLEARANCE] = 16.0
 
     def free(t):
         return reference.run(unbounded, state, 0.0, [t]).states[0]
 
     instant = brentq(lambda t: free(t)[3], 0.3, 3.0, xtol=1e-14)
-    state[2] += p[3] + depth - free(instant)[2]
+    state[2] += p[CLEARANCE] + depth - free(instant)[2]
     return state, instant
 
 

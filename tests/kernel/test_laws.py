@@ -10,7 +10,13 @@ from numpy.testing import assert_allclose
 
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.strobe_map import period_map
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import (
+    DAMPING,
+    DASHPOT,
+    FREQUENCY,
+    STIFFNESS,
+    pack,
+)
 from impact_damper.system.parameters import Damper, Oscillator
 
 WITH_LINEAR_SPRING = Oscillator(0.15, 1.2)
@@ -37,7 +43,7 @@ def test_momentum_through_every_contact(impacting_orbit):
         times = np.concatenate([[begin], times, [end]])
         states, _ = sample(p, impacting_orbit.state, start, times)
         x, v, _, w = states.T
-        force = np.cos(p[0] * times) - p[1] * v - p[2] * x - x**3
+        force = np.cos(p[FREQUENCY] * times) - p[DAMPING] * v - p[STIFFNESS] * x - x**3
         momentum = v + mass_ratio * (v - w)
         assert_allclose(momentum[-1] - momentum[0], weights @ force[1:-1], atol=2e-14)
         assert abs(momentum[-1] - momentum[0]) > 1e-5
@@ -46,7 +52,7 @@ def test_momentum_through_every_contact(impacting_orbit):
 def energy(p, mass_ratio, state):
     """Stored in oscillator and loose mass; nothing is stored in the walls in mid-flight."""
     x, v, _, w = state
-    return v**2 / 2 + p[2] * x**2 / 2 + x**4 / 4 + mass_ratio * (v - w) ** 2 / 2
+    return v**2 / 2 + p[STIFFNESS] * x**2 / 2 + x**4 / 4 + mass_ratio * (v - w) ** 2 / 2
 
 
 def test_energy_over_a_period(known_orbit):
@@ -57,13 +63,13 @@ def test_energy_over_a_period(known_orbit):
     states, _ = sample(p, known_orbit.state, known_orbit.strobe, np.append(times, end))
     v, w = states[:-1, 1], states[:-1, 3]
     touching = ((times[:, None] > log[:, 1]) & (times[:, None] < log[:, 2])).any(axis=1)
-    work = weights @ (np.cos(p[0] * times) * v)
-    damped = weights @ (p[1] * v**2)
-    dashpot = weights @ np.where(touching, p[6] * w**2, 0.0)
+    work = weights @ (np.cos(p[FREQUENCY] * times) * v)
+    damped = weights @ (p[DAMPING] * v**2)
+    dashpot = weights @ np.where(touching, p[DASHPOT] * w**2, 0.0)
     mass_ratio = known_orbit.damper.mass_ratio if known_orbit.damper else 0.0
     stored = energy(p, mass_ratio, states[-1]) - energy(p, mass_ratio, known_orbit.state)
     assert work > 1e-3
-    assert (dashpot > 0) == (p[6] > 0)
+    assert (dashpot > 0) == (p[DASHPOT] > 0)
     assert_allclose(stored, 0, atol=1e-9)
     assert_allclose(work, damped + dashpot + stored, rtol=1e-13, atol=5e-14)
 

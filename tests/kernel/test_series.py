@@ -13,7 +13,19 @@ from numpy.testing import assert_allclose
 from impact_damper.kernel import recurrence
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
 from impact_damper.system import packed
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    CUBIC,
+    DAMPING,
+    DASHPOT,
+    FORCE,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+    UNBALANCE,
+    pack,
+)
 from impact_damper.system.parameters import Damper, Oscillator
 
 ANGLE = 0.7
@@ -21,19 +33,26 @@ LANE = 5
 ORDERS = {"flight": FLIGHT_ORDER, "contact": CONTACT_ORDER}
 LENGTH = max(ORDERS.values()) + 1
 widths = pytest.mark.parametrize("lanes", [1, 16])
+# Coefficient of the cubic spring, force and unbalance.
+SPRINGS_AND_FORCES = [(1.0, 1.0, 0.0), (-0.7, 0.6, 0.4), (0.0, 0.0, 0.0), (2.5, 0.0, 1.5)]
+GIVEN = ("x0", "x1", "q0", "q1", "r1", "mobility", "omega", "cubic")
 SIGNS = [(0.3, -1.1, 0.02, 0.9), (-1.7, 0.4, -0.01, -2.0), (0.0, 0.0, 0.0, 1.0)]
 
 
-@pytest.fixture(scope="module")
-def p():
-    return pack(Oscillator(0.3, 1.3), Damper(0.2, 1.5, 0.6, 40.0), 1.9)
+@pytest.fixture(scope="module", params=SPRINGS_AND_FORCES, ids=str)
+def p(request):
+    return pack(Oscillator(0.3, 1.3, *request.param), Damper(0.2, 1.5, 0.6, 40.0), 1.9)
+
+
+def amplitude(p):
+    return p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2
 
 
 def drive(p):
-    """Series of cos(W (t + t0)) from its derivatives, each a quarter turn on."""
+    """Series of A cos(W (t + t0)) from its derivatives, each a quarter turn on."""
     k = np.arange(LENGTH)
     factorials = np.array([math.factorial(i) for i in k], float)
-    return Polynomial(p[0] ** k * np.cos(ANGLE + k * np.pi / 2) / factorials)
+    return Polynomial(amplitude(p) * p[FREQUENCY] ** k * np.cos(ANGLE + k * np.pi / 2) / factorials)
 
 
 def filled(lanes, p, state, phase):
@@ -44,8 +63,11 @@ def filled(lanes, p, state, phase):
         a[: packed.COUNT, i] = np.multiply(p, 1.0 + 0.01 * (i - LANE % lanes))
         a[packed.COUNT : packed.COUNT + 4, i] = np.multiply(state, 1.0 + 0.1 * (i - LANE % lanes))
     a[module.SIDE // lanes] = 1.0
-    a[module.Y2 // lanes] += p[3]
-    a[module.COSINE // lanes], a[module.SINE // lanes] = math.cos(ANGLE), math.sin(ANGLE)
+    a[module.Y2 // lanes] += p[CLEARANCE]
+    for i in range(lanes):
+        size = amplitude(a[: packed.COUNT, i])
+        a[module.COSINE // lanes, i] = size * math.cos(ANGLE)
+        a[module.SINE // lanes, i] = size * math.sin(ANGLE)
     flat = a.ravel()
     if lanes == 1:
         pointed(module.kept_series)(flat)
@@ -89,14 +111,14 @@ def size(*polynomials):
 
 
 def contact_force(p, q):
-    return p[4] * q + p[6] * q.deriv()
+    return p[CONTACT_STIFFNESS] * q + p[DASHPOT] * q.deriv()
 
 
 @widths
 @pytest.mark.parametrize("state", SIGNS)
 def test_flight_solves_the_duffing_equation(lanes, p, state):
     x, _ = state_series(lanes, p, state, "flight")
-    terms = [x.deriv(2), p[1] * x.deriv(), p[2] * x, x**3, -drive(p)]
+    terms = [x.deriv(2), p[DAMPING] * x.deriv(), p[STIFFNESS] * x, p[CUBIC] * x**3, -drive(p)]
     vanishes(sum(terms, Polynomial([0.0])), FLIGHT_ORDER, size(*terms)[: FLIGHT_ORDER - 1])
 
 
@@ -105,10 +127,17 @@ def test_flight_solves_the_duffing_equation(lanes, p, state):
 def test_contact_solves_20_to_24(lanes, p, state):
     x, q = state_series(lanes, p, state, "contact")
     force = contact_force(p, q)
-    terms = [x.deriv(2), p[1] * x.deriv(), p[2] * x, x**3, force, -drive(p)]
+    terms = [
+        x.deriv(2),
+        p[DAMPING] * x.deriv(),
+        p[STIFFNESS] * x,
+        p[CUBIC] * x**3,
+        force,
+        -drive(p),
+    ]
     order = CONTACT_ORDER
     vanishes(sum(terms, Polynomial([0.0])), order, size(*terms)[: order - 1])
-    relative = [q.deriv(2), p[5] * force, -x.deriv(2)]
+    relative = [q.deriv(2), p[INVERSE_MASS_RATIO] * force, -x.deriv(2)]
     vanishes(sum(relative, Polynomial([0.0])), order, size(*relative)[: order - 1])
 
 
@@ -129,10 +158,16 @@ def test_tangents_solve_the_variational_equations(lanes, p, phase):
         Polynomial(d[columns * place + lane :: columns][: order + 1]) for place in (4, 4 + LENGTH)
     )
     force = contact_force(p, second) if phase == "contact" else Polynomial([0.0])
-    terms = [first.deriv(2), p[1] * first.deriv(), p[2] * first, 3 * x**2 * first, force]
+    terms = [
+        first.deriv(2),
+        p[DAMPING] * first.deriv(),
+        p[STIFFNESS] * first,
+        3 * p[CUBIC] * x**2 * first,
+        force,
+    ]
     vanishes(sum(terms, Polynomial([0.0])), order, size(*terms)[: order - 1])
     if phase == "contact":
-        relative = [second.deriv(2), p[5] * force, -first.deriv(2)]
+        relative = [second.deriv(2), p[INVERSE_MASS_RATIO] * force, -first.deriv(2)]
         vanishes(sum(relative, Polynomial([0.0])), order, size(*relative)[: order - 1])
 
 
@@ -182,25 +217,22 @@ def test_recurrence_without_rounding(phase, order):
     random = np.random.default_rng(order)
     draw = lambda: Fraction(int(random.integers(-9, 10)), 4)  # noqa: E731
     kept = [{name: draw() for name in "ehd"} for _ in range(order)]
-    given = {name: draw() for name in ("x0", "x1", "q0", "q1", "r1", "mobility", "omega")}
+    given = {name: draw() for name in GIVEN}
     given |= {"cosine": Fraction(1), "sine": Fraction(1), "Fraction": Fraction}
-    x0 = given["x0"]
-    given |= {
-        "s0": x0**2,
-        "stiffness": given["omega"] + x0**2,
-        "linear": given["omega"] + 3 * x0**2,
-    }
+    s0 = given["cubic"] * given["x0"] ** 2
+    given |= {"s0": s0, "stiffness": given["omega"] + s0, "linear": given["omega"] + 3 * s0}
     for k, numbers in enumerate(kept):
         given |= {f"{name}{k}": number for name, number in numbers.items()}
     found = exact(recurrence.motion(order, phase, lambda k: []), dict(given))
-    squares = {f"x{k}": found[f"x{k}"] for k in range(order)} | {"Fraction": Fraction}
+    squares = {f"x{k}": found[f"x{k}"] for k in range(order)}
+    squares |= {"Fraction": Fraction, "cubic": given["cubic"]}
     squares = exact(recurrence.squares(order - 1), squares)
     cubed = {f"u{k}": squares[f"u{k}"] for k in range(order - 1)}
     tangent = exact(recurrence.tangent(order, phase, lambda k: []), given | cubed)
     x = [found[f"x{k}"] for k in range(order + 1)]
     dx = [tangent[f"x{k}"] for k in range(order + 1)]
     for k in range(order - 1):
-        square = [sum(x[i] * x[j - i] for i in range(j + 1)) for j in range(k + 1)]
+        square = [given["cubic"] * sum(x[i] * x[j - i] for i in range(j + 1)) for j in range(k + 1)]
         assert cubed[f"u{k}"] == 3 * square[k]
         for numbers, of, cube in (
             (found, x, sum(square[j] * x[k - j] for j in range(k + 1))),
@@ -227,8 +259,8 @@ def test_kept_series(p):
     k = np.arange(max(ORDERS.values()) - 1)
     signs = np.array([1, -1, -1, 1])[k % 4]
     factorials = np.array([math.factorial(i) for i in k], float)
-    expected = {"E": signs * p[0] ** k / factorials}
-    expected |= {"H": p[1] / np.maximum(k, 1), "D": p[6] / np.maximum(k, 1)}
+    expected = {"E": signs * p[FREQUENCY] ** k / factorials}
+    expected |= {"H": p[DAMPING] / np.maximum(k, 1), "D": p[DASHPOT] / np.maximum(k, 1)}
     for name, numbers in expected.items():
         assert_allclose(a[getattr(module, name) :][: len(k)], numbers, rtol=1e-14)
 

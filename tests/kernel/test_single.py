@@ -17,7 +17,10 @@ from impact_damper.kernel import single
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
 from impact_damper.kernel.series import SERIES, SINGLE
 from impact_damper.motions.strobe_map import period_map
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import (
+    CLEARANCE,
+    pack,
+)
 from impact_damper.system.parameters import Damper, Oscillator
 
 # Beyond this much the wall counts as passed: rounding of the polynomials below.
@@ -210,7 +213,7 @@ def test_start_on_a_wall_that_recedes(lanes, side):
 def test_start_within_rounding_of_a_wall(roundings, sign):
     """Moving outward, so near that time stands still until the contact: one step is enough."""
     p, work = pack(Oscillator(0.3, 1.1), DESIGN, 1.9), single.workspace()
-    wall = p[3] * (1 - roundings * 2.0**-53)
+    wall = p[CLEARANCE] * (1 - roundings * 2.0**-53)
     y = sign * np.array([-2.6, 1.3, wall, 1.7])
     length, side = single.step(p, y, np.empty((0, 4)), 0, 9.2, 1.0, 1e-12, work)
     assert side == sign
@@ -275,7 +278,7 @@ def contact_series(p, state, t):
     """Series of Z1 and of the penetration; the state has the penetration in place of Z2."""
     work = single.workspace()
     y = np.array(state, float)
-    y[2] += p[3]
+    y[2] += p[CLEARANCE]
     single.step(p, y, np.empty((0, 4)), 1, t, 1e-9, 1e-9, work)
     return work[single.X :], work[single.Q :]
 

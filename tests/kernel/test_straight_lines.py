@@ -138,7 +138,7 @@ def test_forcing_near_a_known_one(time, shift):
     """Turned by little or found anew, it is that of its time, to rounding of the phase."""
     module, frequency = instance(1), 2.0
     a = np.zeros(module.SIZE)
-    a[module.FREQUENCY] = frequency
+    a[module.FREQUENCY], a[module.FORCE], a[module.UNBALANCE] = frequency, 0.3, 0.8
     if math.isfinite(shift):
         a[module.TIME], a[module.T] = time - 0.25, 0.25 + shift
         pointed(module.look_ahead)(a)
@@ -149,21 +149,26 @@ def test_forcing_near_a_known_one(time, shift):
     found = [a[module.COSINE], a[module.SINE]]
     assert_allclose(
         found,
-        [math.cos(frequency * time), math.sin(frequency * time)],
+        np.multiply(0.3 + 0.8 * frequency**2, [np.cos(frequency * time), np.sin(frequency * time)]),
         rtol=0,
-        atol=1e-15 * (1 + time),
+        atol=4e-15 * (1 + time),
     )
 
 
 def test_forcing_of_lanes():
-    """Each lane at its own time and frequency."""
+    """Each lane at its own time, frequency and amplitude."""
     module, random = instance(16), np.random.default_rng(1995)
     a = np.zeros((module.SIZE // 16, 16))
     time, frequency = random.uniform(0, 100, 16), random.uniform(0, 3, 16)
+    force, unbalance = random.uniform(0, 2, (2, 16))
     a[module.TIME // 16], a[module.FREQUENCY // 16] = time, frequency
+    a[module.FORCE // 16], a[module.UNBALANCE // 16] = force, unbalance
+    amplitude = force + unbalance * frequency**2
     pointed(module.forcing)(a.ravel())
-    assert_allclose(a[module.COSINE // 16], np.cos(frequency * time), rtol=0, atol=1e-13)
-    assert_allclose(a[module.SINE // 16], np.sin(frequency * time), rtol=0, atol=1e-13)
+    assert_allclose(
+        a[module.COSINE // 16], amplitude * np.cos(frequency * time), rtol=0, atol=1e-12
+    )
+    assert_allclose(a[module.SINE // 16], amplitude * np.sin(frequency * time), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("count", [1, 100, 4096])

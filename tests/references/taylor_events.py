@@ -9,8 +9,12 @@ from typing import NamedTuple
 import heyoka
 import numpy as np
 
+from impact_damper.system import packed
+
 # heyoka's tolerance is relative to the largest term of the events too: no distant wall.
 BEYOND_ALL_MOTIONS = 16.0
+# Number of parameters in flight, which come first, and in contact, the wall touched the last one.
+PARAMETERS = {False: packed.CLEARANCE + 1, True: packed.COUNT + 1}
 
 
 class Run(NamedTuple):
@@ -31,9 +35,11 @@ class Reference:
 
     def __init__(self, longest=math.inf):
         x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
-        names = [heyoka.par[i] for i in range(8)]
-        frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot, side = names
-        free = heyoka.cos(frequency * heyoka.time) - damping * v - stiffness * x - x * x * x
+        names = [heyoka.par[i] for i in range(packed.COUNT + 1)]
+        frequency, damping, stiffness, cubic, force, unbalance, *contact, side = names
+        clearance, spring, inverse_mass, dashpot = contact
+        drive = (force + unbalance * frequency**2) * heyoka.cos(frequency * heyoka.time)
+        free = drive - damping * v - stiffness * x - cubic * x * x * x
         force = spring * (z - side * clearance) + dashpot * w
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
         entries = [
@@ -44,10 +50,13 @@ class Reference:
         pushed = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
         self.longest = longest
         self.flight = heyoka.taylor_adaptive(
-            [(x, v), (v, free), (z, w), (w, free)], np.zeros(4), pars=np.zeros(4), t_events=entries
+            [(x, v), (v, free), (z, w), (w, free)],
+            np.zeros(4),
+            pars=np.zeros(PARAMETERS[False]),
+            t_events=entries,
         )
         self.contact = heyoka.taylor_adaptive(
-            pushed, np.zeros(4), pars=np.zeros(8), t_events=release
+            pushed, np.zeros(4), pars=np.zeros(PARAMETERS[True]), t_events=release
         )
 
     def _leg(self, p, side, state, t, end):
@@ -56,15 +65,14 @@ class Reference:
         motion.time = t
         motion.state[:] = state
         motion.reset_cooldowns()
-        motion.pars[:4] = (*p[:3], min(p[3], BEYOND_ALL_MOTIONS))
-        if side:
-            motion.pars[4:] = (*p[4:7], side)
+        motion.pars[:] = np.append(p, side)[: len(motion.pars)]
+        motion.pars[packed.CLEARANCE] = min(p[packed.CLEARANCE], BEYOND_ALL_MOTIONS)
         outcome = motion.propagate_until(end, max_delta_t=self.longest)[0]
         return outcome, motion.state.copy(), motion.time
 
     def run(self, p, state, start, times, side=0):
         """Integrate from `start` through increasing times, with `side` the wall touched first."""
-        t, clearance = start, min(p[3], BEYOND_ALL_MOTIONS)
+        t, clearance = start, min(p[packed.CLEARANCE], BEYOND_ALL_MOTIONS)
         contacts = [[side, t, np.nan, state[3], np.nan]] if side else []
         samples = []
         while len(samples) < len(times):

@@ -10,30 +10,34 @@ import math
 import heyoka
 import numpy as np
 
-from references.taylor_events import BEYOND_ALL_MOTIONS
-
-COUNTS = {False: 4, True: 8}  # parameters that flight and contact depend on
+from impact_damper.system.packed import CLEARANCE, COUNT
+from references.taylor_events import BEYOND_ALL_MOTIONS, PARAMETERS
 
 
 def _fields():
     x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
-    frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot, side = (
-        heyoka.par[i] for i in range(8)
-    )
-    free = heyoka.cos(frequency * heyoka.time) - damping * v - stiffness * x - x * x * x
-    force = spring * (z - side * clearance) + dashpot * w
+    pars = [heyoka.par[i] for i in range(COUNT + 1)]
+    free, force, inverse_mass = _forces(pars, (x, v, z, w), heyoka.cos(pars[0] * heyoka.time))
     flight = [(x, v), (v, free), (z, w), (w, free)]
     contact = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
-    return flight, contact, z, clearance, side
+    return flight, contact, z, pars[CLEARANCE], pars[COUNT]
+
+
+def _forces(pars, state, cosine):
+    """Acceleration in flight, force of the contact, and mass of the primary over the loose mass."""
+    frequency, damping, stiffness, cubic, amplitude, unbalance, *contact, side = pars
+    clearance, spring, inverse_mass, dashpot = contact
+    x, v, z, w = state
+    free = (amplitude + unbalance * frequency**2) * cosine - damping * v
+    free = free - stiffness * x - cubic * x * x * x
+    return free, spring * (z - side * clearance) + dashpot * w, inverse_mass
 
 
 def field(pars, state, t, touching):
     """The vector field at a state, in flight or in contact."""
-    x, v, z, w = state
-    frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot, side = pars
-    free = math.cos(frequency * t) - damping * v - stiffness * x - x**3
-    force = touching * (spring * (z - side * clearance) + dashpot * w)
-    return np.array([v, free - force, w, free - force - inverse_mass * force])
+    free, force, inverse_mass = _forces(pars, state, math.cos(pars[0] * t))
+    force *= touching
+    return np.array([state[1], free - force, state[3], free - force - inverse_mass * force])
 
 
 class Variational:
@@ -54,19 +58,20 @@ class Variational:
             self.integrators[touching] = heyoka.taylor_adaptive(
                 heyoka.var_ode_sys(system, heyoka.var_args.vars, order=1),
                 np.concatenate([np.zeros(4), np.eye(4).ravel()]),
-                pars=np.zeros(COUNTS[touching]),
+                pars=np.zeros(PARAMETERS[touching]),
                 t_events=events[touching],
                 compact_mode=True,
             )
 
     def monodromy(self, p, state, begin, length):
         """State and derivative (4, 4) of the flow from `begin` in flight over a length."""
-        pars = np.array([*p[:3], min(p[3], BEYOND_ALL_MOTIONS), *p[4:7], 0.0])
+        pars = np.append(p, 0.0)
+        pars[CLEARANCE] = min(p[CLEARANCE], BEYOND_ALL_MOTIONS)
         full = np.concatenate([state, np.eye(4).ravel()])
         t, side, end = begin, 0, begin + length
         while True:
             motion = self.integrators[side != 0]
-            pars[7] = side
+            pars[COUNT] = side
             motion.pars[:] = pars[: len(motion.pars)]
             motion.time = t
             motion.state[:] = full
@@ -81,11 +86,11 @@ class Variational:
             else:
                 after_side = wall = 1 if int(outcome) == -1 else -1
                 beyond = math.inf
-            pars[7] = before[7] = wall
-            full[2] = wall * pars[3]
+            pars[COUNT] = before[COUNT] = wall
+            full[2] = wall * pars[CLEARANCE]
             fields = [field(before, full[:4], t, touching) for touching in (False, True)]
             old, new = fields if not side else fields[::-1]
             tangents = full[4:].reshape(4, 4)
             tangents += np.outer(new - old, tangents[2]) / old[2]
-            full[2] = wall * np.nextafter(pars[3], beyond)
+            full[2] = wall * np.nextafter(pars[CLEARANCE], beyond)
             side = after_side

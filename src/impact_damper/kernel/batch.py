@@ -11,6 +11,7 @@ import numpy as np
 
 from impact_damper.kernel import instances
 from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import no_return
 from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.system import packed
 
@@ -23,9 +24,17 @@ _MANY = instances.instance(LANES)
 flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_MANY)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # The numbers of a trajectory in a pool are the first rows of a step, in their order.
-STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
+STATE, SIDE, TIME, LONGEST, TOLERANCE, NO_RETURN, LENGTH = (
     row // LANES
-    for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
+    for row in (
+        _MANY.Y0,
+        _MANY.SIDE,
+        _MANY.TIME,
+        _MANY.LONGEST,
+        _MANY.TOLERANCE,
+        _MANY.NO_RETURN,
+        _MANY.LENGTH,
+    )
 )
 
 
@@ -35,7 +44,7 @@ class Pool(NamedTuple):
     Attributes
     ----------
     numbers : array, shape (m, LENGTH)
-        Parameters, state, side, time, longest step and tolerance.
+        Parameters, state, side, time, longest step, tolerance and the |Z1| of no return.
     ends : array, shape (m,)
         Times to stop at.
     tangents : array, shape (m, 4)
@@ -84,6 +93,7 @@ def enter(pool, m, p, y, side, tolerance):
         numbers[STATE + i] = y[i]
     numbers[SIDE] = side
     numbers[TOLERANCE] = tolerance
+    numbers[NO_RETURN] = no_return(p)
 
 
 @kernel

@@ -1,9 +1,9 @@
 """The recurrence of the Taylor series, as lines of arithmetic.
 
 Between events the motion is analytic, and the coefficients of its Taylor series
-follow from those before them. With the drive e = cos(W T), a = Z1'' and b = q'',
+follow from those before them. With the forcing e = (F + U W^2) cos(W T), a = Z1'' and b = q'',
 
-    g[k] = e[k] - omega_l^2 x[k] - (x^3)[k] - h/k a[k-1]
+    g[k] = e[k] - omega_l^2 x[k] - k3 (x^3)[k] - h/k a[k-1]
     f[k] = r1 q[k] + D/k b[k-1]
     a[k] = g[k] - f[k]                   x[k+2] = a[k] / ((k+1) (k+2))
     b[k] = g[k] - (1 + 1/rm) f[k]        q[k+2] = b[k] / ((k+1) (k+2))
@@ -11,26 +11,27 @@ follow from those before them. With the drive e = cos(W T), a = Z1'' and b = q''
 (for k = 0 with h x[1] and D q[1] at the ends) for Z1 = x and the signed penetration q = Z2 -+ d0
 during contact, equations (3), (4) and (20) to (24); g is what of the acceleration does not come
 from the wall. In flight there is no q, and Z2 differs from x by its offset and drift only. The
-variational equations are the same with e = 0 and 3 (x^2 dx)[k] for the cube.
+variational equations are the same with e = 0 and 3 k3 (x^2 dx)[k] for the cube.
 
 In (x^3)[k] no product of three coefficients has two of them beyond the half of k. With l for x
 up to there, n = k // 2,
 
     (x^3)[k] = (l^3)[k] + 3 sum over j > n of (x^2)[k-j] x[j].
 
-Each of the newest coefficients so stands in one product, which comes last. The squares s of l grow
-with it. They stand in pairs of neighbours, P, as do those taken three times, Z, and the products
-of the sums: with one trajectory, a pair is one register.
+Each of the newest coefficients so stands in one product, which comes last. The squares s of l,
+times k3, grow with it. They stand in pairs of neighbours, P, as do those taken three times, Z, and
+the products of the sums: with one trajectory, a pair is one register.
 """
 
 
 def motion(order, phase, kept):
     """Lines for all orders of a step's series.
 
-    They need x0, x1 and s0 = x0^2, in contact q0 and q1, and the factors `cosine`, `sine`,
-    `stiffness` = omega_l^2 + s0, `linear` = omega_l^2 + 3 s0, `r1` and `mobility` = 1 + 1/rm.
-    `kept(k)` gives lines for h/k, D/k and e[k] but for its cosine or sine, which stay the same
-    while a trajectory does.
+    They need x0, x1 and s0 = k3 x0^2, in contact q0 and q1, and the factors `cosine` and `sine`,
+    which are those of the phase times the amplitude of the forcing, `cubic` = k3, `stiffness` =
+    omega_l^2 + s0, `linear` = omega_l^2 + 3 s0, `r1` and `mobility` = 1 + 1/rm. `kept(k)` gives
+    lines for h/k, D/k and e[k] but for its cosine or sine, which stay the same while a trajectory
+    does.
     """
     for k in range(order - 1):
         yield from kept(k)
@@ -45,7 +46,7 @@ def motion(order, phase, kept):
 
 
 def tangent(order, phase, kept):
-    """The same of a tangent, x and q, from `u0`, `u1` and so on, the coefficients of 3 Z1^2."""
+    """The same of a tangent, x and q, from `u0`, `u1` and so on, the coefficients of 3 k3 Z1^2."""
     for k in range(order - 1):
         yield from kept(k)
         # Last what waits for the longest series of factors.
@@ -56,23 +57,26 @@ def tangent(order, phase, kept):
 
 
 def squares(count):
-    """Lines for so many coefficients u of 3 x^2, each product taken once."""
+    """Lines for so many coefficients u of 3 k3 x^2, each product taken once; they need `cubic`."""
+    yield "triple = 3.0 * cubic"
+    yield "sextuple = 6.0 * cubic"
     for k in range(count):
         terms = [f"x{j} * x{k - j}" for j in range((k + 1) // 2)]
-        middle = [f"3.0 * x{k // 2} * x{k // 2}"] if k % 2 == 0 else []
-        doubled = [f"6.0 * ({' + '.join(terms)})"] if terms else []
+        middle = [f"triple * x{k // 2} * x{k // 2}"] if k % 2 == 0 else []
+        doubled = [f"sextuple * ({' + '.join(terms)})"] if terms else []
         yield f"u{k} = {' + '.join([*middle, *doubled])}"
 
 
 def _lower_squares(n):
     """Lines that take x[n] into the squares: s[2n], and before it pairs from s[n] or s[n-1] on."""
-    yield f"y{n} = 2.0 * x{n}"
+    yield f"w{n} = cubic * x{n}"
+    yield f"y{n} = 2.0 * w{n}"
     for j in range(n - n % 2, 2 * n, 2):
         before = f"P{j}" if j < 2 * n - 2 else f"(s{j}, 0.0)"
         first = f"x{j - n}" if j >= n else "0.0"
         yield f"P{j} = {before} + y{n} * ({first}, x{j + 1 - n})"
         yield f"(s{j}, s{j + 1}) = P{j}"
-    yield f"s{2 * n} = x{n} * x{n}"
+    yield f"s{2 * n} = w{n} * x{n}"
 
 
 def _without_damping(k, drive):

@@ -12,12 +12,12 @@ from impact_damper.kernel import recurrence
 from impact_damper.system import packed
 
 # Rows of a step: the packed parameters, what else the step is given, what it finds, and what it
-# needs on its way. Then the series: of Z1, of the penetration, of g and, for tangents, of 3 Z1^2;
-# and what stays the same while a trajectory does, the series of cos W t, whose terms still lack the
-# cosine or sine of the phase, and h and D over the orders. Those of a tangent, in an array of their
-# own, are of the first two.
+# needs on its way. Then the series: of Z1, of the penetration, of g and, for tangents, of
+# 3 k3 Z1^2; and what stays the same while a trajectory does, the series of cos W t, whose terms
+# still lack the cosine or sine of the phase, and h and D over the orders. Those of a tangent, in an
+# array of their own, are of the first two.
 STATE = "Y0 Y1 Y2 Y3".split()
-STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
+STEP = "SIDE TIME LONGEST TOLERANCE NO_RETURN LENGTH".split()
 SCRATCH = (
     "COSINE SINE KNOWN TURNS ANGLE T Z1 Z1_SLOPE Z1_CURVE Z1_JERK "
     "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
@@ -121,7 +121,8 @@ class Writer:
             f"x0 = {self.at('Y0')}",
             # Not loaded together with x0: a pair of numbers stored one by one is waited for.
             f"x1 = {self.at('Y1')} + 0.0",
-            "s0 = x0 * x0",
+            f"cubic = {self.at('CUBIC')}",
+            "s0 = cubic * x0 * x0",
             f"stiffness = {self.at('STIFFNESS')} + s0",
             "linear = stiffness + 2.0 * s0",
             *self._factors(phase),
@@ -137,7 +138,8 @@ class Writer:
     def squares(self, phase):
         """Fill U from the series of a step, for its tangents."""
         count = self.orders[phase] - 1
-        lines = [f"x{k} = {self.at('X', k)}" for k in range(count)]
+        lines = [f"cubic = {self.at('CUBIC')}"]
+        lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
         lines += self._stored(recurrence.squares(count), "U")
         return self.function(f"{phase}_squares", lines)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from impact_damper.kernel import instances
 from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import no_return
 from impact_damper.kernel.memory import CACHE_LINE, aligned, pointer
 from impact_damper.system import packed
 from impact_damper.system.packed import CLEARANCE
@@ -18,14 +19,22 @@ flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_s
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 # Where the tangents' numbers begin in a workspace: at a cache line.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
-SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
+SIDE, TIME, LONGEST, TOLERANCE, NO_RETURN, LENGTH = (
     _ONE.SIDE,
     _ONE.TIME,
     _ONE.LONGEST,
     _ONE.TOLERANCE,
+    _ONE.NO_RETURN,
     _ONE.LENGTH,
 )
-PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
+PARAMETERS, STATE, KNOWN, T, X, Q = (
+    _ONE.FREQUENCY,
+    _ONE.Y0,
+    _ONE.KNOWN,
+    _ONE.T,
+    _ONE.X,
+    _ONE.Q,
+)
 
 
 @kernel
@@ -61,6 +70,7 @@ def place(p, y, side, tolerance, a):
         a[STATE + i] = y[i]
     a[SIDE] = side
     a[TOLERANCE] = tolerance
+    a[NO_RETURN] = no_return(p)
     a[KNOWN] = np.inf
 
 

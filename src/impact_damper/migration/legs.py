@@ -11,8 +11,9 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.equation import has_escaped, no_return
 from impact_damper.kernel.single import advance, assign, side_of, workspace
-from impact_damper.motions.records import NEVER, SETTLED, UNRESOLVED, measure, trace
+from impact_damper.motions.records import ESCAPED, NEVER, UNRESOLVED, measure, trace
 from impact_damper.motions.settling import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
@@ -56,7 +57,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
         side, near = run_strobes(
             p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out
         )
-        if out["outcome"] == SETTLED:
+        if out["outcome"] != UNRESOLVED:
             break
 
 
@@ -73,6 +74,9 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
         assign(path[k + 1, 1:], y)
         assign(ring[k % RING], y)
         out.periods_run = k
+        if has_escaped(no_return(p), y[0], y[1]):
+            out.outcome = ESCAPED
+            break
         n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)
         if n > 0:
             orbit = y.copy()

@@ -5,8 +5,9 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
+from impact_damper.kernel.equation import has_escaped, no_return
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.kernel.single import Q, X, assign, polynomial, side_of, step, workspace
+from impact_damper.kernel.single import Q, T, X, assign, polynomial, side_of, step, workspace
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
@@ -19,7 +20,7 @@ STEPS_AT_ONCE = 50_000
 NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
-UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = 0, 1, 2, 3, 4
+UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING, ESCAPED, AT_REST = range(7)
 MOTION = np.dtype(
     [
         ("outcome", "i1"),
@@ -111,17 +112,33 @@ def measure_one(p, y, periods, tolerance, out, stop):
         t = ahead if length >= ahead - t else t + length
         if t == half:
             out.asymmetry = distance(-state, y, speed_weight(p, side))
+    if has_escaped(no_return(p), state[0], state[1]):
+        measure_nothing(out)
+        out.outcome = ESCAPED
+        return
     out.maximum_displacement = largest
     out.contacts = contacts / periods
     out.harmonic_displacement = first * (2.0 / sample)
     out.harmonic_relative = second * (2.0 / sample)
 
 
+@inlined
+def measure_nothing(out):
+    """Fill the measurements of a motion that goes to infinity."""
+    out.maximum_displacement = np.inf
+    out.contacts, out.asymmetry = np.nan, np.nan
+    out.harmonic_displacement, out.harmonic_relative = (
+        complex(np.nan, np.nan),
+        complex(np.nan, np.nan),
+    )
+
+
 @kernel
 def measure(parameters, tolerance, watched, out, stop):
-    """Complete records by measurements from their states at the strobe, unless they diverged.
+    """Complete records by measurements from their states at the strobe.
 
-    Each motion is integrated over its `period`, or over `watched` forcing periods if that is 0.
+    A motion that has diverged or escaped is infinitely large. Each other motion is integrated over
+    its `period`, or over `watched` forcing periods if that is 0.
 
     - maximum_displacement: largest |Z1|;
     - contacts: number a forcing period;
@@ -133,7 +150,9 @@ def measure(parameters, tolerance, watched, out, stop):
     Once `stop[0]` is true, set by another thread, the rest is left as it is.
     """
     for i in range(len(out)):
-        if out[i].outcome != DIVERGED:
+        if out[i].outcome == DIVERGED or out[i].outcome == ESCAPED:
+            measure_nothing(out[i])
+        else:
             periods = out[i].period if out[i].period > 0 else watched
             measure_one(parameters[i], out[i].state.copy(), periods, tolerance, out[i], stop)
 
@@ -161,7 +180,7 @@ def trace(p, y, t, times, tolerance, states, log):
     tolerance : float
         Local error allowed.
     states : array, shape (n, 4)
-        Gets the states.
+        Gets the states; NaN after the motion has escaped (`kernel.equation.no_return`).
     log : array, shape (m, 5)
         Gets a row for each contact: wall, beginning, end, and Z2' at both. Contacts beyond m are
         counted only.
@@ -201,8 +220,11 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
         # the last sample is an end of a step, so that y is the state there
         left = times[-1] - t
         length, side = step(p, y, none, side, t, left, tolerance, work)
+        gone = has_escaped(no_return(p), y[0], y[1])
         while sample < len(times) and (times[sample] - t < length or length >= left):
             x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
+            if gone and times[sample] - t > work[T]:
+                x, v, z, w = np.nan, np.nan, np.nan, np.nan
             states[sample, 0], states[sample, 1] = x, v
             states[sample, 2] = z + (before * p[CLEARANCE] if before != 0 else 0.0)
             states[sample, 3] = w

@@ -21,8 +21,17 @@ from impact_damper.kernel.batch import (
     send,
 )
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
+from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped, no_return
 from impact_damper.kernel.single import assign, side_of
-from impact_damper.motions.records import CHAOTIC, DIVERGED, NON_COLLIDING, SETTLED, UNRESOLVED
+from impact_damper.motions.records import (
+    AT_REST,
+    CHAOTIC,
+    DIVERGED,
+    ESCAPED,
+    NON_COLLIDING,
+    SETTLED,
+    UNRESOLVED,
+)
 from impact_damper.motions.strobe_map import (
     POLISH_TOLERANCE,
     distance,
@@ -31,7 +40,7 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
     strobe_time,
 )
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
+from impact_damper.system.packed import CLEARANCE, CUBIC, FREQUENCY
 
 # Longest period looked for, in forcing periods, and number of strobe states kept for it.
 LONGEST_PERIOD = 12
@@ -45,17 +54,19 @@ WEAK = 0.05
 # Distance from an orbit at which Newton's method is first tried, and at which it is tried last.
 NEAR = 1e-4
 NEAREST = 1e-9
-# Speed or displacement beyond which a motion has diverged.
-DIVERGING = 1e6
+# A free motion is at rest once its energy is below this share of that at the first strobe.
+REST = 1e-9
 # State of the watch over one motion: its index, the number of strobes and of periods without
-# contact so far, and the distance at which Newton's method is tried next; for its tangent the
-# number of periods, the growth in the present batch, and mean, squares and last values of batches.
+# contact so far, the distance at which Newton's method is tried next, and without forcing the
+# energy at the first strobe; for its tangent the number of periods, the growth in the present
+# batch, and mean, squares and last values of batches.
 SEEN = np.dtype(
     [
         ("index", "i8"),
         ("strobes", "i8"),
         ("quiet", "i8"),
         ("near", "f8"),
+        ("energy", "f8"),
         ("periods", "i8"),
         ("batch", "f8"),
         ("mean", "f8"),
@@ -159,13 +170,31 @@ def begin_watch(seen, index, out):
     out.lyapunov_exponent, out.lyapunov_error = np.nan, np.nan
 
 
+@kernel_only
+def watch_free(p, y, seen, out):
+    """Judge a motion without forcing, as `watch`; a motion at rest is moved onto the rest."""
+    left = energy(p, y)
+    if seen.strobes == 0:
+        seen.energy = left
+    seen.strobes += 1
+    if left > REST * seen.energy:
+        return False
+    y[0], y[1], y[3] = 0.0, 0.0, 0.0
+    y[2] = min(max(y[2], -p[CLEARANCE]), p[CLEARANCE])
+    out.outcome, out.residual = AT_REST, 0.0
+    return True
+
+
 @inlined
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
     """Judge a motion at a strobe; return whether it can be stopped.
 
     It is stopped
 
-    - when it has settled, or diverged, or at `limit`;
+    - when it has settled, diverged or escaped, or at `limit`;
+    - as at rest when it is free, without forcing, and its energy is below the share REST of that
+      at the first strobe: it can only lose energy. A free motion is stopped for no other reason
+      than this, an escape, or `limit`;
     - as non-colliding when it has settled without contacts, or when the loose mass has touched no
       wall for `patience` periods and would drift by less than 1 % of the clearance until `limit`;
     - as chaotic after `patience` periods if the largest Lyapunov exponent is positive by
@@ -186,9 +215,11 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     out.periods_run = k
     if k > 0:
         seen.quiet = seen.quiet + 1 if contacts == 0 and side == 0 else 0
-    if not abs(y[0]) + abs(y[1]) + abs(y[3]) < DIVERGING:
-        out.outcome = DIVERGED
+    if has_escaped(no_return(p), y[0], y[1]) or not abs(y[3]) < math.inf:
+        out.outcome = ESCAPED if p[CUBIC] < 0.0 else DIVERGED
         return True
+    if forcing_amplitude(p) == 0.0:
+        return watch_free(p, y, seen, out)
     n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
     if n > 0:
         if move_onto_orbit(p, y, n, seen.near, out):

@@ -21,6 +21,8 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 SAME = 1e-6
 # Motions that have not settled are the same if their max |Z1| differs by a smaller factor.
 CHAOTIC_GAP = 1.5
+# Outcomes of which all motions are the same: their displacement is infinite, or 0.
+ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # End of a branch: least modulus of a multiplier at a bifurcation, least imaginary part of a complex
 # one, and largest difference in max |Z1| between a motion and the one that splits off.
 CRITICAL = 0.98
@@ -59,6 +61,8 @@ class Catalogue:
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
+            if record["outcome"] in ALIKE:
+                return i
             ratio = record["maximum_displacement"] / known["maximum_displacement"]
             near = abs(ratio - 1) < SAME and abs(record["contacts"] - known["contacts"]) < 1e-9
             alike = 1 / CHAOTIC_GAP < ratio < CHAOTIC_GAP

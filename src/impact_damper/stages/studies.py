@@ -117,8 +117,7 @@ def study_chunk(
 
 def _condensed(runs):
     """Return the results of the runs in a cell as a row of `CELL`."""
-    diverged = runs["outcome"] == flag("outcome", "diverged")
-    sizes = np.where(diverged, np.inf, runs["maximum_displacement"])
+    sizes = runs["maximum_displacement"]
     quiet = is_settled(runs) & is_symmetric_pair(runs)
     return (
         [np.sum(runs["outcome"] == flag("outcome", name)) for name in OUTCOMES],

@@ -68,7 +68,7 @@ def check_starts(starts, points, least=1):
 
 
 def check_span(name, span, **bounds) -> tuple:
-    """Return the ends of a range, least and greatest, both above 0; `bounds` hold for each end.
+    """Return the ends of a range, least and greatest; `bounds` hold for each end.
 
     Raises
     ------
@@ -76,6 +76,6 @@ def check_span(name, span, **bounds) -> tuple:
         If an end is not a number or not allowed, or the ends are not in order.
     """
     ends = check_numbers(name, span, **bounds)
-    if ends.shape != (2,) or not 0 < ends[0] < ends[1]:
-        raise ValueError(f"{name} = {shown(span)}: must be least and greatest value, above 0")
+    if ends.shape != (2,) or not ends[0] < ends[1]:
+        raise ValueError(f"{name} = {shown(span)}: must be least and greatest value")
     return float(ends[0]), float(ends[1])

@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.system.bounds import shown
 from impact_damper.system.checks import check_span
-from impact_damper.system.packed import DASHPOT, pack
+from impact_damper.system.packed import DASHPOT, FORCE, UNBALANCE, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 # Parameters in which a branch can be followed, and the dataclass that each belongs to. The
@@ -14,12 +14,17 @@ from impact_damper.system.parameters import Damper, Oscillator
 PARAMETERS = {
     "frequency": None,
     "damping": Oscillator,
+    "cubic": Oscillator,
+    "force": Oscillator,
+    "unbalance": Oscillator,
     "mass_ratio": Damper,
     "clearance": Damper,
     "restitution": Damper,
     "contact_stiffness": Damper,
 }
-LINEAR = ("frequency", "restitution")
+LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
+# Index of the packed array of the parts of the forcing amplitude.
+FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
@@ -65,6 +70,8 @@ def family_of(oscillator, damper, frequency, parameter, span):
     pack_at = _pack_by(oscillator, damper, frequency, parameter)
     try:
         for bound in (least, most):
+            if owner is not None:
+                replace(given, **{parameter: bound})
             pack_at(bound)
     except ValueError as error:
         raise ValueError(f"span = {shown(span)}: {error}") from None
@@ -79,8 +86,14 @@ def _pack_by(oscillator, damper, frequency, parameter):
     def pack_at(value):
         if parameter == "frequency":
             return pack(oscillator, damper, value)
-        if parameter == "damping":
-            return pack(replace(oscillator, damping=value), damper, frequency)
+        if parameter in FORCING:
+            # Also below 0, against the forcing's sign, so that finite differences at 0 can be
+            # central.
+            p = pack(oscillator, damper, frequency)
+            p[FORCING[parameter]] = value
+            return p
+        if parameter in ("damping", "cubic"):
+            return pack(replace(oscillator, **{parameter: value}), damper, frequency)
         if parameter == "restitution":
             # Mirrored beyond 1, with a negative dashpot, so that finite differences at 1 can be
             # central.

@@ -35,6 +35,8 @@ OUTCOME = {
     "chaotic": 2,
     "diverged": 3,
     "non_colliding": 4,
+    "escaped": 5,
+    "at_rest": 6,
 }
 MINIMUM = {"not_found": 0, "smooth": 1, "kink": 2, "jump": 3, "edge": 4}
 # A damped period-1 motion is quiet below half the displacement of the free resonance motion.

@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel_only
+from impact_damper.kernel.equation import forcing_amplitude
 
 LANES: int
 
@@ -20,7 +21,10 @@ NEAR = 1e-4
 
 @kernel_only
 def find_forcing(a):
-    """COSINE and SINE of the forcing phase at KNOWN, by their series within an eighth of a turn."""
+    """COSINE and SINE of the forcing phase at KNOWN, times the amplitude of the forcing.
+
+    By their series within an eighth of a turn.
+    """
     for i in range(LANES):
         angle = a[FREQUENCY + i] * a[KNOWN + i]
         turns = np.floor(angle * (2.0 / math.pi) + 0.5)
@@ -35,14 +39,15 @@ def find_forcing(a):
         half = 0.5 * a[TURNS + i]
         odd = half != np.floor(half)
         half = 0.5 * np.floor(half)
-        sign = 1.0 if half == np.floor(half) else -1.0
-        a[COSINE + i] = sign * (-s if odd else c)
-        a[SINE + i] = sign * (c if odd else s)
+        amplitude = forcing_amplitude(a, i, LANES)
+        signed = amplitude if half == np.floor(half) else -amplitude
+        a[COSINE + i] = signed * (-s if odd else c)
+        a[SINE + i] = signed * (c if odd else s)
 
 
 @kernel_only
 def forcing(a):
-    """COSINE and SINE of the forcing phase at TIME.
+    """COSINE and SINE of the forcing phase at TIME, times the amplitude of the forcing.
 
     A trajectory alone, which has looked ahead, may know them, or those of a time close by.
     """
