@@ -14,7 +14,7 @@ reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
 
 smoke: $(READY)
-	$(BIN)/snakemake --cores $(CORES) --configfile config/smoke.yaml
+	$(BIN)/snakemake everything --cores $(CORES) --configfile config/smoke.yaml
 
 # The smoke run on a Slurm that is set up for it alone; needs root and Slurm's packages.
 slurm: $(READY)

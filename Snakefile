@@ -44,14 +44,23 @@ for stage in STAGES:
         name:
             f"all_{stage}"
         input:
-            data(stage),
+            target_files(stage),
 
 
 rule all:
     default_target: True
     input:
-        [data(stage) for stage in STAGES],
+        [data(stage) for stage in STAGES if STAGES[stage].paper],
         rules.figures.input,
         rules.tables.input,
+    message:
+        "The paper"
+
+
+# The paper and the stages beside it.
+rule everything:
+    input:
+        rules.all.input,
+        [target_files(stage) for stage in STAGES if not STAGES[stage].paper],
     message:
         "Everything"

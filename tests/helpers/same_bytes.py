@@ -31,8 +31,9 @@ def digests(results):
 def run(project, cores, chosen):
     """Digests of what a run of a copy of the project makes."""
     copy_of_project(project)
-    arguments = ["--configfile", chosen] if chosen else []
-    ended = snakemake(project, "--cores", str(cores), *arguments, capture_output=False)
+    arguments = ["everything", "--cores", str(cores)]
+    arguments += ["--configfile", chosen] if chosen else []
+    ended = snakemake(project, *arguments, capture_output=False)
     if ended.returncode:
         sys.exit(f"The run on {cores} cores in {project} failed; its messages are above.")
     files = ["config/config.yaml", *([chosen] if chosen else [])]

@@ -70,12 +70,12 @@ FILES = {
 def project(tmp_path_factory):
     """The whole project after a run to its end, in which every dataset is empty."""
     project = copy_of_project(tmp_path_factory.mktemp("a project"))
-    for line in snakemake(project, "--summary").stdout.splitlines()[1:]:
+    for line in snakemake(project, "everything", "--summary").stdout.splitlines()[1:]:
         output = project / line.split("\t")[0]
         output.parent.mkdir(parents=True, exist_ok=True)
         with Dataset(output, "w") if output.suffix == ".nc" else output.open("w"):
             pass
-    result = snakemake(project, "--touch", "--forceall")
+    result = snakemake(project, "everything", "--touch", "--forceall")
     assert result.returncode == 0, result.stdout + result.stderr
     return project
 
@@ -134,7 +134,7 @@ def changed(config, path):
 
 def to_do(project, config):
     """Jobs that Snakemake would run, by its summary of the outputs."""
-    result = snakemake(project, "--summary")
+    result = snakemake(project, "everything", "--summary")
     assert result.returncode == 0, result.stdout + result.stderr
     lines = [line.split("\t") for line in result.stdout.splitlines()[1:]]
     return {planning.job_of_file(config, line[0]) for line in lines if line[-1] != "no update"}

@@ -5,7 +5,7 @@ import re
 import pytest
 from helpers.running import ROOT, snakemake
 
-from impact_damper.workflow.registry import CHAPTERS, STAGES
+from impact_damper.workflow.registry import CHAPTERS, PAPER, STAGES
 
 pytestmark = pytest.mark.workflow
 
@@ -27,12 +27,21 @@ def jobs(result):
 def test_every_script_serves_the_paper_and_the_smoke_run(arguments, most, tmp_path):
     """With few jobs, for each takes a second to start."""
     scripts = {path.stem for path in (ROOT / "workflow/scripts").glob("*.py")}
-    found = jobs(snakemake(ROOT, *arguments, "-n", "--directory", tmp_path / "elsewhere"))
+    planned = snakemake(ROOT, "everything", *arguments, "-n", "--directory", tmp_path / "elsewhere")
+    found = jobs(planned)
     assert sum(found.values()) <= most
     chapters = {f"chapter_{name}" for name in CHAPTERS}
     assert chapters < found.keys()
     # A study is cut into chunks in the smoke run only.
-    assert found.keys() - chapters - {"all"} | {"chapter", "study_chunks"} == scripts
+    assert found.keys() - chapters - {"everything"} | {"chapter", "study_chunks"} == scripts
+
+
+def test_the_paper_is_made_without_the_stages_beside_it(tmp_path):
+    found = jobs(snakemake(ROOT, "-n", "--directory", tmp_path / "elsewhere"))
+    beside = {name for name, stage in STAGES.items() if not stage.paper}
+    shown = {f"chapter_{name}" for name in CHAPTERS}
+    assert found.keys() & shown == {f"chapter_{name}" for name in PAPER}
+    assert not found.keys() & beside and found.keys() > STAGES.keys() - beside
 
 
 def test_each_stage_is_a_target():

@@ -15,7 +15,7 @@ from impact_damper.workflow.configuration import (
     check_file,
     without_left_out,
 )
-from impact_damper.workflow.registry import CHAPTERS, STAGES, TABLES
+from impact_damper.workflow.registry import CHAPTERS, PAPER, STAGES
 from impact_damper.workflow.registry.clearance import study_chunk
 from impact_damper.workflow.sources import module_file, sources
 
@@ -145,8 +145,28 @@ def chapter_parameters(chapter):
     return drawn | {"tables": {"tables": tables}}
 
 
+def figure_files(chapter):
+    """Files of the figures of a chapter, with their captions."""
+    names = selection.figures_of(config, chapter)
+    return expand("<results>/figures/{name}.{kind}", name=names, kind=["pdf", "png", "rst"])
+
+
+def table_files(chapter):
+    """Files of the tables of a chapter, with their captions."""
+    names = [table.name for table in CHAPTERS[chapter].TABLES]
+    return expand("<results>/tables/{name}.{kind}", name=names, kind=["csv", "md", "rst"])
+
+
+def target_files(stage):
+    """Files of the target of a stage: its data, and beside the paper what its chapter shows."""
+    if STAGES[stage].paper:
+        return data(stage)
+    chapter = next(name for name, each in CHAPTERS.items() if STAGES[stage] in each.STAGES)
+    return [*data(stage), *figure_files(chapter), *table_files(chapter)]
+
+
 def chapter_files(chapter):
-    """Files of a chapter: each figure and table, in two formats, and its caption."""
+    """Outputs of the job of a chapter: each figure and table, in two formats, and its caption."""
     figures = selection.figures_of(config, chapter)
     tables = [table.name for table in CHAPTERS[chapter].TABLES]
     return [

@@ -1,13 +1,11 @@
 rule figures:
     input:
-        expand(
-            "<results>/figures/{name}.{kind}", name=config["figures"], kind=["pdf", "png", "rst"]
-        ),
+        [figure_files(chapter) for chapter in PAPER],
 
 
 rule tables:
     input:
-        expand("<results>/tables/{name}.{kind}", name=TABLES, kind=["csv", "md", "rst"]),
+        [table_files(chapter) for chapter in PAPER],
 
 
 # One job for a chapter: starting a process for each figure and table would take longer than they do.

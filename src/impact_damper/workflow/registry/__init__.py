@@ -24,6 +24,8 @@ CHAPTERS = {
     "methods": methods,
     "claims": claims,
 }
+# Those of the paper, which `snakemake` alone makes.
+PAPER = [name for name, chapter in CHAPTERS.items() if all(stage.paper for stage in chapter.STAGES)]
 STAGES = {stage.name: stage for chapter in CHAPTERS.values() for stage in chapter.STAGES}
 KINDS = {kind.name: kind for chapter in CHAPTERS.values() for kind in chapter.KINDS}
 TABLES = {table.name: table for chapter in CHAPTERS.values() for table in chapter.TABLES}

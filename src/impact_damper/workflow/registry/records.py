@@ -18,12 +18,16 @@ class Stage(NamedTuple):
         that the job reads and no others, since a change of any of them reruns the job.
     reads : tuple of str
         Stages whose datasets of the same entry the job reads.
+    paper : bool
+        Whether `snakemake` alone makes its data. Otherwise its own target `all_<name>` does, with
+        the figures and tables of its chapter, all of whose stages are such.
     """
 
     name: str
     section: str
     parameters: Callable
     reads: tuple[str, ...] = ()
+    paper: bool = True
 
 
 class Table(NamedTuple):
