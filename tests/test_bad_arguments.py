@@ -30,6 +30,9 @@ state = st.sampled_from(
     [None, "1234", 1.0, (1, 2, 3), (1, 2, 3, 4, 5), ("1", 0, 0, 0), (math.nan, 0, 0, 0)]
     + [(0, 0, 0, math.inf), np.zeros((2, 2)), (1e9, 0, 0, 0), (0, 1e9, 0, 0), (True, 0, 0, 0), {}]
 )
+no_si = no_numbers.filter(lambda value: value is not None)
+si = no_si | not_finite | negative
+STEEL = idm.Material(2.1e11, 0.3)
 no_oscillator = st.sampled_from([None, 0.215, "h215", {}, DAMPER, idm.Oscillator])
 no_damper = st.sampled_from([0.12, "rm", {}, (0.12, 2.0), OSCILLATOR, idm.Damper, False, 0])
 no_settling = st.sampled_from([0, 300, "", "long", {}, False, idm.Settling, (1e-9, 300)])
@@ -58,6 +61,24 @@ FUNCTIONS = {
     "Settling": (
         {},
         {"tolerance": positive, "patience": count, "limit": count, "watched": count},
+    ),
+    "Machine": (
+        {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005, "force": 40},
+        {
+            "mass": si | st.just(0),
+            "linear_stiffness": si | st.just("2e5 N"),
+            "cubic_stiffness": no_si | not_finite | st.just("4e9 N/m"),
+            "damping_ratio": si | st.sampled_from([0, 1.5]),
+            "force": si | st.just("40 kg"),
+        },
+    ),
+    "Material": (
+        {"youngs_modulus": 2.1e11, "poissons_ratio": 0.3},
+        {"youngs_modulus": si | st.just(0), "poissons_ratio": si | st.just(0.7)},
+    ),
+    "HertzContact": (
+        {"radius": 0.01, "loose": STEEL},
+        {"radius": si | st.just(0), "loose": st.sampled_from([None, "steel", 2.1e11, {}])},
     ),
     "simulate": (
         MOVING,

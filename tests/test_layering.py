@@ -15,6 +15,7 @@ PACKAGE = Path(__file__).parents[1] / "src" / "impact_damper"
 FLOORS = (
     "system",
     "data",
+    "machine",
     "kernel",
     "theory",
     "motions",

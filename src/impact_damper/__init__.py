@@ -11,6 +11,9 @@ _HOMES = {
     "Oscillator": "system.parameters",
     "Damper": "system.parameters",
     "Settling": "system.settling",
+    "Machine": "machine.machine",
+    "HertzContact": "machine.hertz",
+    "Material": "machine.hertz",
     "simulate": "motions.simulate",
     "steady_motion": "motions.steady",
     "frequency_response": "stages.response",
@@ -26,13 +29,33 @@ _HOMES = {
     "harmonic_convergence": "stages.harmonic_convergence",
 }
 
+# Functions that take a machine in place of the oscillator too, with all else in SI units.
+_OF_MACHINES = {
+    "simulate",
+    "steady_motion",
+    "frequency_response",
+    "harmonic_balance_response",
+    "suppression_band",
+    "clearance_sweep",
+    "periodic_orbit",
+    "orbit_branch",
+    "complete_branches",
+}
+
 __all__ = list(_HOMES)
 
 
 def __getattr__(name):
     if name not in _HOMES:
         raise AttributeError(f"module 'impact_damper' has no attribute {name!r}")
-    return getattr(import_module(f"impact_damper.{_HOMES[name]}"), name)
+    found = getattr(import_module(f"impact_damper.{_HOMES[name]}"), name)
+    if name in _OF_MACHINES:
+        from impact_damper.machine.arguments import takes_machine
+
+        found = takes_machine(found)
+    # Once loaded, a name is found without this function.
+    globals()[name] = found
+    return found
 
 
 def __dir__():

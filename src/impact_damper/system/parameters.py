@@ -54,8 +54,9 @@ class Oscillator:
         Part F of the forcing amplitude F + U W^2, dimensionless; 1 in the paper's scales. A free
         decay has neither part.
     unbalance : float
-        Part U W^2 of the forcing amplitude: by a rotating unbalance, or by a base that moves with
-        the amplitude U, where Z1 and Z2 are relative to the base.
+        Part U W^2 of the forcing amplitude: by a rotating unbalance, or, without a damper, by a
+        base that moves with the amplitude U, where Z1 is relative to the base. (A loose mass would
+        feel the motion of the base too; `machine.Machine` has bases that move.)
 
     Raises
     ------

@@ -5,9 +5,14 @@ from impact_damper.data.variables.variable import MINIMUM, STABILITY, Variable
 VARIABLES = {
     # harmonic balance
     "amplitude": Variable(
-        ("frequency", "solution"), "amplitude of Z1, negative in antiphase to Z2", "a"
+        ("frequency", "solution"),
+        "amplitude of Z1, negative in antiphase to Z2",
+        "a",
+        quantity="displacement",
     ),
-    "relative_amplitude": Variable(("frequency", "solution"), "amplitude of Z2", "b"),
+    "relative_amplitude": Variable(
+        ("frequency", "solution"), "amplitude of Z2", "b", quantity="displacement"
+    ),
     "phase": Variable(("frequency", "solution"), "phase of Z1 to the forcing", "theta_1", "radian"),
     "kind": Variable(
         ("frequency", "solution"),
@@ -15,7 +20,9 @@ VARIABLES = {
         flags={"absent": 0, "impacting": 1, "resting": 2},
     ),
     "growth_rate": Variable(
-        ("frequency", "solution"), "largest real part of the eigenvalues of the slow flow"
+        ("frequency", "solution"),
+        "largest real part of the eigenvalues of the slow flow",
+        quantity="rate",
     ),
     "stability": Variable(("frequency", "solution"), "stability by the slow flow", flags=STABILITY),
     "solution_count": Variable(("frequency",), "number of solutions of the harmonic balance"),
@@ -25,7 +32,10 @@ VARIABLES = {
         flags={"solved": 0, "unresolved": 1},
     ),
     "free_amplitude": Variable(
-        ("frequency", "free_solution"), "amplitude of Z1 without the damper", "a"
+        ("frequency", "free_solution"),
+        "amplitude of Z1 without the damper",
+        "a",
+        quantity="displacement",
     ),
     "free_phase": Variable(
         ("frequency", "free_solution"),
@@ -43,7 +53,10 @@ VARIABLES = {
     ),
     "rigid_tangent": Variable(("frequency", "root"), "root of the polynomial (14)", "D"),
     "rigid_amplitude": Variable(
-        ("frequency", "root"), "amplitude of Z1 for rigid walls, negative in antiphase", "a"
+        ("frequency", "root"),
+        "amplitude of Z1 for rigid walls, negative in antiphase",
+        "a",
+        quantity="displacement",
     ),
     "rigid_phase": Variable(
         ("frequency", "root"), "phase of Z1 to the forcing for rigid walls", "theta_1", "radian"
@@ -53,12 +66,18 @@ VARIABLES = {
         "whether rigid walls push or would have to pull",
         flags={"absent": 0, "pushes": 1, "pulls": 2},
     ),
-    "rigid_residual": Variable(("frequency", "root"), "residual of (13)"),
+    "rigid_residual": Variable(("frequency", "root"), "residual of (13)", quantity="mixed"),
     "rigid_count": Variable(("frequency",), "number of real roots of the polynomial (14)"),
     # suppression band
-    "peak_frequency": Variable((), "peak frequency without the damper", "Omega_p"),
-    "peak_amplitude": Variable((), "amplitude of Z1 without the damper at the peak frequency"),
-    "quiet_amplitude": Variable((), "amplitude |a| of the quiet motion at the peak frequency"),
+    "peak_frequency": Variable(
+        (), "peak frequency without the damper", "Omega_p", quantity="frequency"
+    ),
+    "peak_amplitude": Variable(
+        (), "amplitude of Z1 without the damper at the peak frequency", quantity="displacement"
+    ),
+    "quiet_amplitude": Variable(
+        (), "amplitude |a| of the quiet motion at the peak frequency", quantity="displacement"
+    ),
     "reduction": Variable((), "1 - |a|/(amplitude without the damper) at the peak frequency"),
     "band_status": Variable(
         (),
@@ -66,7 +85,7 @@ VARIABLES = {
         flags={"found": 0, "no_single_motion": 1, "no_reduction": 2},
     ),
     "edge": Variable(("edge",), "lower or upper end of a range"),
-    "edge_frequency": Variable(("edge",), "edge of the suppression band"),
+    "edge_frequency": Variable(("edge",), "edge of the suppression band", quantity="frequency"),
     "edge_reduction": Variable(
         ("edge",), "1 - |a|/(amplitude without the damper) at the edge of the suppression band"
     ),
@@ -83,47 +102,67 @@ VARIABLES = {
             "no_reduction": 6,
         },
     ),
-    "band_width": Variable((), "width of the suppression band", "Delta Omega_s"),
+    "band_width": Variable(
+        (), "width of the suppression band", "Delta Omega_s", quantity="frequency"
+    ),
     "break_even_frequency": Variable(
-        (), "frequency above the peak at which |a| equals the smallest amplitude without the damper"
+        (),
+        "frequency above the peak at which |a| equals the smallest amplitude without the damper",
+        quantity="frequency",
     ),
     # optimum clearance
     "quiet_displacement": Variable(
-        ("clearance",), "largest displacement in the quiet motion", "max |Z1|"
+        ("clearance",),
+        "largest displacement in the quiet motion",
+        "max |Z1|",
+        quantity="displacement",
     ),
     "quiet_status": Variable(
         ("clearance",), "whether there is a quiet motion", flags={"absent": 0, "found": 1}
     ),
     "largest_displacement": Variable(
-        ("clearance",), "largest displacement over all motions that random starts reach"
+        ("clearance",),
+        "largest displacement over all motions that random starts reach",
+        quantity="displacement",
     ),
     "analytical_amplitude": Variable(
-        ("clearance",), "smallest |a| of a stable solution of (7)", "|a|"
+        ("clearance",), "smallest |a| of a stable solution of (7)", "|a|", quantity="displacement"
     ),
     "analytical_status": Variable(
         ("clearance",),
         "whether (7) has a stable solution",
         flags={"absent": 0, "found": 1, "inelastic": 2, "unresolved": 3},
     ),
-    "optimum_clearance": Variable((), "clearance at which the quiet motion is smallest", "d0"),
+    "optimum_clearance": Variable(
+        (), "clearance at which the quiet motion is smallest", "d0", quantity="clearance"
+    ),
     "optimum_displacement": Variable(
-        (), "largest displacement in the quiet motion at the optimum clearance", "max |Z1|"
+        (),
+        "largest displacement in the quiet motion at the optimum clearance",
+        "max |Z1|",
+        quantity="displacement",
     ),
     "optimum_kind": Variable(
         (), "kind of minimum: smooth, kink, end of the branch or of the sweep", flags=MINIMUM
     ),
     "near_clearance": Variable(
-        ("edge",), "ends of the clearances within 10 % of the smallest displacement"
+        ("edge",),
+        "ends of the clearances within 10 % of the smallest displacement",
+        quantity="clearance",
     ),
     "near_status": Variable(
         ("edge",),
         "event that ends the range near_clearance",
         flags={"not_found": 0, "crossed": 1, "branch_ends": 2, "sweep_ends": 3},
     ),
-    "analytical_optimum": Variable((), "clearance at which (7) has a solution with a = 0", "d0"),
+    "analytical_optimum": Variable(
+        (), "clearance at which (7) has a solution with a = 0", "d0", quantity="clearance"
+    ),
     "analytical_kind": Variable((), "kind of minimum of |a| at analytical_optimum", flags=MINIMUM),
-    "rule_clearance": Variable((), "clearance of rule (18) at the forcing frequency", "d0"),
-    "peak_rule_clearance": Variable((), "clearance of rule (19)", "d0"),
+    "rule_clearance": Variable(
+        (), "clearance of rule (18) at the forcing frequency", "d0", quantity="clearance"
+    ),
+    "peak_rule_clearance": Variable((), "clearance of rule (19)", "d0", quantity="clearance"),
     "optimum_ratio": Variable((), "rm W^2 d0 at the optimum clearance; 1 by rule (18)"),
     "straight_flight_ratio": Variable(
         (), "rm W^2 d0 at the smallest max |Z1| for rigid walls at high frequency"

@@ -4,38 +4,53 @@ from impact_damper.data.variables.variable import END, OUTCOME, Variable
 
 VARIABLES = {
     # coordinates
-    "frequency": Variable(("frequency",), "forcing frequency", "Omega"),
-    "clearance": Variable(("clearance",), "clearance of the loose mass", "d0"),
+    "frequency": Variable(("frequency",), "forcing frequency", "Omega", quantity="frequency"),
+    "clearance": Variable(
+        ("clearance",), "clearance of the loose mass", "d0", quantity="clearance"
+    ),
     "restitution": Variable(("restitution",), "coefficient of restitution", "e"),
-    "contact_stiffness": Variable(("contact_stiffness",), "stiffness of the contact", "r1"),
-    "time": Variable(("time",), "time", "T"),
+    "contact_stiffness": Variable(
+        ("contact_stiffness",), "stiffness of the contact", "r1", quantity="stiffness"
+    ),
+    "time": Variable(("time",), "time", "T", quantity="time"),
     # state
-    "displacement": Variable(("time",), "displacement of the primary mass", "Z1"),
-    "velocity": Variable(("time",), "velocity of the primary mass", "Z1'"),
+    "displacement": Variable(
+        ("time",), "displacement of the primary mass", "Z1", quantity="displacement"
+    ),
+    "velocity": Variable(("time",), "velocity of the primary mass", "Z1'", quantity="velocity"),
     "relative_displacement": Variable(
-        ("time",), "displacement of the primary relative to the loose mass", "Z2"
+        ("time",),
+        "displacement of the primary relative to the loose mass",
+        "Z2",
+        quantity="displacement",
     ),
     "relative_velocity": Variable(
-        ("time",), "velocity of the primary relative to the loose mass", "Z2'"
+        ("time",), "velocity of the primary relative to the loose mass", "Z2'", quantity="velocity"
     ),
     # motions
     "component": Variable(("component",), "component of the state"),
-    "state": Variable(("component",), "state of the motion at the phase Omega T = pi/2"),
+    "state": Variable(
+        ("component",), "state of the motion at the phase Omega T = pi/2", quantity="state"
+    ),
     "contact_wall": Variable(("contact",), "wall of a contact, -1 or 1"),
-    "contact_begin": Variable(("contact",), "beginning of a contact"),
-    "contact_end": Variable(("contact",), "end of a contact"),
+    "contact_begin": Variable(("contact",), "beginning of a contact", quantity="time"),
+    "contact_end": Variable(("contact",), "end of a contact", quantity="time"),
     "approach_velocity": Variable(
-        ("contact",), "relative velocity at the beginning of a contact", "Z2'"
+        ("contact",), "relative velocity at the beginning of a contact", "Z2'", quantity="velocity"
     ),
     "departure_velocity": Variable(
-        ("contact",), "relative velocity at the end of a contact", "Z2'"
+        ("contact",), "relative velocity at the end of a contact", "Z2'", quantity="velocity"
     ),
     "outcome": Variable(("frequency", "motion"), "outcome of the motion", flags=OUTCOME),
     "period": Variable(("frequency", "motion"), "period of the motion in forcing periods", "n"),
     "contacts": Variable(("frequency", "motion"), "contacts begun per forcing period"),
-    "maximum_displacement": Variable(("frequency", "motion"), "largest displacement", "max |Z1|"),
+    "maximum_displacement": Variable(
+        ("frequency", "motion"), "largest displacement", "max |Z1|", quantity="displacement"
+    ),
     "asymmetry": Variable(
-        ("frequency", "motion"), "distance of the motion from its mirror image half a period later"
+        ("frequency", "motion"),
+        "distance of the motion from its mirror image half a period later",
+        quantity="mixed",
     ),
     "phase_relative": Variable(
         ("frequency", "motion"), "phase of Z1 to Z2, first harmonics", units="radian"
@@ -48,13 +63,15 @@ VARIABLES = {
         ("frequency", "motion"), "dominant Floquet multiplier, imaginary part"
     ),
     "residual": Variable(
-        ("frequency", "motion"), "distance between the state and the state a period later"
+        ("frequency", "motion"),
+        "distance between the state and the state a period later",
+        quantity="mixed",
     ),
     "lyapunov_exponent": Variable(
-        ("frequency", "motion"), "largest Lyapunov exponent per unit time"
+        ("frequency", "motion"), "largest Lyapunov exponent per unit time", quantity="rate"
     ),
     "lyapunov_error": Variable(
-        ("frequency", "motion"), "standard error of the largest Lyapunov exponent"
+        ("frequency", "motion"), "standard error of the largest Lyapunov exponent", quantity="rate"
     ),
     "periods_run": Variable(("frequency", "motion"), "forcing periods run before it settled"),
     # frequency responses
@@ -70,14 +87,18 @@ VARIABLES = {
         ("frequency", "start"), "index along motion of the motion that a random start leads to"
     ),
     "run_length": Variable(("frequency", "start"), "forcing periods run from a random start"),
-    "end_value": Variable(("end",), "parameter of the sweep at the end of a branch"),
+    "end_value": Variable(
+        ("end",), "parameter of the sweep at the end of a branch", quantity="followed"
+    ),
     "end_branch": Variable(("end",), "branch that ends"),
     "end_direction": Variable(
         ("end",), "direction of the sweep in which the branch ends", flags={"down": -1, "up": 1}
     ),
     "end_event": Variable(("end",), "event that ends the branch", flags=END),
     "end_displacement": Variable(
-        ("end",), "largest displacement of the primary mass at the end of a branch"
+        ("end",),
+        "largest displacement of the primary mass at the end of a branch",
+        quantity="displacement",
     ),
     "end_multiplier_real": Variable(("end",), "dominant Floquet multiplier at the end, real part"),
     "end_multiplier_imaginary": Variable(

@@ -24,9 +24,13 @@ BRANCH_END = {
 
 VARIABLES = {
     # orbits along branches
-    "followed_value": Variable(("point",), "parameter along a branch of orbits"),
+    "followed_value": Variable(
+        ("point",), "parameter along a branch of orbits", quantity="followed"
+    ),
     "orbit_branch": Variable(("point",), "number of the branch an orbit lies on"),
-    "orbit_displacement": Variable(("point",), "largest displacement in an orbit", "max |Z1|"),
+    "orbit_displacement": Variable(
+        ("point",), "largest displacement in an orbit", "max |Z1|", quantity="displacement"
+    ),
     "orbit_stability": Variable(
         ("point",), "whether all Floquet multipliers are less than 1", flags=STABILITY
     ),
@@ -38,10 +42,14 @@ VARIABLES = {
     ),
     "orbit_contacts": Variable(("point",), "contacts begun per forcing period in an orbit"),
     "orbit_asymmetry": Variable(
-        ("point",), "distance of an orbit from its mirror image half a period later"
+        ("point",),
+        "distance of an orbit from its mirror image half a period later",
+        quantity="mixed",
     ),
     "orbit_amplitude": Variable(
-        ("point",), "amplitude of the first harmonic of Z1 in an orbit, |a| of harmonic balance"
+        ("point",),
+        "amplitude of the first harmonic of Z1 in an orbit, |a| of harmonic balance",
+        quantity="displacement",
     ),
     "orbit_phase_relative": Variable(
         ("point",), "phase of Z1 to Z2 in an orbit, first harmonics", units="radian"
@@ -51,10 +59,14 @@ VARIABLES = {
     ),
     "orbit_phase": Variable(("point",), "phase Omega T of orbit_state", "", "radian"),
     "orbit_state": Variable(
-        ("point", "component"), "state of an orbit at orbit_phase, without contact"
+        ("point", "component"),
+        "state of an orbit at orbit_phase, without contact",
+        quantity="state",
     ),
     "orbit_residual": Variable(
-        ("point",), "distance between the state of an orbit and the state a period later"
+        ("point",),
+        "distance between the state of an orbit and the state a period later",
+        quantity="mixed",
     ),
     "orbit_multiplier_real": Variable(
         ("point", "multiplier"), "Floquet multipliers by descending modulus, real part"
@@ -66,7 +78,9 @@ VARIABLES = {
         ("point",), "relative error of the determinant of the monodromy matrix"
     ),
     "least_speed": Variable(
-        ("point",), "smallest relative speed at the beginning of a contact of an orbit"
+        ("point",),
+        "smallest relative speed at the beginning of a contact of an orbit",
+        quantity="velocity",
     ),
     "orbit_restitution": Variable(
         ("point",), "smallest ratio of the relative speeds after and before a contact of an orbit"
@@ -81,7 +95,10 @@ VARIABLES = {
         ("design_start",), "outcome of a random start at the design point", flags=OUTCOME
     ),
     "design_run_displacement": Variable(
-        ("design_start",), "largest displacement of the motion from a random start", "max |Z1|"
+        ("design_start",),
+        "largest displacement of the motion from a random start",
+        "max |Z1|",
+        quantity="displacement",
     ),
     # branches
     "branch_period": Variable(("branch",), "period in forcing periods of the orbits", "n"),
@@ -99,14 +116,19 @@ VARIABLES = {
     "event_branch": Variable(("event",), "branch on which an event lies"),
     "event_place": Variable(("event",), "index along the branch of the orbit at an event"),
     "event_kind": Variable(("event",), "kind of event", flags=EVENT),
-    "event_value": Variable(("event",), "parameter at an event"),
-    "event_displacement": Variable(("event",), "largest displacement at an event", "max |Z1|"),
+    "event_value": Variable(("event",), "parameter at an event", quantity="followed"),
+    "event_displacement": Variable(
+        ("event",), "largest displacement at an event", "max |Z1|", quantity="displacement"
+    ),
     "event_residual": Variable(
         ("event",),
         "distance between the state of the orbit at an event and the state a period later",
+        quantity="mixed",
     ),
     "event_speed": Variable(
-        ("event",), "smallest relative speed at the beginning of a contact at an event"
+        ("event",),
+        "smallest relative speed at the beginning of a contact at an event",
+        quantity="velocity",
     ),
     "walls_before": Variable(("event",), "walls touched in order, before an event"),
     "walls_after": Variable(("event",), "walls touched in order, after an event"),

@@ -5,14 +5,22 @@ from impact_damper.data.variables.variable import SUBHARMONIC_END, SUPPRESSION, 
 VARIABLES = {
     # one-third subharmonic
     "free_subharmonic": Variable(
-        ("frequency",), "largest displacement of the subharmonic without the damper", "max |Z1|"
+        ("frequency",),
+        "largest displacement of the subharmonic without the damper",
+        "max |Z1|",
+        quantity="displacement",
     ),
-    "free_subharmonic_frequency": Variable(("edge",), "ends of the subharmonic without the damper"),
+    "free_subharmonic_frequency": Variable(
+        ("edge",), "ends of the subharmonic without the damper", quantity="frequency"
+    ),
     "free_subharmonic_event": Variable(
         ("edge",), "event that ends the subharmonic without the damper", flags=SUBHARMONIC_END
     ),
     "damped_subharmonic": Variable(
-        ("frequency",), "largest displacement of any subharmonic with the damper", "max |Z1|"
+        ("frequency",),
+        "largest displacement of any subharmonic with the damper",
+        "max |Z1|",
+        quantity="displacement",
     ),
     "damped_subharmonic_period": Variable(
         ("frequency",), "period of damped_subharmonic in forcing periods, 0 without one", "n"
@@ -21,7 +29,9 @@ VARIABLES = {
         ("frequency",), "contacts begun per forcing period in damped_subharmonic"
     ),
     "reached_subharmonic": Variable(
-        ("frequency",), "largest displacement of the damped subharmonics that random starts lead to"
+        ("frequency",),
+        "largest displacement of the damped subharmonics that random starts lead to",
+        quantity="displacement",
     ),
     "subharmonic_ratio": Variable(
         ("frequency",), "damped_subharmonic divided by free_subharmonic, 0 if removed"
@@ -48,10 +58,13 @@ VARIABLES = {
         ("subharmonic",), "period of the branch in forcing periods", "n"
     ),
     "subharmonic_displacement": Variable(
-        ("subharmonic",), "largest displacement of the primary mass on the branch", "max |Z1|"
+        ("subharmonic",),
+        "largest displacement of the primary mass on the branch",
+        "max |Z1|",
+        quantity="displacement",
     ),
     "subharmonic_frequency": Variable(
-        ("subharmonic", "edge"), "ends of the frequency range of the branch"
+        ("subharmonic", "edge"), "ends of the frequency range of the branch", quantity="frequency"
     ),
     "subharmonic_event": Variable(
         ("subharmonic", "edge"), "event that ends the branch", flags=SUBHARMONIC_END

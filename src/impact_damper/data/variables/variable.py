@@ -18,6 +18,10 @@ class Variable(NamedTuple):
         "1": dimensionless, as in section 2.1 of the paper. "radian": an angle.
     flags : dict of int or None
         For a status: the stored value of each meaning.
+    quantity : str
+        Physical quantity, a key of `machine.units.QUANTITIES`. "state": displacements and
+        velocities. "followed": that of the parameter of a sweep or a branch. "mixed": a number in
+        which several stand together, as the distance of two states.
     """
 
     dims: tuple
@@ -25,6 +29,7 @@ class Variable(NamedTuple):
     symbol: str = ""
     units: str = "1"
     flags: dict | None = None
+    quantity: str = "number"
 
 
 STABILITY = {"absent": -2, "unstable": -1, "marginal": 0, "stable": 1}

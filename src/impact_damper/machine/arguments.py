@@ -1,0 +1,153 @@
+"""Functions of the dimensionless equations, called with a machine and in SI units."""
+
+import inspect
+from functools import wraps
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.machine.dampers import MachineDamper
+from impact_damper.machine.machine import Machine
+from impact_damper.machine.results import FOLLOWED, STATE, from_si, in_si
+from impact_damper.machine.units import check_si, si_value
+from impact_damper.system.bounds import CLEARANCE_RANGE, RADIUS_RANGE, shown
+
+NOTE = """
+
+With a `Machine` in place of the oscillator, and a `MachineDamper` in place of the damper, all
+arguments and the dataset returned are in SI units: see `Machine`.
+"""
+
+
+def takes_machine(function):
+    """Return a function that takes a `Machine` in place of the oscillator, with the rest in SI.
+
+    Arguments are known by their names, which mean the same in all functions: `frequency` and
+    `frequencies` (Hz), `state` (m, m/s), `clearances` (m, on each side), `radius` (m; of speeds as
+    in the scales of the machine), `start` (s), `damper`, `parameter` with `span`, `motions`. Each
+    number may be text with units or a quantity of pint. The dataset is returned by `in_si`. With
+    an `Oscillator` nothing is converted.
+
+    Parameters
+    ----------
+    function : callable
+        Its first argument is `oscillator`; it returns a dataset.
+    """
+    signature = inspect.signature(function)
+
+    @wraps(function)
+    def either(*args, **kwargs):
+        given = kwargs.get("oscillator", args[0] if args else None)
+        if not isinstance(given, Machine):
+            return function(*args, **kwargs)
+        bound = signature.bind(*args, **kwargs).arguments
+        return _called(function, given, bound)
+
+    either.__doc__ = inspect.cleandoc(function.__doc__) + NOTE
+    return either
+
+
+def _called(function, machine, given):
+    """Call a function with arguments in SI units, and return its dataset in them."""
+    arguments = dict(given)
+    damper = arguments.get("damper")
+    parameter = arguments.get("parameter", "frequency")
+    # Where the frequency varies, the force is needed at all of them.
+    fixed = "frequency" in arguments and not ("span" in arguments and parameter == "frequency")
+    single = machine.check_frequency("frequency", arguments["frequency"]) if fixed else None
+    arguments["oscillator"] = machine.oscillator(single)
+    for name, value in given.items():
+        if name in CONVERTED and value is not None:
+            arguments[name] = CONVERTED[name](machine, name, value)
+    if "damper" in arguments:
+        arguments["damper"] = _damper(machine, damper, swept="clearances" in arguments)
+    if "span" in arguments:
+        arguments |= _span(machine, parameter, arguments["span"])
+    return in_si(function(**arguments), machine, damper)
+
+
+def _damper(machine, damper, swept):
+    """Return a damper in the scales of a machine; where its gap is swept, its other arguments."""
+    if damper is None:
+        return None
+    if not isinstance(damper, MachineDamper):
+        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper, by machine.damper")
+    damper.check_for(machine)
+    scaled = damper.scaled(machine.scales)
+    kept = ("mass_ratio", "restitution", "contact_stiffness")
+    return {name: getattr(scaled, name) for name in kept} if swept else scaled
+
+
+def _span(machine, parameter, span):
+    """Return the arguments `parameter` and `span` of a branch."""
+    if not isinstance(parameter, str) or parameter not in FOLLOWED:
+        raise ValueError(f"parameter = {shown(parameter)}: must be one of {', '.join(FOLLOWED)}")
+    name, quantity = FOLLOWED[parameter]
+    if np.ndim(span) != 1:
+        raise TypeError(f"span = {shown(span)}: must be least and greatest value")
+    ends = _each("span", span, lambda place, end: si_value(place, end, quantity))
+    return {"parameter": name, "span": tuple(machine.scales.from_si(end, quantity) for end in ends)}
+
+
+def _each(name, values, convert):
+    """Return converted numbers: one, or a list of all in a sequence, named with their places."""
+    if np.ndim(getattr(values, "magnitude", values)) == 0:
+        return convert(name, values)
+    return [convert(f"{name}[{place}]", value) for place, value in enumerate(values)]
+
+
+def _frequencies(machine, name, values):
+    def convert(place, value):
+        return machine.scales.from_si(machine.check_frequency(place, value), "frequency")
+
+    return _each(name, values, convert)
+
+
+def _clearances(machine, name, values):
+    scales = machine.scales
+    bounds = {end: scales.to_si(CLEARANCE_RANGE[end], "clearance") for end in ("least", "most")}
+
+    def convert(place, value):
+        return scales.from_si(check_si(place, value, "clearance", **bounds), "clearance")
+
+    return _each(name, values, convert)
+
+
+def _state(machine, name, values):
+    if np.ndim(values) != 1 or len(values) not in (2, 4):
+        raise ValueError(
+            f"{name} = {shown(values)}: must be four numbers, displacement (m) and velocity (m/s) "
+            "of the machine and of the machine relative to the loose mass, or the first two "
+            "without a damper"
+        )
+    return [
+        machine.scales.from_si(si_value(f"{name}[{place}]", value, quantity), quantity)
+        for place, (value, quantity) in enumerate(zip(values, STATE, strict=False))
+    ]
+
+
+def _radius(machine, name, value):
+    most = machine.scales.to_si(RADIUS_RANGE["most"], "displacement")
+    radius = check_si(name, value, "displacement", above=0, most=most)
+    return machine.scales.from_si(radius, "displacement")
+
+
+def _start(machine, name, value):
+    return machine.scales.from_si(si_value(name, value, "time"), "time")
+
+
+def _motions(machine, name, values):
+    if not isinstance(values, list) or not all(isinstance(each, xr.Dataset) for each in values):
+        raise TypeError(f"{name} = {shown(values)}: must be a list of datasets of motions")
+    return [from_si(each, machine) for each in values]
+
+
+CONVERTED = {
+    "frequency": _frequencies,
+    "frequencies": _frequencies,
+    "clearances": _clearances,
+    "state": _state,
+    "radius": _radius,
+    "start": _start,
+    "motions": _motions,
+}

@@ -1,0 +1,257 @@
+"""A machine on a spring, with its excitation, in SI units."""
+
+import math
+from dataclasses import dataclass, fields
+from functools import cached_property
+
+from impact_damper.machine.dampers import MachineDamper
+from impact_damper.machine.scales import Scales, static_deflection
+from impact_damper.machine.units import check_si, convert, physical, with_unit
+from impact_damper.system.bounds import DAMPING_RANGE, FREQUENCY_RANGE
+from impact_damper.system.parameters import Oscillator
+
+EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
+# Largest damping ratio with which the force by a moving base may be swept over frequency.
+LIGHT = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class Machine:
+    """A mass on a spring and a dashpot, and what excites it; all in SI units.
+
+    Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
+    the fields hold numbers. The restoring force at the deflection x is
+    linear_stiffness x + cubic_stiffness x^3. Either the damping ratio or the damping is given, and
+    one excitation.
+
+    The public functions of the package that take an oscillator take a machine too. Their
+    frequencies are then in Hz, states in m and m/s, and the datasets they return in mm, Hz, N, m/s
+    and s.
+
+    Attributes
+    ----------
+    mass : float
+        kg, without that of a damper.
+    linear_stiffness, cubic_stiffness : float
+        N/m and N/m^3. A negative cubic stiffness softens the spring.
+    damping_ratio : float
+        Share of the critical damping of the machine with its linear stiffness, below 1.
+    damping : float
+        Coefficient of the dashpot, N s/m.
+    force : float
+        Amplitude of a harmonic force, N; 0 for a free decay.
+    base_displacement, base_acceleration : float
+        Amplitude of a harmonic motion of the base, m or m/s^2, for a linear spring. Displacements
+        are then those in space, not relative to the base: the loose mass of a damper feels no
+        force from the base. The force on the machine by spring and dashpot has the amplitude
+        A sqrt(k^2 + c^2 w^2) for the displacement A of the base.
+    unbalance : float
+        Mass times eccentricity of a rotating unbalance, kg m; its force is unbalance w^2.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is out of range or missing, or two exclude each other.
+    """
+
+    mass: float = physical("mass", least=1e-15, most=1e15)
+    linear_stiffness: float = physical("stiffness", least=0, most=1e30, default=0.0)
+    cubic_stiffness: float = physical("cubic_stiffness", least=-1e30, most=1e30, default=0.0)
+    damping_ratio: float | None = physical(
+        "number", above=0, most=1, why="above critical damping nothing swings", default=None
+    )
+    damping: float | None = physical("damping", above=0, default=None)
+    force: float | None = physical("force", least=0, most=1e15, default=None)
+    base_displacement: float | None = physical("displacement", above=0, most=1e3, default=None)
+    base_acceleration: float | None = physical("acceleration", above=0, most=1e9, default=None)
+    unbalance: float | None = physical("unbalance", above=0, most=1e15, default=None)
+
+    def __post_init__(self):
+        convert(self)
+        self._check_spring()
+        self._check_damping()
+        given = [name for name in EXCITATIONS if getattr(self, name) is not None]
+        if len(given) != 1:
+            names = " and ".join(given) or "none of them"
+            raise ValueError(
+                f"excitation = {names}: must be one of {', '.join(EXCITATIONS)}, and one alone"
+            )
+        if given[0].startswith("base") and self.cubic_stiffness:
+            raise ValueError(
+                f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')}: must be 0 with "
+                f"{given[0]} (the spring's force on the machine would not be harmonic)"
+            )
+
+    def _check_spring(self):
+        if self.linear_stiffness == 0 and self.cubic_stiffness <= 0:
+            raise ValueError(
+                f"linear_stiffness = {with_unit(0.0, 'N/m')}: must be greater than 0 N/m with "
+                f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')} (without a force "
+                "that restores it the machine drifts away)"
+            )
+
+    def _check_damping(self):
+        if (self.damping_ratio is None) == (self.damping is None):
+            raise ValueError("damping: must be given, or damping_ratio in its place, and not both")
+        critical = 2 * math.sqrt(self.linear_stiffness * self.mass)
+        if self.damping_ratio is not None and not critical:
+            raise ValueError(
+                f"damping_ratio = {self.damping_ratio:g}: must be left out without linear_stiffness"
+                ", for damping in N s/m (nothing is critical)"
+            )
+        if self.damping is not None and critical:
+            why = "critical damping: above, nothing swings"
+            check_si("damping", self.damping, "damping", most=critical, why=why)
+        least, most = (
+            self.scales.to_si(DAMPING_RANGE[end], "damping") for end in ("least", "most")
+        )
+        check_si("damping", self.viscous_damping, "damping", least=least, most=most)
+
+    @property
+    def viscous_damping(self) -> float:
+        """Coefficient c of the dashpot, N s/m."""
+        if self.damping is not None:
+            return self.damping
+        return 2 * self.damping_ratio * math.sqrt(self.linear_stiffness * self.mass)
+
+    @property
+    def natural_frequency(self) -> float:
+        """Frequency of small free vibrations without damping, Hz; 0 without linear stiffness."""
+        return math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
+
+    @cached_property
+    def scales(self) -> Scales:
+        """Scales by which the dimensionless equations are those of the machine.
+
+        The length is the geometric mean of the static deflection and of what it becomes at
+        resonance, so that quiet motions, violent ones and the gaps between them are neither far
+        below 1 nor far above. In these scales omega_l^2 + |k3| = 1. Without a force the static
+        deflection is that at which both springs are equally strong, or 1 mm.
+        """
+        stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
+        static = self._static_deflection()
+        bounce = math.sqrt((stiffness + cubic * static**2) * self.mass)
+        length = static * math.sqrt(max(1.0, bounce / self.viscous_damping))
+        return Scales(length, math.sqrt(self.mass / (stiffness + cubic * length**2)), self.mass)
+
+    def _static_deflection(self):
+        """Return the deflection under the force, or the eccentricity to which it is proportional.
+
+        m
+        """
+        stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
+        if self.force:
+            return static_deflection(self.force, stiffness, cubic)
+        if self.unbalance is not None:
+            return self.unbalance / self.mass
+        if self.base_displacement is not None:
+            return self.base_displacement
+        if self.base_acceleration is not None:
+            return self.base_acceleration * self.mass / stiffness
+        return math.sqrt(stiffness / cubic) if stiffness and cubic else 1e-3
+
+    @property
+    def static_force(self) -> float:
+        """Force that holds the machine at its static deflection, N; 0 without excitation."""
+        if self.force is not None:
+            return self.force
+        x = self._static_deflection()
+        return self.linear_stiffness * x + abs(self.cubic_stiffness) * x**3
+
+    def oscillator(self, frequency=None) -> Oscillator:
+        """Return the machine in its scales.
+
+        Parameters
+        ----------
+        frequency : float, optional
+            Forcing frequency, Hz. With a moving base the force is that at this frequency alone; if
+            it is not given, k A + (c^2 A/(2 k)) w^2, which is A sqrt(k^2 + c^2 w^2) but for a share
+            of (2 damping_ratio w/w0)^4/8.
+
+        Raises
+        ------
+        ValueError
+            If the base moves, no frequency is given, and the force is not of this kind.
+        """
+        scales = self.scales
+        force, unbalance = self._forcing(frequency)
+        return Oscillator(
+            damping=scales.from_si(self.viscous_damping, "damping"),
+            linear_frequency=math.sqrt(scales.from_si(self.linear_stiffness, "stiffness")),
+            cubic=scales.from_si(self.cubic_stiffness, "cubic_stiffness"),
+            force=scales.from_si(force, "force"),
+            unbalance=scales.from_si(unbalance, "unbalance"),
+        )
+
+    def _forcing(self, frequency):
+        """Return force (N) and unbalance (kg m) for `oscillator`."""
+        if self.force is not None:
+            return self.force, 0.0
+        if self.unbalance is not None:
+            return 0.0, self.unbalance
+        stiffness, damping = self.linear_stiffness, self.viscous_damping
+        if frequency is not None:
+            angular = 2 * math.pi * frequency
+            amplitude = self.base_displacement or self.base_acceleration / angular**2
+            return amplitude * math.hypot(stiffness, damping * angular), 0.0
+        if self.base_displacement is None:
+            raise ValueError(
+                f"base_acceleration = {with_unit(self.base_acceleration, 'm/s^2')}: must be given "
+                "as base_displacement for a range of frequencies (the force that spring and dashpot"
+                " pass on falls with the frequency's square)"
+            )
+        ratio = damping / (2 * math.sqrt(stiffness * self.mass))
+        why = "for a range of frequencies with base_displacement: force of the dashpot"
+        check_si("damping_ratio", ratio, "number", most=LIGHT, why=why)
+        amplitude = self.base_displacement
+        return amplitude * stiffness, amplitude * damping**2 / (2 * stiffness)
+
+    def check_frequency(self, name, value) -> float:
+        """Return a forcing frequency in Hz, or raise an error that names what is allowed."""
+        least, most = (
+            self.scales.to_si(FREQUENCY_RANGE[end], "frequency") for end in ("least", "most")
+        )
+        why = FREQUENCY_RANGE["why"]
+        return check_si(name, value, "frequency", least=least, most=most, why=why)
+
+    def damper(self, *, mass, gap=None, clearance_each_side=None, **contact) -> MachineDamper:
+        """Return a damper for this machine.
+
+        Parameters
+        ----------
+        mass : float, str or pint.Quantity
+            kg.
+        gap : float, str or pint.Quantity, optional
+            Full play of the loose mass from wall to wall, m.
+        clearance_each_side : float, str or pint.Quantity, optional
+            In place of `gap`, half of it: from the centred loose mass to either wall, m.
+        contact
+            The other arguments of `MachineDamper`: restitution, contact_stiffness or contact.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a value is out of range, by itself or for this machine.
+        """
+        if (gap is None) == (clearance_each_side is None):
+            raise ValueError(
+                "gap: must be given, the full play, or clearance_each_side in its place, and not "
+                "both"
+            )
+        if gap is None:
+            name = "clearance_each_side"
+            gap = 2 * check_si(name, clearance_each_side, "clearance", above=0)
+        damper = MachineDamper(mass=mass, gap=gap, **contact)
+        damper.check_for(self)
+        return damper
+
+
+def describe_si(*parts) -> dict:
+    """Return the fields of machines and dampers that are given, in SI units, as one dictionary."""
+    return {
+        each.name: getattr(part, each.name)
+        for part in parts
+        if part is not None
+        for each in fields(part)
+        if isinstance(getattr(part, each.name), float)
+    }

@@ -1,0 +1,102 @@
+"""Datasets in SI units, and back.
+
+Which physical quantity a variable is, the registry of variables says. Numbers that mix quantities,
+as the distance between two states, stay in the scales of the machine.
+"""
+
+import json
+
+import numpy as np
+
+from impact_damper.data.datasets import parameters_of
+from impact_damper.data.variables import VARIABLES
+from impact_damper.machine.machine import describe_si
+from impact_damper.machine.units import QUANTITIES
+
+# Quantities of the components of a state.
+STATE = ("displacement", "velocity", "displacement", "velocity")
+# Parameters in which branches of orbits are followed: the name of each for a machine, its name in
+# the equations, and its quantity.
+FOLLOWED = {
+    "frequency": ("frequency", "frequency"),
+    "damping": ("damping", "damping"),
+    "cubic_stiffness": ("cubic", "cubic_stiffness"),
+    "force": ("force", "force"),
+    "unbalance": ("unbalance", "unbalance"),
+    "mass": ("mass_ratio", "mass"),
+    "clearance_each_side": ("clearance", "clearance"),
+    "restitution": ("restitution", "number"),
+    "contact_stiffness": ("contact_stiffness", "stiffness"),
+}
+
+
+def in_si(data, machine, damper=None):
+    """Return a dataset of the dimensionless equations in the units of a machine.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of registered variables, computed in `machine.scales`.
+    machine : Machine
+    damper : MachineDamper, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        Each variable in the unit that its attribute `units` names: mm, m/s, Hz, s, N and others.
+        States are in m and m/s, so that they can be handed on to functions. Clearances are those on
+        each side, as their long names say. The attribute `machine` holds machine and damper in SI
+        units, with `gap` as the full play, `scales` the scales, and `parameters` what was computed,
+        dimensionless.
+    """
+    made = {"machine": describe_si(machine, damper), "scales": machine.scales._asdict()}
+    converted = _each(data, lambda values, unit: values * unit, machine.scales)
+    for name in converted.variables:
+        _name_unit(converted[name], _quantity(name, data))
+    texts = {name: json.dumps(value, sort_keys=True) for name, value in made.items()}
+    return converted.assign_attrs(texts)
+
+
+def from_si(data, machine):
+    """Return a dataset made by `in_si` in the scales of its machine again."""
+    return _each(data, lambda values, unit: values / unit, machine.scales)
+
+
+def _each(data, convert, scales):
+    """Return a dataset with each variable converted by the unit of its quantity."""
+    found = {}
+    for name, variable in data.variables.items():
+        quantity = _quantity(name, data)
+        if quantity == "state":
+            unit = np.array([scales.unit(each) for each in STATE])
+        elif quantity in QUANTITIES and quantity != "number":
+            unit = scales.unit(quantity) * QUANTITIES[quantity].share
+        else:
+            continue
+        found[name] = variable.copy(data=convert(variable.values, unit))
+    coordinates = {name: found.pop(name) for name in list(found) if name in data.coords}
+    return data.assign(found).assign_coords(coordinates)
+
+
+def _quantity(name, data):
+    """Return the quantity registered for a variable; of a followed value, that of the parameter."""
+    quantity = VARIABLES[name].quantity
+    if quantity != "followed":
+        return quantity
+    # a sweep names its parameter by its coordinate
+    swept = "clearance" if "clearance" in data.coords else "frequency"
+    parameter = parameters_of(data).get("parameter", swept)
+    return next(kind for inner, kind in FOLLOWED.values() if inner == parameter)
+
+
+def _name_unit(variable, quantity):
+    """Set the attributes of a converted variable in place."""
+    if quantity == "state":
+        variable.attrs["units"] = "m, m/s, m, m/s"
+    elif quantity == "mixed":
+        variable.attrs["long_name"] += ", in the scales of the machine"
+    elif quantity != "number":
+        variable.attrs["units"] = QUANTITIES[quantity].shown or QUANTITIES[quantity].unit
+        variable.attrs.pop("symbol", None)
+    if quantity == "clearance":
+        variable.attrs["long_name"] += ", on each side"

@@ -1,0 +1,68 @@
+"""Scales of length, time and mass between SI units and the dimensionless equations.
+
+The equations are those of section 2.1 of Chatterjee, Mallik and Ghosh (1995), for any scales
+of length and time; the scale of mass is the mass of the machine.
+"""
+
+import math
+from typing import NamedTuple
+
+from impact_damper.machine.units import QUANTITIES
+
+
+class Scales(NamedTuple):
+    """Scales of a machine, in SI units.
+
+    Attributes
+    ----------
+    length : float
+        x0, m.
+    time : float
+        1/w0, s.
+    mass : float
+        Mass m1 of the machine, kg.
+    """
+
+    length: float
+    time: float
+    mass: float
+
+    def unit(self, quantity) -> float:
+        """Return the SI value of the dimensionless 1 of a quantity.
+
+        The dimensionless frequency W is angular, its SI value in Hz is W w0/(2 pi).
+
+        Parameters
+        ----------
+        quantity : str
+            A key of `units.QUANTITIES`.
+        """
+        each = QUANTITIES[quantity]
+        value = self.length**each.length * self.time**each.time * self.mass**each.mass
+        return value / (2 * math.pi) if quantity == "frequency" else value
+
+    def to_si(self, value, quantity):
+        """Return the SI value of a dimensionless number or array."""
+        return value * self.unit(quantity)
+
+    def from_si(self, value, quantity):
+        """Return the dimensionless value of an SI number or array."""
+        return value / self.unit(quantity)
+
+
+def static_deflection(force, linear, cubic) -> float:
+    """Return the deflection x > 0 at which linear x + |cubic| x^3 equals a force, all in SI units.
+
+    Newton's method, which from the smaller of the two deflections by one spring alone descends
+    without fail, since the force grows with x and its slope too.
+    """
+    cubic = abs(cubic)
+    x = min(
+        force / linear if linear else math.inf, (force / cubic) ** (1 / 3) if cubic else math.inf
+    )
+    for _ in range(60):
+        step = (linear * x + cubic * x**3 - force) / (linear + 3 * cubic * x**2)
+        x -= step
+        if abs(step) < 1e-15 * x:
+            break
+    return x

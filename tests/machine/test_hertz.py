@@ -1,0 +1,63 @@
+"""Hertz's impact against its equation of motion, and a steel ball of the literature."""
+
+import pytest
+from scipy.integrate import solve_ivp
+
+from impact_damper.machine.hertz import HertzContact, Material
+
+STEEL = Material("210 GPa", 0.3)
+
+
+@pytest.mark.parametrize(("radius", "speed", "mass"), [(0.01, 0.5, 0.6), (0.2, 3.0, 0.02)])
+def test_an_impact_is_that_of_the_equation_of_motion(radius, speed, mass):
+    contact = HertzContact(radius, STEEL, Material(7e10, 0.33))
+    k = contact.coefficient
+    scale = (mass * speed**2 / k) ** 0.4
+
+    def turned(t, y):
+        return y[1]
+
+    def parted(t, y):
+        return y[0]
+
+    parted.direction, parted.terminal = -1, True
+    run = solve_ivp(
+        lambda t, y: [y[1], -k * max(y[0], 0) ** 1.5 / mass],
+        (0, 20 * scale / speed),
+        [0, speed],
+        events=(turned, parted),
+        rtol=1e-12,
+        atol=1e-18,
+        max_step=0.05 * scale / speed,
+    )
+    found = contact.impact(speed, mass)
+    deepest = run.y_events[0][0][0]
+    assert found.compression == pytest.approx(deepest, rel=1e-8)
+    assert found.force == pytest.approx(k * deepest**1.5, rel=1e-8)
+    assert found.duration == pytest.approx(run.t_events[1][-1], rel=1e-6)
+    # the linear spring comes to rest at the same depth
+    assert found.compression == pytest.approx(speed * (mass / found.stiffness) ** 0.5, rel=1e-14)
+    assert 0.5 * found.stiffness * deepest**2 == pytest.approx(0.5 * mass * speed**2, rel=1e-8)
+
+
+def test_two_equal_materials_halve_the_modulus():
+    """E* = E/(2 (1 - nu^2)) (Johnson, 1985, equation 4.23)."""
+    modulus = 2.1e11 / (2 * (1 - 0.3**2))
+    assert HertzContact("1 cm", STEEL).coefficient == pytest.approx(
+        4 / 3 * modulus * 0.1, rel=1e-14
+    )
+
+
+@pytest.mark.parametrize(
+    ("make", "told"),
+    [
+        (lambda: Material(-1, 0.3), "youngs_modulus = -1 Pa: must be greater than 0 Pa"),
+        (lambda: Material(1e9, 0.6), "poissons_ratio = 0.6: must be at least 0 and at most 0.5"),
+        (lambda: HertzContact(0, STEEL), "radius = 0 m: must be greater than 0 m"),
+        (lambda: HertzContact(1, "steel"), "loose = 'steel': must be a Material"),
+    ],
+)
+def test_nonsense_is_refused(make, told):
+    with pytest.raises((TypeError, ValueError)) as raised:
+        make()
+    assert str(raised.value).startswith(told)
