@@ -53,7 +53,7 @@ def advance_in_shares(scene, starts, workers):
     def work(part):
         advance_rows(scene, states[part], TOLERANCE)
 
-    run_chunks(work, len(starts), workers, None, SHARE)
+    run_chunks(work, len(starts), workers, None, np.zeros(1, bool), SHARE)
     return states
 
 

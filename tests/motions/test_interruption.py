@@ -12,9 +12,14 @@ import signal
 import threading
 import time
 import impact_damper as idm
+from impact_damper.stages.migration import trials
+from impact_damper.stages.response import collisions
+from impact_damper.stages.stable_steps import stable_steps
+from impact_damper.stages.studies import study_chunk
 
 oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
 start, large = (0.006, 0.187, 0.002, -2.408), (1.8787, -2.4769, 0.0245, -0.4529)
+cells = {"mass_ratio": 0.12, "clearance": 2.0, "frequency": [1.6, 1.7], "restitution": 1.0}
 free, slow = idm.Oscillator(1e-3), idm.Settling(patience=10**7, limit=10**8, tolerance=1e-14)
 SHORT
 instants = []
@@ -38,6 +43,11 @@ CALLS = {
     "frequency_response": "idm.frequency_response(oscillator, damper, {})",
     "orbit_branch": "idm.orbit_branch(oscillator, damper, 2.0, start, span={})",
     "migrate": "idm.migrate(oscillator, damper, 2.0, periods={})",
+    "trials": "trials(oscillator, damper, 1.7, trials=2, releases=2, lifetime={})",
+    "collisions": "collisions(oscillator, idm.Damper(0.12, 1000.0), 1.7, {})",
+    "study_chunk": "study_chunk(free, cells, (0, 2), settling={})",
+    "stable_steps": "stable_steps(oscillator, damper, 2.0, stiffnesses=[2000.0], {})",
+    "harmonic_convergence": "idm.harmonic_convergence(oscillator, damper, 2.0, {})",
 }
 ARGUMENTS = {
     "simulate": ("1", "1e6"),
@@ -45,6 +55,14 @@ ARGUMENTS = {
     "frequency_response": ("[2.0]", "[1.6 + k / 1000 for k in range(400)]"),
     "orbit_branch": ("(1.99, 2.01)", "(0.5, 5.0)"),
     "migrate": ("10", "10**6"),
+    "trials": ("100", "10**6"),
+    "collisions": ("starts=1, periods=1", "starts=10**5, periods=10**6"),
+    "study_chunk": ("None", "slow"),
+    "stable_steps": (
+        "scaled_steps=[1.0], most_steps=1000, periods=1",
+        "scaled_steps=[1e-3], most_steps=10**6, periods=10**5",
+    ),
+    "harmonic_convergence": ("[1, 3]", "[1, 4001]"),
 }
 
 

@@ -254,8 +254,7 @@ def test_log_of_contacts_may_be_short(design_orbit):
 def test_first_collision_by_simulation():
     p = pack(PAPER, DESIGN, 2.0)
     states = np.array([[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.1, 0.0], [0.0, 0.0, 0.0, 0.0]])
-    waits = np.empty(3)
-    records.first_collisions(np.tile(p, (3, 1)), states, 10, 1e-12, waits)
+    waits = ensemble.collide(np.tile(p, (3, 1)), states, 10, 1e-12)
     _, log = sample(p, states[0], 0.0, [10.0])
     assert_allclose(waits[0], log[0, 1] * p[0] / (2 * math.pi), rtol=1e-12)
     assert waits[1] == 0

@@ -50,9 +50,7 @@ def test_merson_follows_its_tolerance(locate, free):
     p, end = free
     errors = []
     for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
-        strobes, largest = np.empty((2, 4)), np.empty(2)
-        run, _ = merson.run_merson(p, START, 0.0, tolerance, locate, strobes, largest)
-        assert run == 2
+        strobes = merson.Merson().strobes(p, START, 0.0, 2, tolerance, locate)
         errors.append(np.abs(strobes[-1] - end).max())
     slope = np.polyfit([-6, -8, -10, -12], np.log10(errors), 1)[0]
     assert 0.7 < slope < 1.1
@@ -106,8 +104,7 @@ def test_located_contacts_agree_with_the_taylor_series(damper):
     times = begin + math.pi * np.arange(1, 4)
     expected, log = sample(p, y, begin, times)
     assert len(log) >= 4
-    strobes, largest = np.empty((3, 4)), np.empty(3)
-    merson.run_merson(p, y, begin, 1e-12, True, strobes, largest)
+    strobes = merson.Merson().strobes(p, y, begin, 3, 1e-12, True)
     assert_allclose(strobes, expected, atol=1e-8)
     states = SciPy("DOP853").strobes(p, y, begin, 3, 1e-12, True, 10**6)
     assert_allclose(states, expected, atol=1e-8)

@@ -3,10 +3,9 @@
 import numpy as np
 from scipy.stats import binomtest, chi2
 
+from impact_damper.system.bounds import LEAD
+
 BOUNDS = ["share", "lower", "upper"]
-# Initial time left out of a rate, in the unit of the lifetimes: runs first have to reach the motion
-# whose lifetime is measured.
-LEAD = 20
 
 
 def wilson(successes, total):

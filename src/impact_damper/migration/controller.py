@@ -12,7 +12,7 @@ from impact_damper.data.datasets import flag
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
 from impact_damper.migration import legs
 from impact_damper.migration.damper_release import destination, kinds
-from impact_damper.motions.records import MOTION, trace
+from impact_damper.motions.records import MOTION, NEVER, trace
 from impact_damper.system.packed import FREQUENCY
 
 # A course begins and ends this number of forcing periods before and after the run.
@@ -50,7 +50,7 @@ def blank(shape):
     return log
 
 
-def control(case, draws, longest_hold, settling, periods):
+def control(case, draws, longest_hold, settling, periods, stop=NEVER):
     """Return path and log of one run of the controller.
 
     Parameters
@@ -64,6 +64,8 @@ def control(case, draws, longest_hold, settling, periods):
     settling : Settling
     periods : int
         Forcing periods after which no switching begins.
+    stop : array of bool, shape (1,)
+        As in `legs.run`.
 
     Returns
     -------
@@ -84,7 +86,7 @@ def control(case, draws, longest_hold, settling, periods):
         wait = phase * max(int(record["period"]), 1)
         instant = strobe + wait
         strobe = legs.leg(
-            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, records
+            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, records, stop
         )
         path.append(rest[: record["periods_run"] + 2].copy())
         return instant

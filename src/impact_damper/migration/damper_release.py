@@ -12,15 +12,15 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import is_settled
-from impact_damper.data.shares import LEAD, escape_rate, survival, wilson
+from impact_damper.data.shares import escape_rate, survival, wilson
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
 from impact_damper.migration import legs
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import record_at
-from impact_damper.motions.records import MOTION
+from impact_damper.motions.records import MOTION, NEVER
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.sweep import Catalogue
-from impact_damper.system.bounds import FREQUENCY_RANGE
+from impact_damper.system.bounds import FREQUENCY_RANGE, LEAD
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.single_harmonic import impacting_solutions
@@ -120,7 +120,7 @@ def destination(known, record):
     return FREE_MOTION["other"]
 
 
-def _release(case, state, wait, settling, path, entry):
+def _release(case, state, wait, settling, path, entry, stop=NEVER):
     """Switch the damper off `wait` forcing periods after a strobe, and fill the entry of a release.
 
     The entry gets phase and state of the release and the free motion that is reached.
@@ -137,12 +137,13 @@ def _release(case, state, wait, settling, path, entry):
         settling.limit,
         path,
         records,
+        stop,
     )
     entry["phase"], entry["displacement"], entry["velocity"] = wait, path[0, 1], path[0, 2]
     entry["destination"] = destination(case.known, records[0])
 
 
-def _watch_one(case, draws, lifetime, settling, path, records, entry):
+def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
     """Run with the damper on, release once, and return the lifetime in forcing periods.
 
     Four numbers drawn uniformly from 0 to 1 give the phase of switching on, the place of the loose
@@ -160,6 +161,7 @@ def _watch_one(case, draws, lifetime, settling, path, records, entry):
         lifetime,
         path,
         records,
+        stop,
     )
     life = lifetime
     if is_settled(records[0]):
@@ -167,7 +169,7 @@ def _watch_one(case, draws, lifetime, settling, path, records, entry):
     if life > LEAD:
         k = LEAD + int(draws[2] * (life - LEAD))
         rest = np.empty((settling.limit + 2, 5))
-        _release(case, path[k + 1, 1:], draws[3], settling, rest, entry)
+        _release(case, path[k + 1, 1:], draws[3], settling, rest, entry, stop)
     return life
 
 
@@ -200,14 +202,17 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
     for name in ("phase", "displacement", "velocity"):
         entries[name] = np.nan
     entries["destination"] = FREE_MOTION["none"]
+    stop = np.zeros(1, bool)
 
     def work(part):
         path = np.empty((lifetime + 2, 5))
         for i in range(part.start, part.stop):
             motion = motions[i : i + 1]
-            lives[i] = _watch_one(case, draws[i], lifetime, settling, path, motion, entries[i])
+            lives[i] = _watch_one(
+                case, draws[i], lifetime, settling, path, motion, entries[i], stop
+            )
 
-    ensemble.run_chunks(work, len(draws), workers, progress, size=8)
+    ensemble.run_chunks(work, len(draws), workers, progress, stop, size=8)
     return lives, motions, entries
 
 

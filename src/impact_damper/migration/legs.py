@@ -25,7 +25,11 @@ CAPTURE = 0.1
 STROBES_AT_ONCE = 50_000
 
 
-def run(p, y, ahead, strobe, tolerance, limit, path, out):
+class Stopped(Exception):
+    """A run was ended by another thread."""
+
+
+def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
     """Run until near a stable orbit, or for `limit` strobes.
 
     Parameters
@@ -45,6 +49,13 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
         Gets rows (forcing periods, state), one at the start and one at each strobe.
     out : records.MOTION
         Gets outcome, period and periods_run, and the state on the orbit if the motion settled.
+    stop : array of bool, shape (1,)
+        Set to true by another thread, it ends the run.
+
+    Raises
+    ------
+    Stopped
+        If `stop[0]` is true.
     """
     out["outcome"], out["period"], out["maximum_displacement"] = UNRESOLVED, 0, np.nan
     path[0, 0], path[0, 1:] = strobe - ahead, y
@@ -53,6 +64,8 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out):
     side, near, ring = side_of(p, y), NEAR, np.empty((RING, 4))
     side, _, _ = advance(p, y, np.empty((0, 4)), side, begin, t, tolerance, workspace())
     for first in range(0, limit + 1, STROBES_AT_ONCE):
+        if stop[0]:
+            raise Stopped
         last = min(first + STROBES_AT_ONCE, limit + 1)
         side, near = run_strobes(
             p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out
@@ -89,7 +102,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
     return side, near
 
 
-def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
+def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop=NEVER):
     """Wait after a strobe, switch the damper, `run`, and measure the motion if it has settled.
 
     Parameters
@@ -105,7 +118,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
         without effect when it is switched off.
     strobe : float
         Number of the first strobe.
-    tolerance, limit, path
+    tolerance, limit, path, stop
         As in `run`.
     out : array of records.MOTION, shape (1,)
         Filled by `run` and, for a settled motion, by `measure`.
@@ -125,7 +138,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out):
         y[2], y[3] = place * after[CLEARANCE], 0.0
     strobe += math.floor(wait) + 1.0
     record = out[0]
-    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, record)
+    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, record, stop)
     if record["period"] > 0:
         measure(after[None], tolerance, 0, out, NEVER)
     return strobe + record["periods_run"]

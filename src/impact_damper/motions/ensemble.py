@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from tqdm import tqdm
 
-from impact_damper.motions.records import MOTION, measure
+from impact_damper.motions.records import MOTION, first_collisions, measure
 from impact_damper.motions.settling import settle_many
 from impact_damper.system import packed
 from impact_damper.system.bounds import check_count
@@ -20,7 +20,7 @@ from impact_damper.system.settling import Settling
 CHUNK = 128
 
 
-def run_chunks(work, count, workers, progress, size=CHUNK, stop=None):
+def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     """Call `work(slice)` for slices that cover range(count), on `workers` threads.
 
     Parameters
@@ -29,28 +29,29 @@ def run_chunks(work, count, workers, progress, size=CHUNK, stop=None):
     count, workers : int
     progress : str or None
         Title of a progress bar.
+    stop : array of bool, shape (1,)
+        Set to true by an error or Ctrl-C, which do not wait for slices that have been begun. `work`
+        and the kernels that it calls must then end soon.
     size : int
-        Length of a slice. An error or Ctrl-C waits for the slices that have been begun.
-    stop : array of bool, shape (1,), optional
-        Set to true by an error or Ctrl-C, for `work` to end early.
+        Length of a slice.
     """
     check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
-    with (
-        ThreadPoolExecutor(workers) as pool,
-        tqdm(total=count, desc=progress, disable=progress is None, mininterval=1.0) as bar,
-    ):
-        try:
+    pool = ThreadPoolExecutor(workers)
+    try:
+        with tqdm(total=count, desc=progress, disable=progress is None, mininterval=1.0) as bar:
             for part, _ in zip(slices, pool.map(work, slices), strict=True):
                 bar.update(part.stop - part.start)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            if stop is not None:
-                stop[0] = True
-            raise
+    except BaseException:
+        stop[0] = True
+        raise
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
-def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, progress=None):
+def settle(
+    parameters, states, settling=None, *, from_strobe=False, workers=1, progress=None, stop=None
+):
     """Run motions until each has settled, and measure them.
 
     Parameters
@@ -66,6 +67,8 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
         Threads.
     progress : str, optional
         Title of a progress bar; none is shown without.
+    stop : array of bool, shape (1,), optional
+        Set to true by another thread, it ends the runs; records are then incomplete.
 
     Returns
     -------
@@ -84,7 +87,8 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
             f"parameters and states: must be of shapes (m, {packed.COUNT}) and (m, 4), "
             f"{parameters.shape} and {states.shape} given"
         )
-    found, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
+    found = np.zeros(len(states), MOTION)
+    stop = np.zeros(1, bool) if stop is None else stop
 
     def work(part):
         if from_strobe:
@@ -105,5 +109,21 @@ def settle(parameters, states, settling=None, *, from_strobe=False, workers=1, p
 
     # Compiles in this thread, where Ctrl-C is heard.
     work(slice(0, 0))
-    run_chunks(work, len(states), workers, progress, stop=stop)
+    run_chunks(work, len(states), workers, progress, stop)
     return found
+
+
+def collide(parameters, states, limit, tolerance):
+    """Return the forcing periods from T = 0 to the first contact of each motion, shape (m,).
+
+    Infinite without a contact within `limit` periods; 0 for a state at or beyond a wall. Runs in
+    another thread, so that Ctrl-C is heard. The other arguments are as of `settle`.
+    """
+    waits, stop = np.empty(len(states)), np.zeros(1, bool)
+
+    def work(part):
+        first_collisions(parameters[part], states[part], limit, tolerance, waits[part], stop)
+
+    work(slice(0, 0))
+    run_chunks(work, len(states), 1, None, stop, size=max(len(states), 1))
+    return waits

@@ -247,10 +247,11 @@ def record_beginning(log, contacts, side, t, speed):
 
 
 @kernel
-def first_collisions(parameters, states, limit, tolerance, periods):
+def first_collisions(parameters, states, limit, tolerance, periods, stop):
     """Write the forcing periods from T = 0 to the first contact of each motion to `periods`.
 
-    Infinite without a contact within `limit` periods.
+    Infinite without a contact within `limit` periods. Once `stop[0]` is true, set by another
+    thread, the rest is meaningless.
     """
     none = np.empty((0, 4))
     work = workspace()
@@ -260,7 +261,7 @@ def first_collisions(parameters, states, limit, tolerance, periods):
         t = 0.0
         side = side_of(p, y)
         end = limit * 2.0 * math.pi / p[FREQUENCY]
-        while side == 0 and t < end:
+        while side == 0 and t < end and not stop[0]:
             length, side = step(p, y, none, side, t, end - t, tolerance, work)
             t += length
         periods[i] = t * p[FREQUENCY] / (2.0 * math.pi) if side != 0 else np.inf

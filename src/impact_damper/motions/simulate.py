@@ -5,8 +5,12 @@ import numpy as np
 from impact_damper.data.datasets import dataset
 from impact_damper.motions import records
 from impact_damper.system.bounds import (
+    FARTHEST,
+    FASTEST,
     MOST_RADIUS,
+    PERIODS_RANGE,
     RADIUS_RANGE,
+    SEED_RANGE,
     check_count,
     check_number,
     shown,
@@ -15,9 +19,6 @@ from impact_damper.system.checks import check_numbers
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
-# Largest displacements and velocities of a start: beyond them a forcing period takes minutes.
-FARTHEST, FASTEST = 1e3, 1e6
-MOST_SEED = 2**63 - 1
 MOST_SAMPLES = 10**7
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 
@@ -78,7 +79,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
         most = MOST_RADIUS * damper.clearance
         check_number("radius", radius, above=0.0, most=most, why="hardly a draw is within the gap")
     for value in np.atleast_1d(seed):
-        check_count("seed", value, least=0, most=MOST_SEED)
+        check_count("seed", value, **SEED_RANGE)
     generator = np.random.default_rng(seed)
     size = 2 if damper is None else 4
     states = np.empty((0, size))
@@ -137,7 +138,7 @@ def simulate(
     """
     p = pack(oscillator, damper, frequency)
     y = check_state(state, damper)
-    check_number("periods", periods, above=0.0, most=1e6)
+    check_number("periods", periods, above=0.0, most=PERIODS_RANGE["most"])
     most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
     check_count("samples", samples, least=2, most=most, why=f"{MOST_SAMPLES} in all")
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)

@@ -5,13 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.rivals.averages import STATISTICS
+from impact_damper.rivals.methods import ERRORS, STATISTICS
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper, Oscillator, pick
-
-# Quantities of which an accuracy is asked: of a motion that can be followed, and of a chaotic one.
-ERRORS = ("amplitude", "state", "contact_time", "contacts")
-AVERAGES = STATISTICS
 
 
 class ComparisonScene(NamedTuple):
@@ -31,7 +27,7 @@ class ComparisonScene(NamedTuple):
         "steady" (an orbit of the forcing's period, which models of orbits compute as well),
         "transient" or "chaotic".
     accuracy : dict
-        `quantity` of `ERRORS`, or of `AVERAGES` if the motion is chaotic, and the largest error
+        `quantity` of `ERRORS`, or of `STATISTICS` if the motion is chaotic, and the largest error
         `within` which a user wants it.
     tolerance : float or None
         Tolerance with which stages run motions like this one, if any do.
@@ -55,7 +51,7 @@ class ComparisonScene(NamedTuple):
 
 def check_accuracy(motion, accuracy):
     """Raise ValueError if the quantity of an accuracy does not belong to a kind of motion."""
-    allowed = AVERAGES if motion == "chaotic" else ERRORS
+    allowed = STATISTICS if motion == "chaotic" else ERRORS
     if accuracy["quantity"] not in allowed:
         raise ValueError(
             f"accuracy: quantity = {accuracy['quantity']!r}: must be one of {', '.join(allowed)} "

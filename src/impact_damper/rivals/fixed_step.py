@@ -26,6 +26,8 @@ STABILITY_LIMIT = {
 }
 # Sum |Z1| + |Z1'| + |Z2'| beyond which a run has diverged.
 BEYOND = 1e3
+# Steps in one call of a kernel, if a forcing period has no more: Ctrl-C waits for its end.
+STEPS_AT_ONCE = 10**6
 
 
 @kernel
@@ -159,8 +161,14 @@ class FixedStep(Integrator):
         self.stability_limit = STABILITY_LIMIT[name]
 
     def _run(self, p, start, begin, periods, steps):
-        strobes, largest = np.empty((periods, 4)), np.empty(periods)
-        run_fixed(self.number, p, start, begin, steps, strobes, largest)
+        strobes, largest = np.full((periods, 4), np.nan), np.full(periods, np.nan)
+        at_once = max(STEPS_AT_ONCE // int(steps), 1)
+        for first in range(0, periods, at_once):
+            part = slice(first, first + at_once)
+            done = run_fixed(self.number, p, start, begin, steps, strobes[part], largest[part])
+            if done < len(strobes[part]):
+                break
+            start = strobes[part][-1]
         return strobes, largest
 
     def strobes(self, p, start, begin, periods, resolution, locate=False):

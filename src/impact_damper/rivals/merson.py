@@ -24,6 +24,8 @@ MOST_STEPS = 10**6
 MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
 # Length of the first step, in forcing periods.
 FIRST = 1e-3
+# Forcing periods in one call of a kernel: Ctrl-C waits for its end.
+PERIODS_AT_ONCE = 10
 
 
 @kernel
@@ -160,15 +162,15 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
 
 
 @kernel
-def run_merson(p, start, t, tolerance, locate, strobes, largest):
-    """Run over forcing periods from a state in flight, and return the periods run and the steps.
+def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
+    """Run over forcing periods; return the periods run, the wall in contact and the next step.
 
-    Arguments as of `fixed_step.run_fixed`.
+    `side` is the wall in contact at the start, h the first step; the other arguments are as of
+    `fixed_step.run_fixed`.
     """
     y = start.copy()
     none = np.empty((0, 5))
     period = 2.0 * math.pi / p[FREQUENCY]
-    side, h, total = wall_at(p, y[2]), FIRST * period, 0
     strobes[:] = np.nan
     largest[:] = np.nan
     for k in range(len(strobes)):
@@ -177,13 +179,12 @@ def run_merson(p, start, t, tolerance, locate, strobes, largest):
             p, y, side, t, t + period, h, tolerance, locate, none
         )
         if steps < 0:
-            return k, total
-        total += steps
+            return k, side, h
         # one by one: an array assignment takes 2 s more to compile
         for i in range(4):
             strobes[k, i] = y[i]
         largest[k] = most
-    return len(strobes), total
+    return len(strobes), side, h
 
 
 class Merson(FixedStep):
@@ -211,8 +212,16 @@ class Merson(FixedStep):
         return read_off(p, tries * each, np.concatenate(times), np.concatenate(states))
 
     def strobes(self, p, start, begin, periods, resolution, locate):
-        strobes, largest = np.empty((periods, 4)), np.empty(periods)
-        run_merson(p, start, begin, resolution, locate, strobes, largest)
+        strobes, largest = np.full((periods, 4), np.nan), np.empty(periods)
+        side, h = wall_at(p, start[2]), FIRST * (2 * math.pi / p[FREQUENCY])
+        for first in range(0, periods, PERIODS_AT_ONCE):
+            part = slice(first, first + PERIODS_AT_ONCE)
+            done, side, h = run_merson(
+                p, start, side, h, begin, resolution, locate, strobes[part], largest[part]
+            )
+            if done < len(strobes[part]):
+                break
+            start = strobes[part][-1]
         return strobes
 
     def flight(self, p, state, end, resolution, time):

@@ -7,6 +7,8 @@ Figures, tables and the check of the configuration read this module, so its top 
 
 from typing import NamedTuple
 
+from impact_damper.system.bounds import PERIODS_RANGE
+
 
 class Method(NamedTuple):
     """An integrator as figures, tables and settings refer to it.
@@ -76,6 +78,16 @@ COMPARED = {
     ),
 }
 
+# Stage `method_verdicts`: number of last states of a run that must repeat, the longest period after
+# which they may, and forcing periods of a run, enough to compare them.
+LAST, LONGEST_PERIOD = 6, 6
+VERDICT_PERIODS_RANGE = PERIODS_RANGE | {"least": LAST + LONGEST_PERIOD}
+
+# Stage `accuracy`: quantities whose error is asked of a motion that can be followed, and averages
+# that are asked of a chaotic one.
+ERRORS = ("amplitude", "state", "contact_time", "contacts")
+STATISTICS = ("contact_rate", "displacement", "exponent")
+
 # Models of a steady motion, which the stage `accuracy` compares with the integrators.
 ORBIT_MODELS = (
     "rigid",
@@ -85,6 +97,9 @@ ORBIT_MODELS = (
     "many_harmonics",
     "shooting",
 )
+
+# Highest harmonic of the balance from which shooting and rigid impacts start.
+START_HARMONICS = 15
 
 # Keys of the section `comparison` of the configuration: of lists of tolerances, and of
 # `evaluations`, at which runs of slow integrators are given up.

@@ -44,7 +44,6 @@ from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
-START_HARMONICS = 15
 REACH = 10.0
 
 

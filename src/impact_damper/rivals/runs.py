@@ -6,8 +6,8 @@ import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
 from impact_damper.rivals.equations import rate, wall_at
-from impact_damper.system.bounds import check_count, check_number
-from impact_damper.system.checks import check_increasing
+from impact_damper.system.bounds import METHOD_TOLERANCE_RANGE, STEPS_RANGE, check_count
+from impact_damper.system.checks import check_increasing, check_numbers
 from impact_damper.system.packed import CLEARANCE
 
 # Halvings that find a root.
@@ -95,15 +95,15 @@ class Integrator:
         return self.strobes(p, start, begin, periods, tolerance, locate)[-1]
 
 
-def check_resolutions(tolerances, steps, least, most):
+def check_resolutions(tolerances, steps):
     """Return increasing tolerances, and the steps a forcing period that stand in their places.
 
     Parameters
     ----------
     tolerances : sequence of float
-        Increasing, at least `least`.
+        Increasing.
     steps : sequence of int
-        As many, increasing, at most `most`.
+        As many, increasing.
 
     Returns
     -------
@@ -116,10 +116,9 @@ def check_resolutions(tolerances, steps, least, most):
     TypeError, ValueError
         If an argument is not of its kind or out of range.
     """
-    tolerances = check_increasing(
-        "tolerances", [check_number("tolerance", value, least=least) for value in tolerances]
-    )
-    steps = [check_count("steps", value, most=most) for value in steps]
+    tolerances = check_numbers("tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
+    check_increasing("tolerances", tolerances)
+    steps = [check_count("steps", value, **STEPS_RANGE) for value in steps]
     check_increasing("steps", steps)
     if len(steps) != len(tolerances):
         raise ValueError(f"steps: must be as many as tolerances, {len(tolerances)}; {steps} given")

@@ -14,9 +14,16 @@ from impact_damper.motions.simulate import COMPONENTS, check_state
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals import averages, orbit_models
 from impact_damper.rivals.comparison_scenes import check_accuracy, reference_of
-from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
+from impact_damper.rivals.methods import (
+    COMPARED,
+    METHODS,
+    START_HARMONICS,
+    STATISTICS,
+    integrators,
+    name_and_mode,
+)
 from impact_damper.rivals.taylor_runs import name_of, taylor
-from impact_damper.system.bounds import check_count
+from impact_damper.system.bounds import PERIODS_RANGE, check_count
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import describe
 
@@ -51,7 +58,7 @@ def error_against_work(scene, settings, stored=None):
     TypeError, ValueError
         If an argument is not of its kind or out of range.
     """
-    check_count("periods", scene.periods)
+    check_count("periods", scene.periods, **PERIODS_RANGE)
     check_state(scene.state, scene.damper)
     check_accuracy(scene.motion, scene.accuracy)
     if scene.motion == "chaotic":
@@ -68,7 +75,7 @@ def error_against_work(scene, settings, stored=None):
         "accuracy": scene.accuracy,
         "tolerance": scene.tolerance,
     }
-    coordinates = {"component": list(COMPONENTS), "statistic": list(averages.STATISTICS)}
+    coordinates = {"component": list(COMPONENTS), "statistic": list(STATISTICS)}
     return dataset(data, coordinates, made, "Error of methods against counted work")
 
 
@@ -178,7 +185,7 @@ def _orbits(scene, settings):
     harmonics = orbit_models.many_harmonics(*parts, state, settings["harmonics"])
     for highest, model in harmonics.items():
         yield "many_harmonics", highest, model
-    start = harmonics.get(orbit_models.START_HARMONICS)
+    start = harmonics.get(START_HARMONICS)
     if start is not None and start.status == "ended":
         for name, model in orbit_models.rigid_impacts(*parts, start).items():
             yield name, orbit_models.POLISH_TOLERANCE, model
@@ -237,7 +244,7 @@ def _averages(scene, settings):
     measured["exponent"] = averages.exponents(p, start, tightest, long, batch)
     truth, truth_error = averages.estimates(measured)
     average, error = np.array(found).transpose(1, 0, 2)
-    relative = dict(zip(averages.STATISTICS, (average / truth - 1).T, strict=True))
+    relative = dict(zip(STATISTICS, (average / truth - 1).T, strict=True))
     allowed = CONTACTS_OFF + SURE * error[:, 0] / truth[0]
     excess = np.where(np.abs(relative["contact_rate"]) > allowed, relative["contact_rate"], 0)
     status = [_status(row[2].status, wrong) for row, wrong in zip(rows, excess, strict=True)]

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.variables.balance_map import MAPPED
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
 from impact_damper.orbits.quiet_orbits import (
@@ -29,7 +30,6 @@ from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, NEAR, balance_cells
 
-PARAMETERS = ("damping", "mass_ratio", "clearance", "restitution")
 # CHECKED chaotic high motions are rerun with LONG times the patience, to see if the chaos lasts.
 CHECKED = 50
 LONG = 10
@@ -150,8 +150,8 @@ def _high_data(said, kinds, runs):
 
 
 def _rows(parameter, values, ratios, fixed):
-    if parameter not in PARAMETERS:
-        raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(PARAMETERS)}")
+    if parameter not in MAPPED:
+        raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(MAPPED)}")
     if parameter in fixed:
         raise ValueError(f"fixed: must not hold {parameter}, which changes from row to row")
     values = check_increasing("values", values, least="two")

@@ -19,7 +19,14 @@ from impact_damper.contact.logged_contacts import (
 )
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.contact import SCENE, VARIABLES
-from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.bounds import (
+    LOAD_RANGE,
+    PERIODS_RANGE,
+    POINTS_RANGE,
+    RUNS_RANGE,
+    check_count,
+    check_number,
+)
 from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
@@ -83,8 +90,8 @@ def contact_model(
     """
     settling = check_settling(settling)
     check_damper(damper)
-    check_count("starts", starts, most=10**6)
-    check_count("periods", periods, most=10**6)
+    check_count("starts", starts, **RUNS_RANGE)
+    check_count("periods", periods, **PERIODS_RANGE)
     frequencies = check_frequencies(frequencies)
     restitutions, loads, used = (
         check_increasing(name, values, "two")
@@ -112,8 +119,8 @@ def contact_model(
 
 def spread_loads(largest, count):
     """Return loads from -largest to largest, spread evenly below LINEAR, by logarithm above."""
-    check_number("largest", largest, above=0.0, most=1e3)
-    check_count("count", count, least=2, most=10**5)
+    check_number("largest", largest, **LOAD_RANGE)
+    check_count("count", count, **POINTS_RANGE)
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 

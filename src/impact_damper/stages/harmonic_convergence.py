@@ -6,7 +6,7 @@ from scipy.optimize import linear_sum_assignment
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.system.bounds import check_count, shown
+from impact_damper.system.bounds import HARMONIC_RANGE, check_count, shown
 from impact_damper.system.checks import check_counts, check_increasing
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
@@ -14,7 +14,6 @@ from impact_damper.theory import convergence, fourier, hill
 from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 SAMPLES = 2**14
-HIGHEST = 2**14
 SAME = 1e-6
 # Errors below this are rounding and left out of the fits.
 ROUNDING = 1e-12
@@ -23,7 +22,7 @@ FINEST = 1e-14
 
 def ladder(highest) -> np.ndarray:
     """Return odd numbers of harmonics up to `highest`: all to 15, then three to an octave."""
-    check_count("highest", highest, most=HIGHEST)
+    check_count("highest", highest, **HARMONIC_RANGE)
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
@@ -62,7 +61,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     ArithmeticError
         If there is no single-term solution to begin from.
     """
-    harmonics = check_counts("harmonics", harmonics, most=HIGHEST)
+    harmonics = check_counts("harmonics", harmonics, **HARMONIC_RANGE)
     check_increasing("harmonics", harmonics)
     if np.any(harmonics % 2 == 0):
         given = shown(harmonics.tolist())

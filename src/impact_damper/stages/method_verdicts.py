@@ -11,7 +11,15 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions import strobe_map
-from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
+from impact_damper.rivals.methods import (
+    COMPARED,
+    LAST,
+    LONGEST_PERIOD,
+    METHODS,
+    VERDICT_PERIODS_RANGE,
+    integrators,
+    name_and_mode,
+)
 from impact_damper.rivals.runs import check_resolutions
 from impact_damper.system.bounds import check_count
 from impact_damper.system.checks import check_frequency
@@ -22,7 +30,6 @@ EXACT = 1e-13
 # A motion has settled if its last states repeat within REPEATS, and is on an orbit if the primary
 # mass comes within NEAR of it.
 REPEATS, NEAR = 1e-3, 5e-3
-LAST, LONGEST_PERIOD = 6, 6
 
 
 class VerdictScene(NamedTuple):
@@ -103,7 +110,7 @@ def make_scene(
         If there is no such orbit, or `periods` are too few for the rule.
     """
     check_count("scipy_every", scipy_every, least=0)
-    check_count("periods", periods, least=LAST + LONGEST_PERIOD, most=10**6)
+    check_count("periods", periods, **VERDICT_PERIODS_RANGE)
     orbit = np.array(near, float)
     there = pack(oscillator, damper, check_frequency(orbit_frequency))
     if not strobe_map.polish(there, orbit, period, 0.05, EXACT)[0]:
@@ -193,7 +200,7 @@ def verdicts(scenes, tolerances, steps):
     TypeError, ValueError
         If an argument is not of its kind or out of range.
     """
-    tolerances, steps = check_resolutions(tolerances, steps, 1e-14, 10**7)
+    tolerances, steps = check_resolutions(tolerances, steps)
     shape = (len(scenes), len(LABELS), len(tolerances))
     found = np.full(shape, flag("verdict", "not_run"))
     limits = np.full(shape[:2], np.nan)

@@ -23,8 +23,13 @@ from impact_damper.migration.damper_release import (
     watch_runs,
 )
 from impact_damper.motions import ensemble
-from impact_damper.motions.simulate import MOST_SEED
-from impact_damper.system.bounds import check_count
+from impact_damper.system.bounds import (
+    LIFETIME_RANGE,
+    PERIODS_RANGE,
+    RUNS_RANGE,
+    SEED_RANGE,
+    check_count,
+)
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
@@ -37,8 +42,8 @@ def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, s
     """Return the case and the parameters of the dataset, or raise for a bad argument."""
     check_damper(damper)
     pack(oscillator, damper, frequency)
-    check_count("longest_hold", longest_hold, most=10**6)
-    check_count("periods", periods, most=10**6)
+    check_count("longest_hold", longest_hold, **PERIODS_RANGE)
+    check_count("periods", periods, **PERIODS_RANGE)
     check_count("switchings", switchings, most=10**4)
     made = describe(oscillator, damper, settling) | {
         "frequency": float(frequency),
@@ -93,7 +98,7 @@ def migrate(
     """
     settling = check_settling(settling)
     if not isinstance(seed, np.random.SeedSequence):
-        check_count("seed", seed, least=0, most=MOST_SEED)
+        check_count("seed", seed, **SEED_RANGE)
     case, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )
@@ -186,10 +191,10 @@ def trials(
         If the free oscillator has not both period-1 motions, or an argument is out of range.
     """
     settling = check_settling(settling)
-    check_count("trials", trials, most=10**6)
-    check_count("releases", releases, most=10**6)
-    check_count("lifetime", lifetime, least=100, most=10**7)
-    check_count("seed", seed, least=0, most=MOST_SEED)
+    check_count("trials", trials, **RUNS_RANGE)
+    check_count("releases", releases, **RUNS_RANGE)
+    check_count("lifetime", lifetime, **LIFETIME_RANGE)
+    check_count("seed", seed, **SEED_RANGE)
     case, made = _checked(
         oscillator, damper, frequency, longest_hold, periods, switchings, settling
     )
@@ -200,13 +205,13 @@ def trials(
         )
     )
     draws = np.array([draw(child, switchings) for child in runs])
-    logs = blank(draws.shape[:2])
+    logs, stop = blank(draws.shape[:2]), np.zeros(1, bool)
 
     def work(part):
         for i in range(part.start, part.stop):
-            _, logs[i] = control(case, draws[i], longest_hold, settling, periods)
+            _, logs[i] = control(case, draws[i], longest_hold, settling, periods, stop)
 
-    ensemble.run_chunks(work, trials, workers, progress, size=8)
+    ensemble.run_chunks(work, trials, workers, progress, stop, size=8)
     totals = run_totals(logs)
     logs = logs[:, : np.max(totals["switchings"])]
     data = switching_data(logs, case)

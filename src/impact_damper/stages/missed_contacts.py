@@ -12,18 +12,18 @@ import math
 import numpy as np
 
 from impact_damper.data.datasets import dataset
-from impact_damper.motions.records import first_collisions, trace
+from impact_damper.motions.ensemble import collide
+from impact_damper.motions.records import trace
 from impact_damper.rivals.methods import COMPARED, METHODS, integrators
 from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
 from impact_damper.rivals.runs import check_resolutions
-from impact_damper.system.bounds import RADIUS_RANGE, check_count, check_number
-from impact_damper.system.checks import check_increasing
+from impact_damper.system.bounds import RADIUS_RANGE, RUNS_RANGE, check_count, check_number
+from impact_damper.system.checks import check_increasing, check_numbers
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
 LABELS = COMPARED["missed_contacts"]
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
-MOST_STEPS = 10**5
 
 
 def _counts(integrator, p, passages, depths, resolution):
@@ -85,9 +85,7 @@ def _taylor_seen(p, states, clearances, tolerance):
     """Return whether each motion has a contact within a forcing period."""
     parameters = np.repeat(p[None], len(states), axis=0)
     parameters[:, CLEARANCE] = clearances
-    periods = np.empty(len(states))
-    first_collisions(parameters, states, 1, tolerance, periods)
-    return np.isfinite(periods)
+    return np.isfinite(collide(parameters, states, 1, tolerance))
 
 
 def _taylor_largest(p, passage, tolerance):
@@ -148,11 +146,11 @@ def missed_contacts(
     TypeError, ValueError
         If an argument is not of its kind or out of range.
     """
-    check_count("passages", passages, most=10**6)
+    check_count("passages", passages, **RUNS_RANGE)
     check_count("implicit_passages", implicit_passages, most=passages, why="of the passages")
     check_number("radius", radius, **RADIUS_RANGE)
-    depths = check_increasing("depths", [check_number("depth", d, above=0.0) for d in depths])
-    tolerances, steps = check_resolutions(tolerances, steps, 1e-13, MOST_STEPS)
+    depths = check_increasing("depths", check_numbers("depths", depths, above=0.0))
+    tolerances, steps = check_resolutions(tolerances, steps)
     p = pack(oscillator, None, frequency)
     drawn_passages, drawn = draw_passages(p, passages, radius, depths[-1], seed)
     free = free_flight(p)

@@ -12,11 +12,11 @@ from scipy.optimize import brentq, minimize_scalar
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.following import RESOLUTION, follow_stable
 from impact_damper.motions.records import measured
-from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, random_states
+from impact_damper.motions.simulate import COMPONENTS, random_states
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.motions.sweep import SAME, sweep
 from impact_damper.stages.harmonic_balance import optimum_clearance
-from impact_damper.system.bounds import CLEARANCE_RANGE, check_count, shown
+from impact_damper.system.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count, shown
 from impact_damper.system.checks import (
     check_frequency,
     check_increasing,
@@ -79,7 +79,7 @@ def clearance_sweep(
         If clearances are not increasing, or a parameter is out of range.
     """
     settling = check_settling(settling)
-    check_count("seed", seed, least=0, most=MOST_SEED)
+    check_count("seed", seed, **SEED_RANGE)
     frequency = check_frequency(frequency)
     if not isinstance(damper, dict) or not {"mass_ratio"} <= damper.keys() <= SWEPT_WITH:
         raise TypeError(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.shares import BOUNDS, LEAD
+from impact_damper.data.shares import BOUNDS
 from impact_damper.data.variables import VARIABLES
 from impact_damper.migration.damper_release import (
     DESTINATIONS,
@@ -13,7 +13,7 @@ from impact_damper.migration.damper_release import (
 )
 from impact_damper.motions import records
 from impact_damper.stages.response import frequency_response
-from impact_damper.system.bounds import check_count
+from impact_damper.system.bounds import RUNS_RANGE, SCAN_LIFETIME_RANGE, check_count
 from impact_damper.system.parameters import describe
 from impact_damper.system.settling import check_settling
 
@@ -87,8 +87,8 @@ def release_scan(
         If the free oscillator has not both motions at a frequency, or an argument is out of range.
     """
     settling = check_settling(settling)
-    check_count("releases", releases, most=10**6)
-    check_count("lifetime", lifetime, least=2 * LEAD, most=10**7)
+    check_count("releases", releases, **RUNS_RANGE)
+    check_count("lifetime", lifetime, **SCAN_LIFETIME_RANGE)
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     response = frequency_response(
         oscillator,

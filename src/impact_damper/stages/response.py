@@ -3,10 +3,10 @@
 import numpy as np
 
 from impact_damper.data.datasets import dataset
-from impact_damper.motions import records
-from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, random_states
+from impact_damper.motions import ensemble
+from impact_damper.motions.simulate import COMPONENTS, random_states
 from impact_damper.motions.sweep import sweep
-from impact_damper.system.bounds import check_count, check_number
+from impact_damper.system.bounds import PERIODS_RANGE, SEED_RANGE, check_count, check_number
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
@@ -60,7 +60,7 @@ def frequency_response(
     settling = check_settling(settling)
     frequencies = check_frequencies(frequencies)
     check_starts(starts, len(frequencies))
-    check_count("seed", seed, least=0, most=MOST_SEED)
+    check_count("seed", seed, **SEED_RANGE)
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
     states = np.array(
         [random_states(starts, radius, damper, [seed, i]) for i in range(len(frequencies))]
@@ -120,13 +120,12 @@ def collisions(
     """
     p = pack(oscillator, damper, frequency)
     check_count("starts", starts, most=10**7)
-    check_count("periods", periods, most=10**6)
+    check_count("periods", periods, **PERIODS_RANGE)
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):
         states = random_states(starts, radius, damper, [seed, row], within_gap=within_gap)
-        waits = np.empty(starts)
-        records.first_collisions(np.tile(p, (starts, 1)), states, periods, tolerance, waits)
+        waits = ensemble.collide(np.tile(p, (starts, 1)), states, periods, tolerance)
         met = np.isfinite(waits)
         shares[row] = np.mean(waits == 0), np.mean(met), np.max(waits[met], initial=0.0)
     data = dict(zip(("beyond_wall", "colliding", "longest_wait"), shares.T, strict=True))

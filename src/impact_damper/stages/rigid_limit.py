@@ -14,7 +14,7 @@ from impact_damper.contact.rigid_orbits import mended_orbit, rigid_orbit
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.orbits.grid_following import Grid, follow_line
-from impact_damper.system.bounds import check_count
+from impact_damper.system.bounds import RUNS_RANGE, check_count
 from impact_damper.system.checks import check_frequencies, check_frequency, check_increasing
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
@@ -61,7 +61,7 @@ def rigid_limit(
         If an argument is out of range; the message names it.
     """
     check_damper(damper)
-    check_count("starts", starts, most=10**6)
+    check_count("starts", starts, **RUNS_RANGE)
     frequency = check_frequency(frequency)
     frequencies = check_frequencies(frequencies, "two")
     stiffnesses = check_increasing("stiffnesses", stiffnesses, "two")

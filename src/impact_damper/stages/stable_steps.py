@@ -18,8 +18,13 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.orbits.grid_following import Grid
 from impact_damper.rivals.methods import COMPARED, integrators
-from impact_damper.system.bounds import check_count, check_number
-from impact_damper.system.checks import check_increasing
+from impact_damper.system.bounds import (
+    MOST_STEPS_RANGE,
+    PERIODS_RANGE,
+    STIFFNESS_RANGE,
+    check_count,
+)
+from impact_damper.system.checks import check_increasing, check_numbers
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import Settling
@@ -179,14 +184,12 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
         If an argument is not of its kind or out of range.
     """
     check_damper(damper)
-    check_count("periods", periods, most=10**6)
-    check_count("most_steps", most_steps, most=10**8)
+    check_count("periods", periods, **PERIODS_RANGE)
+    check_count("most_steps", most_steps, **MOST_STEPS_RANGE)
     stiffnesses = check_increasing(
-        "stiffnesses", [check_number("stiffness", r1, above=0.0, most=1e9) for r1 in stiffnesses]
+        "stiffnesses", check_numbers("stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     )
-    scaled = check_increasing(
-        "scaled_steps", [check_number("scaled_step", h, above=0.0) for h in scaled_steps]
-    )
+    scaled = check_increasing("scaled_steps", check_numbers("scaled_steps", scaled_steps, above=0))
     scaled = scaled[::-1]
     orbits = orbits_over_stiffness(oscillator, damper, frequency, stiffnesses)
     contact = np.sqrt(stiffnesses * (1 + 1 / damper.mass_ratio))

@@ -15,7 +15,7 @@ from impact_damper.data.variables.studies import AXES, OUTCOMES
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
-from impact_damper.system.bounds import check_count
+from impact_damper.system.bounds import RUNS_RANGE, check_count
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, describe
@@ -71,7 +71,7 @@ def study_chunk(
         If an argument is out of range; the message names it.
     """
     settling = settling or Settling()
-    check_count("starts", starts, most=10**6)
+    check_count("starts", starts, **RUNS_RANGE)
     axes = _checked(axes)
     shape = [len(values) for values in axes.values()]
     first = check_count("cells[0]", cells[0], least=0, most=math.prod(shape) - 1)
@@ -87,7 +87,7 @@ def study_chunk(
     for end in (0, -1):
         _, damper = system([end] * len(AXES))
         random_states(0, radius, damper, seed)
-    found = np.empty(last - first, CELL)
+    found, stop = np.empty(last - first, CELL), np.zeros(1, bool)
 
     def work(part):
         rows, states = [], []
@@ -95,13 +95,13 @@ def study_chunk(
             p, damper = system(np.unravel_index(cell, shape))
             rows.append(np.tile(p, (starts, 1)))
             states.append(random_states(starts, radius, damper, [seed, cell]))
-        runs = ensemble.settle(np.concatenate(rows), np.concatenate(states), settling)
+        runs = ensemble.settle(np.concatenate(rows), np.concatenate(states), settling, stop=stop)
         for k, of_cell in enumerate(np.split(runs, len(rows)), part.start):
             found[k] = _condensed(of_cell)
 
     # enough cells at a time to fill the lanes; the memory does not depend on the chunk
     together = max(1, ensemble.CHUNK // starts)
-    ensemble.run_chunks(work, last - first, workers, progress, size=together)
+    ensemble.run_chunks(work, last - first, workers, progress, stop, size=together)
     data = {
         name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names
     }

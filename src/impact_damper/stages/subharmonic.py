@@ -14,9 +14,9 @@ from impact_damper.motions.free_subharmonic import (
     is_subharmonic,
     switched_on,
 )
-from impact_damper.motions.simulate import COMPONENTS, MOST_SEED, random_states
+from impact_damper.motions.simulate import COMPONENTS, random_states
 from impact_damper.motions.sweep import SAME, sweep
-from impact_damper.system.bounds import check_count
+from impact_damper.system.bounds import SEED_RANGE, check_count
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, describe
@@ -87,7 +87,7 @@ def subharmonic_suppression(
     check_damper(damper)
     frequencies = check_frequencies(frequencies, "two")
     check_starts(starts, max(SEARCHED, len(frequencies)), least=2)
-    check_count("seed", seed, least=0, most=MOST_SEED)
+    check_count("seed", seed, **SEED_RANGE)
     free = free_subharmonic(
         oscillator,
         frequencies[0],

@@ -38,6 +38,27 @@ LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 # Runs whose records are kept in memory together.
 MOST_RUNS = 10**6
+RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
+# Forcing periods of a run, and those for which lives of transients are watched. The latter are
+# counted from the strobe LEAD on: a run first has to reach the motion whose life is measured.
+PERIODS_RANGE = {"least": 1, "most": 10**6}
+LIFETIME_RANGE = {"least": 100, "most": 10**7}
+LEAD = 20
+SCAN_LIFETIME_RANGE = LIFETIME_RANGE | {"least": 2 * LEAD}
+SEED_RANGE = {"least": 0, "most": 2**63 - 1}
+# Largest displacements and velocities of a start: beyond them a forcing period takes minutes.
+FARTHEST, FASTEST = 1e3, 1e6
+# Highest harmonic of a balance: the memory goes with its square, the time with its cube.
+HARMONIC_RANGE = {"least": 1, "most": 2**14}
+# Points of a grid.
+POINTS_RANGE = {"least": 2, "most": 10**5}
+# Largest load in a map of the contact.
+LOAD_RANGE = {"above": 0.0, "most": 1e3}
+# Settings with which integrators are compared: tolerances, steps in a forcing period, and the most
+# steps at which a stable step is searched for.
+METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "below, rounding prevails"}
+STEPS_RANGE = {"least": 1, "most": 10**5}
+MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
 
 
 def parameter(bounds, symbol, meaning, **default):

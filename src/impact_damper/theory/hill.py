@@ -19,8 +19,10 @@ Compare Lazarus and Thomas, C. R. Mecanique 338, 510 (2010), on choosing among t
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigvals, lu_factor, lu_solve
+from scipy.linalg import eigvals, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
+
+from impact_damper.theory.many_harmonics import factorised
 
 # Up to DENSE unknowns all eigenvalues are computed, beyond only those nearest zero: enough for
 # COPIES copies of each exponent.
@@ -87,7 +89,7 @@ def _near_zero(stiffness, damping, inertia):
     inverted first-order form, which needs the LU factors of `stiffness` alone.
     """
     size = len(stiffness)
-    factors = lu_factor(stiffness, check_finite=False)
+    factors = factorised(stiffness)
 
     def inverse(vector):
         place, rate = vector[:size], vector[size:]

@@ -15,13 +15,14 @@ points to be exact.
 Compare the alternating frequency-time method: Cameron and Griffin, J. Appl. Mech. 56, 149 (1989).
 """
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
-from impact_damper.system.bounds import check_count
+from impact_damper.system.bounds import HARMONIC_RANGE, check_count
 from impact_damper.system.packed import pack
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
@@ -67,7 +68,8 @@ class Balance:
     def __post_init__(self):
         pack(self.oscillator, self.damper, self.frequency)
         check_count("period", self.period, most=1000)
-        check_count("highest", self.highest, least=self.period, most=2**14, why="the forcing's")
+        bounds = HARMONIC_RANGE | {"least": self.period, "why": "the forcing's"}
+        check_count("highest", self.highest, **bounds)
         if self.symmetric and (self.period % 2 == 0 or self.highest % 2 == 0):
             raise ValueError(
                 f"period = {self.period}, highest = {self.highest}: must be odd for a symmetric "
@@ -226,7 +228,7 @@ def solve(balance, start, iterations=ITERATIONS) -> Solution:
     defect = balance.to_real(balance.residual(now, rows))
     status, taken = "iteration_limit", 0
     while taken < iterations and status == "iteration_limit":
-        factors = lu_factor(balance.operator(now, rows), check_finite=False)
+        factors = factorised(balance.operator(now, rows))
         step = -lu_solve(factors, defect, check_finite=False)
         small = np.max(np.abs(step)) <= TOLERANCE * np.max(np.abs(now))
         taken += 1
@@ -244,6 +246,19 @@ def solve(balance, start, iterations=ITERATIONS) -> Solution:
         else:
             status = "stalled"
     return Solution(balance, now, status, taken, float(np.max(np.abs(defect))))
+
+
+def factorised(matrix):
+    """Return the LU factors of a matrix for `scipy.linalg.lu_solve`.
+
+    They are computed in another thread, so that Ctrl-C is heard at once: with a thousand harmonics
+    they take seconds.
+    """
+    pool = ThreadPoolExecutor(1)
+    try:
+        return pool.submit(lu_factor, matrix, check_finite=False).result()
+    finally:
+        pool.shutdown(wait=False)
 
 
 def _convolution(coefficients, harmonics):

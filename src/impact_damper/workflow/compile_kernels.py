@@ -26,7 +26,7 @@ def warm_up_orbits() -> None:
 
     First come those that `warm_up_settling` needs too, and last those that need its kernels.
     """
-    from impact_damper.motions import records, strobe_map
+    from impact_damper.motions import ensemble, records, strobe_map
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
@@ -34,7 +34,7 @@ def warm_up_orbits() -> None:
     strobe_map.flow_map(on, np.zeros(4), strobe_map.strobe_time(on), 1, False, 1e-9)
     states, log = np.zeros((1, 4)), np.empty((0, 5))
     records.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
-    records.first_collisions(on[None], states, 1, 1e-9, np.empty(1))
+    ensemble.collide(on[None], states, 1, 1e-9)
 
     from impact_damper.migration import legs
     from impact_damper.motions import following

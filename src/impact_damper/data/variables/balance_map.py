@@ -2,6 +2,8 @@
 
 from impact_damper.data.variables.variable import OUTCOME, Variable
 
+# Parameters that may change from row to row of a map.
+MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
 CELL = ("map_value", "frequency_ratio")
 ROW_END = ("map_value", "edge")
 BALANCE_VERDICT = {"none": 0, "stable": 1, "unstable": 2, "unresolved": 3}

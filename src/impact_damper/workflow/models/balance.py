@@ -2,7 +2,8 @@
 
 from typing import ClassVar
 
-from impact_damper.system.bounds import FREQUENCY_RANGE, plain
+from impact_damper.data.variables.balance_map import MAPPED
+from impact_damper.system.bounds import FREQUENCY_RANGE, HARMONIC_RANGE, plain
 from impact_damper.workflow.models.messages import missing, problem
 from impact_damper.workflow.models.section import increasing
 from impact_damper.workflow.models.system import (
@@ -32,8 +33,8 @@ class HarmonicConvergence(MaybeWithDamper):
 
     contact_stiffness: CONTACT_STIFFNESS = None
     frequency: FREQUENCY
-    highest: count("highest harmonic; the work grows with its cube", least=1, most=4095)
-    highest_cold: count("highest harmonic of a cold start", least=0, most=4095)
+    highest: count("highest harmonic; the work grows with its cube", **HARMONIC_RANGE)
+    highest_cold: count("highest harmonic of a cold start", **HARMONIC_RANGE | {"least": 0})
 
 
 class DesignRules(WithOscillator):
@@ -60,10 +61,6 @@ class DesignRules(WithOscillator):
             linear = known.linear_frequency
             reason = f"must lie above the linear frequency {linear!r} (the rules hold above it)"
             yield problem((*path, "frequencies"), self.frequencies, reason)
-
-
-# Parameters that may change from row to row of a map.
-MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
 
 
 class BalanceMap(

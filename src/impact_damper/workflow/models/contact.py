@@ -2,6 +2,14 @@
 
 from typing import ClassVar
 
+from impact_damper.system.bounds import (
+    LOAD_RANGE,
+    METHOD_TOLERANCE_RANGE,
+    MOST_STEPS_RANGE,
+    PERIODS_RANGE,
+    RUNS_RANGE,
+    STEPS_RANGE,
+)
 from impact_damper.workflow.models.messages import problem
 from impact_damper.workflow.models.section import Section, increasing
 from impact_damper.workflow.models.settings import RADIUS
@@ -23,10 +31,8 @@ from impact_damper.workflow.models.system import (
 )
 from impact_damper.workflow.models.values import count, number, several
 
-STEPS = range_of(count("steps a forcing period", least=1, most=100000))
-TOLERANCES = range_of(
-    number("tolerance of a method; below, rounding prevails", least=1e-13, most=0.1), points=True
-)
+STEPS = range_of(count("steps a forcing period", **STEPS_RANGE))
+TOLERANCES = range_of(number("tolerance of a method", **METHOD_TOLERANCE_RANGE), points=True)
 GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
 
 
@@ -42,11 +48,11 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
 
     restitutions: several(RESTITUTION, "increasing restitutions of the motions", least=2)
     frequencies: several(FREQUENCY, "increasing frequencies of the motions", least=1)
-    periods: count("forcing periods over which contacts are logged", least=1, most=10000)
+    periods: count("forcing periods over which contacts are logged", **PERIODS_RANGE)
     cells: ContactCells
     smallest_restitution: number("e, where the map ends", **BOUNDS["restitution"])
     largest_load: number(
-        "largest acceleration over natural frequency and approach speed", above=0, most=1000
+        "largest acceleration over natural frequency and approach speed", **LOAD_RANGE
     )
 
     counts: ClassVar = ("cells.restitutions", "cells.loads")
@@ -82,11 +88,10 @@ class MissedContacts(WithOscillator):
     """Contacts near grazing, and which of them integrators miss."""
 
     frequency: FREQUENCY
-    passages: count("random free flights of a forcing period", least=1, most=1000000)
+    passages: count("random free flights of a forcing period", **RUNS_RANGE)
     implicit_passages: count(
         "the first of them, on which alone the implicit Radau method is run",
-        least=1,
-        most=1000000,
+        **RUNS_RANGE,
     )
     radius: RADIUS
     depths: GEOMETRIC
@@ -109,9 +114,7 @@ class StableSteps(WithDamper):
     frequency: FREQUENCY
     stiffnesses: range_of(CONTACT_STIFFNESS, points=True)
     scaled_steps: GEOMETRIC
-    most_steps: count(
-        "steps a forcing period beyond which a cell is not run", least=1, most=100000000
-    )
+    most_steps: count("steps a forcing period beyond which a cell is not run", **MOST_STEPS_RANGE)
     periods: RUN_PERIODS
 
     counts: ClassVar = ("stiffnesses.points", "scaled_steps.points")

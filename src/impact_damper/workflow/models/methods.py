@@ -2,8 +2,22 @@
 
 from pydantic import create_model
 
-from impact_damper.rivals.methods import LIMITED, TOLERANCE_KEYS
-from impact_damper.system.bounds import TOLERANCE_RANGE
+from impact_damper.rivals.methods import (
+    ERRORS,
+    LIMITED,
+    LONGEST_PERIOD,
+    START_HARMONICS,
+    STATISTICS,
+    TOLERANCE_KEYS,
+    VERDICT_PERIODS_RANGE,
+)
+from impact_damper.system.bounds import (
+    FARTHEST,
+    HARMONIC_RANGE,
+    METHOD_TOLERANCE_RANGE,
+    PERIODS_RANGE,
+    TOLERANCE_RANGE,
+)
 from impact_damper.workflow.models.contact import STEPS, TOLERANCES, close_steps
 from impact_damper.workflow.models.messages import problem
 from impact_damper.workflow.models.section import Section
@@ -20,15 +34,12 @@ from impact_damper.workflow.models.system import (
 )
 from impact_damper.workflow.models.values import choice, count, entries, number, several
 
-COMPONENT = number("component of a state", least=-1000, most=1000)
+COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
 DECREASING = several(
-    number("tolerance of a method", least=1e-14, most=0.1), "decreasing tolerances", least=1
+    number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
 )
 EVALUATIONS = count("evaluations of the rate a forcing period", least=1, most=1000000)
 ORDER = count("order of the series", least=6, most=60)
-# Quantities that are read off a chaotic motion, and off any other.
-AVERAGES = ("contact_rate", "displacement", "exponent")
-READ_OFF = ("amplitude", "state", "contact_time", "contacts")
 
 
 def state(meaning):
@@ -45,10 +56,10 @@ class FreeVerdict(Section):
     period: count(
         "period of the orbit in forcing periods, at most the number that is looked back on",
         least=1,
-        most=6,
+        most=LONGEST_PERIOD,
     )
     offset: state("added to the state of the orbit to start the run")
-    periods: count("forcing periods of a run, enough to look back on", least=12, most=1000000)
+    periods: count("forcing periods of a run, enough to look back on", **VERDICT_PERIODS_RANGE)
     scipy_every: count(
         "SciPy's slow methods are run at every tolerance whose number is a multiple of this, "
         "or never if it is 0",
@@ -85,7 +96,7 @@ class Verdicts(WithOscillator):
 class Accuracy(Section):
     """The error of a quantity that a user of the scene accepts."""
 
-    quantity: choice("quantity that a user of the scene reads off", *READ_OFF, *AVERAGES)
+    quantity: choice("quantity that a user of the scene reads off", *ERRORS, *STATISTICS)
     within: number("largest error accepted; 0 for a number of contacts", least=0, most=1)
 
 
@@ -113,7 +124,7 @@ class Scene(MaybeWithDamper):
         if chaotic and self.periods < 2 * batch:
             reason = f"must be at least twice comparison.batch = {batch} (errors need two batches)"
             yield problem((*path, "periods"), self.periods, reason)
-        if chaotic != (self.accuracy.quantity in AVERAGES):
+        if chaotic != (self.accuracy.quantity in STATISTICS):
             reason = f"must be another one (a {self.motion} motion is asked)"
             yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
 
@@ -141,9 +152,12 @@ class Comparison(ByTolerances):
         distinct=True,
     )
     evaluations: Evaluations
-    harmonics: count("highest harmonic; shooting begins from 15 of them", least=15, most=4095)
+    harmonics: count(
+        f"highest harmonic; shooting begins from {START_HARMONICS} of them",
+        **HARMONIC_RANGE | {"least": START_HARMONICS},
+    )
     batch: count("forcing periods of a batch", least=1, most=100000)
-    scipy_periods: count("forcing periods, two batches at least", least=2, most=1000000)
+    scipy_periods: count("forcing periods, two batches at least", **PERIODS_RANGE | {"least": 2})
 
     def contradictions(self, path, config):
         for key in TOLERANCE_KEYS:

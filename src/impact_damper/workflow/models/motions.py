@@ -1,5 +1,6 @@
 """Motions with and without a damper: curves over frequency, single motions, and migration."""
 
+from impact_damper.system.bounds import PERIODS_RANGE, SCAN_LIFETIME_RANGE
 from impact_damper.workflow.models.messages import dotted, problem
 from impact_damper.workflow.models.system import (
     CLEARANCE,
@@ -78,8 +79,7 @@ class Migration(WithDamper):
     frequency: FREQUENCY
     longest_hold: count(
         "forcing periods after which the damper is switched off at the latest",
-        least=1,
-        most=1000000,
+        **PERIODS_RANGE,
     )
 
 
@@ -89,8 +89,7 @@ class ReleaseScan(WithDamper):
     frequencies: FREQUENCIES
     lifetime: count(
         "forcing periods within which the unsettled motion is released, not at once",
-        least=40,
-        most=10000000,
+        **SCAN_LIFETIME_RANGE,
     )
 
 

@@ -1,9 +1,13 @@
 """Settings that many stages share: grids, searches, settling, and the controller."""
 
 from impact_damper.system.bounds import (
+    LIFETIME_RANGE,
     LIMIT_RANGE,
     PATIENCE_RANGE,
+    PERIODS_RANGE,
     RADIUS_RANGE,
+    RUNS_RANGE,
+    SEED_RANGE,
     WATCHED_RANGE,
 )
 from impact_damper.workflow.models.messages import missing, one_of, problem
@@ -11,7 +15,7 @@ from impact_damper.workflow.models.section import Section
 from impact_damper.workflow.models.system import points_of
 from impact_damper.workflow.models.values import count, number, text
 
-SEED = count("seed of all random draws", least=0, most=4294967295)
+SEED = count("seed of all random draws", **SEED_RANGE)
 RESULTS = text(
     "folder below the working directory, without spaces or leading dots",
     pattern="[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*",
@@ -33,7 +37,7 @@ class Points(Section):
 
 def starts_of(meaning):
     """Type of a number of random starts."""
-    return count(f"random initial conditions {meaning}", least=1, most=1000000)
+    return count(f"random initial conditions {meaning}", **RUNS_RANGE)
 
 
 class Search(Section):
@@ -70,9 +74,7 @@ class Settling(Section):
 class Controller(Section):
     """The migration controller of figure 17, and its trials."""
 
-    trials: count("runs of each case", least=1, most=100000)
-    periods: count(
-        "forcing periods of a run after which no switching begins", least=1, most=10000000
-    )
-    releases: count("releases of each damped motion, and lives watched", least=1, most=1000000)
-    lifetime: count("forcing periods for which lives are watched", least=100, most=10000000)
+    trials: count("runs of each case", **RUNS_RANGE)
+    periods: count("forcing periods of a run after which no switching begins", **PERIODS_RANGE)
+    releases: count("releases of each damped motion, and lives watched", **RUNS_RANGE)
+    lifetime: count("forcing periods for which lives are watched", **LIFETIME_RANGE)

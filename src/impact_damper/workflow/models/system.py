@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from pydantic import create_model
 
-from impact_damper.system.bounds import FREQUENCY_RANGE
+from impact_damper.system.bounds import FREQUENCY_RANGE, PERIODS_RANGE, POINTS_RANGE
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.workflow.models.messages import missing, one_of, problem
 from impact_damper.workflow.models.section import Section
@@ -27,7 +27,7 @@ MASS_RATIO, CLEARANCE, RESTITUTION, CONTACT_STIFFNESS, FREQUENCY = (
     PARAMETERS[name]
     for name in ("mass_ratio", "clearance", "restitution", "contact_stiffness", "frequency")
 )
-RUN_PERIODS = count("forcing periods of a run", least=1, most=1000000)
+RUN_PERIODS = count("forcing periods of a run", **PERIODS_RANGE)
 CLEARANCE_OR_RULE = number_or_word(
     "rule",
     f"{MEANINGS['clearance']}; the word `rule` stands for that of equation (19)",
@@ -37,7 +37,7 @@ CLEARANCE_OR_RULE = number_or_word(
 
 def points_of(meaning):
     """Type of the number of points of a grid."""
-    return count(meaning, least=2, most=100000)
+    return count(meaning, **POINTS_RANGE)
 
 
 def keys_of(names, *, needed=(), without=()):
