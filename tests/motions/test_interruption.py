@@ -12,7 +12,6 @@ import signal
 import threading
 import time
 import impact_damper as idm
-from impact_damper.stages.migration import trials
 from impact_damper.stages.response import collisions
 from impact_damper.stages.stable_steps import stable_steps
 from impact_damper.stages.studies import study_chunk
@@ -43,7 +42,6 @@ CALLS = {
     "frequency_response": "idm.frequency_response(oscillator, damper, {})",
     "orbit_branch": "idm.orbit_branch(oscillator, damper, 2.0, start, span={})",
     "migrate": "idm.migrate(oscillator, damper, 2.0, periods={})",
-    "trials": "trials(oscillator, damper, 1.7, trials=2, releases=2, lifetime={})",
     "collisions": "collisions(oscillator, idm.Damper(0.12, 1000.0), 1.7, {})",
     "study_chunk": "study_chunk(free, cells, (0, 2), settling={})",
     "stable_steps": "stable_steps(oscillator, damper, 2.0, stiffnesses=[2000.0], {})",
@@ -55,7 +53,6 @@ ARGUMENTS = {
     "frequency_response": ("[2.0]", "[1.6 + k / 1000 for k in range(400)]"),
     "orbit_branch": ("(1.99, 2.01)", "(0.5, 5.0)"),
     "migrate": ("10", "10**6"),
-    "trials": ("100", "10**6"),
     "collisions": ("starts=1, periods=1", "starts=10**5, periods=10**6"),
     "study_chunk": ("None", "slow"),
     "stable_steps": (
