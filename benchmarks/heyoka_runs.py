@@ -16,11 +16,14 @@ import numpy as np
 from impact_damper.system.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
+    CUBIC,
     DAMPING,
     DASHPOT,
+    FORCE,
     FREQUENCY,
     INVERSE_MASS_RATIO,
     STIFFNESS,
+    UNBALANCE,
 )
 
 FASTEST = {"fast_math": True, "force_avx512": True}
@@ -44,7 +47,7 @@ SETTINGS = {
 
 
 class Motions:
-    """An integrator for given parameters.
+    """An integrator for given parameters. Factors of 1, as in the paper, are left out.
 
     Parameters
     ----------
@@ -76,8 +79,12 @@ class Motions:
             return heyoka.par[len(pars) - 1]
 
         frequency, damping = number(p[FREQUENCY]), number(p[DAMPING])
+        amplitude = p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2
         forcing = c if linear_forcing else heyoka.cos(frequency * heyoka.time)
-        free = forcing - damping * v - (x**3 if power else x * x * x)
+        if not linear_forcing and amplitude != 1:
+            forcing = number(amplitude) * forcing
+        cube = x**3 if power else x * x * x
+        free = forcing - damping * v - (cube if p[CUBIC] == 1 else number(p[CUBIC]) * cube)
         if p[STIFFNESS] != 0:
             free -= number(p[STIFFNESS]) * x
         system, events = [(x, v), (v, free)], []
@@ -100,7 +107,7 @@ class Motions:
             events = [event(gap, callback=callback, cooldown=COOLDOWN)]
         if linear_forcing:
             system += [(c, -frequency * s), (s, frequency * c)]
-        self.begin = [math.cos(0.5 * math.pi), 1.0] if linear_forcing else []
+        self.begin = [amplitude * math.cos(0.5 * math.pi), amplitude] if linear_forcing else []
         state, pars = np.zeros(len(system)), np.array(pars)
         make = heyoka.taylor_adaptive
         if batch > 1:

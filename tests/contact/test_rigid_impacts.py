@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rebound, rigid_map
 from impact_damper.contact.rigid_orbits import rigid_orbit
 from impact_damper.motions.strobe_map import period_map
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import DASHPOT, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 CASES = [(DESIGN, "design"), (INELASTIC, "inelastic")]
@@ -19,7 +19,7 @@ CASES = [(DESIGN, "design"), (INELASTIC, "inelastic")]
 
 def rigid(damper, frequency, oscillator=PAPER):
     p = pack(oscillator, damper, frequency)
-    p[6] = 0.0
+    p[DASHPOT] = 0.0
     return p
 
 

@@ -137,7 +137,7 @@ def test_with_restitution_it_ends_where_straight_flight_says(restitution):
     """The closed form is for rigid walls at high frequency, which d0 = 0.5 comes near."""
     oscillator = Oscillator(0.02)
     damper = replace(DESIGN, clearance=0.5, restitution=restitution, contact_stiffness=2e6)
-    expected = straight_flight_end(0.5, restitution)
+    expected = straight_flight_end(oscillator, 0.5, restitution)
     frequencies = np.linspace(0.8, 1.1, 31) * expected
     grid = row(damper, frequencies, oscillator)
     start = ensemble.settle(
@@ -154,11 +154,16 @@ def test_with_restitution_it_ends_where_straight_flight_says(restitution):
 
 
 def test_straight_flight_end():
-    assert straight_flight_end(2.0, 1.0) == np.inf
+    assert straight_flight_end(PAPER, 2.0, 1.0) == np.inf
     phase = np.linspace(0, np.pi, 100001)
     work = np.pi / 2 * 1.75 / 0.25
     greatest = np.max(work * np.sin(phase) - np.cos(phase))
-    assert straight_flight_end(2.0, 0.75) ** 2 * 2.0 == pytest.approx(greatest)
+    assert straight_flight_end(PAPER, 2.0, 0.75) ** 2 * 2.0 == pytest.approx(greatest)
+    # W^2 d0 = (F + U W^2) times the greatest, as long as there is a solution
+    shaken = Oscillator(0.2, force=0.3, unbalance=0.1)
+    end = straight_flight_end(shaken, 2.0, 0.75)
+    assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
+    assert straight_flight_end(replace(shaken, unbalance=2.0), 2.0, 0.75) == np.inf
 
 
 def test_a_row_without_a_known_orbit_is_said_to_have_none():

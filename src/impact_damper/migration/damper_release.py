@@ -22,7 +22,7 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.motions.sweep import Catalogue
 from impact_damper.system.bounds import FREQUENCY_RANGE, LEAD
 from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.theory.free_oscillator import free_solutions
+from impact_damper.theory.free_oscillator import main_solutions
 from impact_damper.theory.single_harmonic import impacting_solutions
 
 # Free motions are the same if their max |Z1| differs by less.
@@ -57,10 +57,10 @@ def _free_motion(oscillator, frequency, start, which, settling):
     """Return a record of a free period-1 motion at a frequency, or None.
 
     The motion is settled at the frequency `start` from the solution of harmonic balance with the
-    index `which`, and followed from there.
+    index `which`, on the curve through the peak, and followed from there.
     """
     p = pack(oscillator, None, start)
-    free = free_solutions(oscillator, start)
+    free = main_solutions(oscillator, start)
     angle = free.phase[which] + np.pi / 2
     primary = free.amplitude[which] * np.array([np.cos(angle), -start * np.sin(angle)])
     record = ensemble.settle(p[None], np.tile(primary, (1, 2)), settling, from_strobe=True)[0]

@@ -52,28 +52,31 @@ class QuietOrbits(NamedTuple):
     end_event: np.ndarray
 
 
-def straight_flight_end(clearance, restitution) -> float:
+def straight_flight_end(oscillator, clearance, restitution) -> float:
     """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
     In this limit, of rigid walls and high frequency, the equations of `straight_flight_ratio` give
-    W^2 d0 = k sin(s) - cos(s) for the phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e) and
-    for any rm. There is no solution beyond W^2 d0 = sqrt(1 + k^2), where the forcing no longer
-    supplies the energy that impacts dissipate.
+    W^2 d0/f = k sin(s) - cos(s) for the phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e),
+    the forcing amplitude f = F + U W^2, and for any rm. There is no solution beyond
+    W^2 d0/f = sqrt(1 + k^2), where the forcing no longer supplies the energy that impacts
+    dissipate.
 
     Parameters
     ----------
+    oscillator : Oscillator
     clearance, restitution : float
         d0 and e.
 
     Returns
     -------
     float
-        Infinite for e = 1.
+        Infinite for e = 1, and for an unbalance that supplies the energy at any frequency.
     """
     if restitution == 1:
         return np.inf
-    work = np.pi / 2 * (1 + restitution) / (1 - restitution)
-    return float(np.sqrt(np.hypot(1, work) / clearance))
+    most = np.hypot(1, np.pi / 2 * (1 + restitution) / (1 - restitution))
+    left = clearance - most * oscillator.unbalance
+    return float(np.sqrt(oscillator.force * most / left)) if left > 0 else np.inf
 
 
 def is_symmetric_pair(records):

@@ -279,4 +279,5 @@ def _high_verdict(said, kinds, displacement):
 
 def _rigid_end(row):
     peak = peak_frequency(row.oscillator)
-    return straight_flight_end(row.damper.clearance, row.damper.restitution) / peak
+    end = straight_flight_end(row.oscillator, row.damper.clearance, row.damper.restitution)
+    return end / peak

@@ -1,8 +1,8 @@
 """Accuracy of each rule for the clearance: its prediction against the optimum of the exact motion.
 
 The quiet motion is computed by Newton's method on its exact orbit, stable or unstable, started from
-the state that `theory.straight_flight` predicts. Clearances are given as rm W^2 d0, which is 1 by
-rule (18), and displacements as W^2 Z1.
+the state that `theory.straight_flight` predicts. Clearances are given as rm W^2 d0/f, which is 1 by
+rule (18), and displacements as W^2 Z1/f, with the forcing amplitude f.
 """
 
 import itertools
@@ -53,8 +53,8 @@ def design_rules(
     Returns
     -------
     xarray.Dataset
-        For two criteria, the least max |Z1| and the least first harmonic of Z1: rm W^2 d0 at the
-        optimum, what is least there in units of 1/W^2, the kind of minimum, and the largest
+        For two criteria, the least max |Z1| and the least first harmonic of Z1: rm W^2 d0/f at the
+        optimum, what is least there in units of f/W^2, the kind of minimum, and the largest
         Floquet multiplier's modulus and stability of the motion. Over `rule` what each rule
         predicts, and the excess of max |Z1| at its clearance over the least:
 
@@ -120,7 +120,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The symmetric motion of period 1 with two contacts, over the ratio rm W^2 d0.
+    """The symmetric motion of period 1 with two contacts, over the ratio rm W^2 d0/f.
 
     Parameters
     ----------
@@ -134,7 +134,8 @@ class QuietMotion:
     def __init__(self, oscillator, damper, frequency):
         flight = flight_of(oscillator, damper, frequency)
         self._parameters = pack(oscillator, damper, frequency)
-        self._unit = 1 / (damper.mass_ratio * frequency**2)
+        self._forcing = oscillator.forcing_amplitude(frequency)
+        self._unit = self._forcing / (damper.mass_ratio * frequency**2)
         self._known = {}
         impulse = np.linspace(0, flight.largest_impulse, IMPULSES + 2)[1:-1]
         strobe = np.pi / 2 + flight.forced_lag
@@ -143,10 +144,10 @@ class QuietMotion:
         loose_speed = 2 / np.pi * impulse / damper.mass_ratio
         self._ratios = flight.ratio(impulse)
         self._states = np.array([x, speed, x - loose, speed - loose_speed])
-        self._states /= np.array([[frequency**2, frequency] * 2]).T
+        self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return W^2 max |Z1|, W^2 |first harmonic of Z1|, and |dominant multiplier|.
+        """Return W^2/f times max |Z1| and |first harmonic of Z1|, and |dominant multiplier|.
 
         Without such a motion at the ratio, infinity, infinity and NaN.
         """
@@ -165,7 +166,8 @@ class QuietMotion:
         if orbit is None:
             return absent
         sizes = orbit.displacement, abs(first_harmonic(p, orbit.state))
-        return *(p[FREQUENCY] ** 2 * size for size in sizes), abs(orbit.multiplier)
+        scale = p[FREQUENCY] ** 2 / self._forcing
+        return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
         """Return the ratio of a local minimum, downhill from a guess, and the kind of minimum.

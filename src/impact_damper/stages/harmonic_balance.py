@@ -11,17 +11,18 @@ from impact_damper.system.checks import check_frequencies
 from impact_damper.system.parameters import check_oscillator, describe
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
-from impact_damper.theory.free_oscillator import free_folds, free_solutions
+from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6  # six impacting ones seen at most
 SEARCH_STEP = 0.005
 SEARCHED = (0.2, 2.0)
 EDGE_TOLERANCE = 1e-10
+EDGES = ["lower", "upper"]
 
 
 def optimum_clearance(oscillator, mass_ratio) -> float:
-    """Clearance d0 = 1/(rm Wp^2) of rule (19), for which a = 0 solves (13) at the peak.
+    """Clearance d0 = f/(rm Wp^2) of rule (19), for which a = 0 solves (13) at the peak.
 
     Parameters
     ----------
@@ -32,7 +33,7 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     Raises
     ------
     TypeError, ValueError
-        If the mass ratio is not a number or out of range.
+        If the mass ratio is not a number or out of range, or there is no peak or no forcing.
     """
     check_oscillator(oscillator)
     mass_ratio = check_number("mass_ratio", mass_ratio, **MASS_RATIO_RANGE)
@@ -170,9 +171,9 @@ def suppression_band(oscillator, damper):
     A frequency belongs to the band if (7) has exactly one stable solution there, and its
     |a| is below the amplitude of the free resonance branch. The band is the connected
     range of such frequencies that holds the peak frequency Wp. The free resonance branch
-    is the upper branch of the free response: it ends at the upper fold, and so does the
-    band, at the latest; where the free response has no fold it is the whole curve.
-    Motions in which the loose mass rests do not count, as in the paper.
+    is that of `free_oscillator.resonance`: with a hardening spring it ends at the upper fold,
+    and so does the band, at the latest; where the free response has no fold it is the whole
+    curve. Motions in which the loose mass rests do not count, as in the paper.
 
     The search goes from Wp in steps of 0.005 Wp down to 0.2 Wp and up to 2 Wp, and the
     edges are bisected to 1e-10; a gap narrower than a step can be passed over.
@@ -187,9 +188,10 @@ def suppression_band(oscillator, damper):
     -------
     xarray.Dataset
         Edges on `edge` (lower, upper) with what ends the band there, its width, the
-        reduction of |a| at Wp and at the edges, and the frequency above Wp at which the
-        quiet motion is no smaller than the smallest free one, the band's end if the
-        end of the resonance branch is disregarded. NaN and a flag where there is none.
+        reduction of |a| at Wp and at the edges, and the frequency above Wp (below with a
+        softening spring) at which the quiet motion is no smaller than the smallest free one,
+        the band's end if the end of the resonance branch is disregarded. NaN and a flag where
+        there is none; all NaN, and the status no_peak, if the free response has no peak.
 
     Raises
     ------
@@ -200,17 +202,20 @@ def suppression_band(oscillator, damper):
     """
     check_oscillator(oscillator)
     balance.check_elastic(damper)
-    peak = peak_frequency(oscillator)
-    resonance = 1 / (oscillator.damping * peak)
-    folds = free_folds(oscillator)
-    last = folds[-1].frequency if folds else np.inf
+    title = "Suppression band by harmonic balance"
+    try:
+        peak = peak_frequency(oscillator)
+        resonance(oscillator, peak)
+    except ValueError:
+        return dataset(_no_band(), {"edge": EDGES}, describe(oscillator, damper), title)
+    highest = oscillator.forcing_amplitude(peak) / (oscillator.damping * peak)
 
     def look(frequency):
-        return _look(oscillator, damper, frequency, last)
+        return _look(oscillator, damper, frequency)
 
     middle = look(peak)
     status, frequency, event, reduction = middle.status(), [np.nan] * 2, [0, 0], [np.nan] * 2
-    above = None
+    break_even = None
     if status == "found":
         for k, limit in enumerate(SEARCHED):
             edge = _edge(lambda w: look(w).status() == "found", peak, limit)
@@ -219,7 +224,8 @@ def suppression_band(oscillator, damper):
                 frequency[k], event[k] = edge[0], flag("edge_event", _event(inner, outer))
                 reduction[k] = 1 - inner.stable[0] / inner.resonance
         if middle.beats_free():
-            above = _edge(lambda w: look(w).beats_free(), peak, SEARCHED[1])
+            limit = SEARCHED[0 if oscillator.hardening < 0 else 1]
+            break_even = _edge(lambda w: look(w).beats_free(), peak, limit)
     quiet = middle.stable[0] if len(middle.stable) else np.nan
     return dataset(
         {
@@ -229,14 +235,34 @@ def suppression_band(oscillator, damper):
             "edge_reduction": reduction,
             "band_width": frequency[1] - frequency[0],
             "peak_frequency": peak,
-            "peak_amplitude": resonance,
+            "peak_amplitude": highest,
             "quiet_amplitude": quiet,
-            "reduction": 1 - quiet / resonance,
-            "break_even_frequency": np.nan if above is None else above[0],
+            "reduction": 1 - quiet / highest,
+            "break_even_frequency": np.nan if break_even is None else break_even[0],
         },
-        {"edge": ["lower", "upper"]},
+        {"edge": EDGES},
         describe(oscillator, damper),
-        "Suppression band by harmonic balance",
+        title,
+    )
+
+
+def _no_band():
+    """Return the variables of `suppression_band` if the free response has no peak."""
+    return {
+        "band_status": flag("band_status", "no_peak"),
+        "edge_frequency": [np.nan] * 2,
+        "edge_event": [flag("edge_event", "not_found")] * 2,
+        "edge_reduction": [np.nan] * 2,
+    } | dict.fromkeys(
+        (
+            "band_width",
+            "peak_frequency",
+            "peak_amplitude",
+            "quiet_amplitude",
+            "reduction",
+            "break_even_frequency",
+        ),
+        np.nan,
     )
 
 
@@ -257,12 +283,13 @@ class _Look(NamedTuple):
         return len(self.stable) > 0 and self.stable[0] < self.least_free
 
 
-def _look(oscillator, damper, frequency, last):
+def _look(oscillator, damper, frequency):
     solutions = balance.impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
-    free = free_solutions(oscillator, frequency).amplitude
+    free, branch = free_solutions(oscillator, frequency), resonance(oscillator, frequency)
     stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
-    return _Look(len(growth), stable, free[-1] if frequency <= last else np.nan, free[0])
+    amplitude = np.nan if branch.phase is None else branch.amplitude
+    return _Look(len(growth), stable, amplitude, free.amplitude[0])
 
 
 def _edge(inside, peak, limit):

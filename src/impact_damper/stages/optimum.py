@@ -65,7 +65,8 @@ def clearance_sweep(
         Over (clearance, motion) all motions found, as in a frequency response. Over `clearance`
         the largest displacement of the quiet motion, of all motions that random starts reach,
         and |a| of the quietest stable solution of (7). Scalars: the optimum and what kind of
-        minimum it is, both for the motion and for (7); rules (18) and (19); rm W^2 d0 at the
+        minimum it is, both for the motion and for (7); rules (18) and (19), the latter NaN if
+        the free response has no peak; rm W^2 d0/f, with the forcing amplitude f, at the
         optimum and which shares of its excess over 1 two corrections of (18) explain: that
         of the first harmonic for a loose mass that flies straight, pi^2/8, and
         `optimum_clearance.straight_flight_ratio`. Over `edge` the range of clearance within 10 % of
@@ -97,8 +98,9 @@ def clearance_sweep(
     data = sweep(
         parameters, CLEARANCE, "clearance", states, settling, workers=workers, progress=progress
     )
+    forcing = oscillator.forcing_amplitude(frequency)
     inertia = dampers[0].mass_ratio * frequency**2
-    branch = _quiet_branch(data, parameters, 1 / inertia)
+    branch = _quiet_branch(data, parameters, forcing / inertia)
     data |= (
         _quiet_table(branch)
         | _optimum_table(branch)
@@ -106,10 +108,10 @@ def clearance_sweep(
     )
     data |= {
         "largest_displacement": _largest(data),
-        "rule_clearance": 1 / inertia,
-        "peak_rule_clearance": optimum_clearance(oscillator, dampers[0].mass_ratio),
+        "rule_clearance": forcing / inertia,
+        "peak_rule_clearance": _peak_rule(oscillator, dampers[0].mass_ratio),
     }
-    data |= excess_table(inertia * data["optimum_clearance"], dampers[0])
+    data |= excess_table(inertia * data["optimum_clearance"] / forcing, dampers[0])
     made = (
         describe(oscillator, settling)
         | damper
@@ -121,6 +123,14 @@ def clearance_sweep(
         "edge": ["lower", "upper"],
     }
     return dataset(data, coordinates, made, "Largest displacement against clearance")
+
+
+def _peak_rule(oscillator, mass_ratio):
+    """Return the clearance of rule (19), NaN if the free response has no peak."""
+    try:
+        return optimum_clearance(oscillator, mass_ratio)
+    except ValueError:
+        return np.nan
 
 
 class _Branch(NamedTuple):

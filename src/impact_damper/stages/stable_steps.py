@@ -28,7 +28,7 @@ from impact_damper.system.checks import check_increasing, check_numbers
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import Settling
-from impact_damper.theory.free_oscillator import free_solutions
+from impact_damper.theory.free_oscillator import main_solutions
 
 LABELS = COMPARED["stable_steps"]
 ACCURACIES = (0.01, 0.1)
@@ -196,7 +196,7 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     period = 2 * math.pi / frequency
     counts = np.ceil(period * contact[:, None] / scaled).astype(int)
     tested = counts <= most_steps
-    bound = 0.5 * np.max(np.abs(free_solutions(oscillator, frequency).amplitude))
+    bound = 0.5 * np.max(main_solutions(oscillator, frequency).amplitude)
     methods = [integrators()[name] for name in LABELS]
     verdicts, deviations = _cells(methods, orbits, counts, tested, bound, periods)
     data = {

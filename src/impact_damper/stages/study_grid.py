@@ -9,6 +9,7 @@ import xarray as xr
 from impact_damper.data.datasets import dataset, load, seal, variable, write
 from impact_damper.data.variables.studies import AXES
 from impact_damper.data.whole_files import DELETE, BrokenFileError, whole_netcdf
+from impact_damper.system.parameters import Oscillator, pick
 
 
 def gather_chunks(paths, path) -> None:
@@ -49,7 +50,7 @@ def gather_chunks(paths, path) -> None:
             if done != math.prod(shape):
                 found = f"ends at cell {done} of {math.prod(shape)}"
                 raise BrokenFileError(f"{paths[-1]} {found}: {DELETE}.")
-            _write_clearances(file, axes)
+            _write_clearances(file, axes, Oscillator(**pick(Oscillator, head.attrs)))
         with xr.open_dataset(part, engine="netcdf4", cache=False) as data:
             sealed = seal(data.variables, path)
         with netCDF4.Dataset(part, "a") as file:
@@ -113,12 +114,13 @@ def blocks(first, last, shape):
         first += count * stride
 
 
-def _write_clearances(file, axes):
+def _write_clearances(file, axes, oscillator):
     """Write the best clearance of the grid and that of rule (18), one mass ratio at a time."""
     dims = tuple(name for name in AXES if name != "clearance")
     _define(file, "best_clearance", dims, float)
     _define(file, "rule_clearance", ("mass_ratio", "frequency"), float)
+    forcing = oscillator.forcing_amplitude(axes["frequency"])
     for i, mass_ratio in enumerate(axes["mass_ratio"]):
         sizes = np.ma.getdata(file["largest_displacement"][i])
         file["best_clearance"][i] = axes["clearance"][np.argmin(sizes, axis=0)]
-        file["rule_clearance"][i] = 1 / (mass_ratio * axes["frequency"] ** 2)
+        file["rule_clearance"][i] = forcing / (mass_ratio * axes["frequency"] ** 2)

@@ -23,13 +23,14 @@ exit of a contact contribute with a relative phase that changes with N.
 Without contacts the motion is analytic in a strip around the real time axis, up to its nearest
 singularity at a distance s. The omitted harmonics decrease as exp(-s W N), the error of the last
 retained ones as N^-2 exp(-s W N), and the error of the multipliers, which is quadratic in the
-omitted harmonics, as exp(-2 s W N).
+omitted harmonics, as exp(-2 s W N). With a linear spring there is no singularity, and N = 1 is
+exact.
 """
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from impact_damper.system.packed import DAMPING, FREQUENCY, STIFFNESS
+from impact_damper.system.packed import CUBIC, DAMPING, FORCE, FREQUENCY, STIFFNESS, UNBALANCE
 
 # Errors of max |Z1|, of the retained harmonics of Z1, of the omitted ones (both root mean square),
 # and of a Floquet multiplier; below their powers of 1/N, or multiples of s W without contacts.
@@ -37,10 +38,12 @@ MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Search for a singularity: start times in half a forcing period, |Z1| at which an approach stops,
-# and share of the estimated distance at which the next approach begins.
+# Search for a singularity: start times in half a forcing period; |Z1| at which an approach stops,
+# in units of x = (f/|k3|)^(1/3), and last change of the estimated place, in units of
+# 1/(x sqrt|k3|); share of the estimated distance at which the next approach begins.
 STARTS = 12
 LARGE = 30.0
+LAST_CHANGE = 1e-6
 CLOSE = 0.95
 
 
@@ -95,7 +98,7 @@ def singularity_distance(p, state) -> float:
 
     From STARTS points of the real axis, over half a forcing period, the motion is integrated in
     the direction of imaginary time. Near a singularity T* the motion is
-    Z1 = sqrt(-2)/(T - T*), so T* is estimated as T + Z1/Z1'. The next integration starts on the
+    Z1 = sqrt(-2/k3)/(T - T*), so T* is estimated as T + Z1/Z1'. The next integration starts on the
     real axis below the estimate.
 
     Parameters
@@ -106,19 +109,25 @@ def singularity_distance(p, state) -> float:
     Returns
     -------
     float
-        In units of T; NaN if no singularity is found.
+        In units of T; infinite for a linear spring, NaN if no singularity is found.
     """
+    frequency, cubic = p[FREQUENCY], p[CUBIC]
+    if cubic == 0:
+        return np.inf
+    force = p[FORCE] + p[UNBALANCE] * frequency**2
+    length = (force / abs(cubic)) ** (1 / 3)
+    duration = 1 / (np.sqrt(abs(cubic)) * length)
 
     def rates(time, y):
         x, v = y
-        drive = np.cos(p[FREQUENCY] * time)
-        return np.array([v, drive - p[DAMPING] * v - p[STIFFNESS] * x - x**3])
+        drive = force * np.cos(frequency * time)
+        return np.array([v, drive - p[DAMPING] * v - p[STIFFNESS] * x - cubic * x**3])
 
     def integrate(y, begin, end):
         """Time and state at the end of a straight line in complex time, or where |Z1| is LARGE."""
 
         def large(share, y):
-            return LARGE - abs(y[0])
+            return LARGE * length - abs(y[0])
 
         large.terminal = True
         run = solve_ivp(
@@ -128,23 +137,23 @@ def singularity_distance(p, state) -> float:
             method="DOP853",
             events=large,
             rtol=1e-10,
-            atol=1e-12,
+            atol=1e-12 * length,
         )
         return begin + run.t[-1] * (end - begin), run.y[:, -1]
 
-    begin = 0.5 * np.pi / p[FREQUENCY]
+    begin = 0.5 * np.pi / frequency
     heights = []
-    for lag in np.pi / p[FREQUENCY] * np.arange(STARTS) / STARTS:
+    for lag in np.pi / frequency * np.arange(STARTS) / STARTS:
         _, real = integrate(state[:2], begin, begin + lag)
-        time, y = integrate(real, begin + lag, begin + lag + 1j * np.pi / p[FREQUENCY])
+        time, y = integrate(real, begin + lag, begin + lag + 1j * np.pi / frequency)
         for _ in range(8):
             before, singularity = time, time + y[0] / y[1]
-            if not 0 < singularity.imag < 2 * np.pi / p[FREQUENCY]:
+            if not 0 < singularity.imag < 2 * np.pi / frequency:
                 break
             _, real = integrate(state[:2], begin, singularity.real)
             close = complex(singularity.real, CLOSE * singularity.imag)
             time, y = integrate(real, complex(singularity.real), close)
-            if abs(time - before) < 1e-6:
+            if abs(time - before) < LAST_CHANGE * duration:
                 heights.append(singularity.imag)
                 break
     return float(min(heights, default=np.nan))

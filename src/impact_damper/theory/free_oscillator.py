@@ -1,19 +1,28 @@
 """Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
 
-Equation (3) without contact gives
+Equation (3) without contact gives, with g = (3/4) k3 and the forcing amplitude f = F + U W^2,
 
-    (a wl^2 - a W^2 + (3/4) a^3)^2 + (h a W)^2 = 1,
+    (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2,
 
 a cubic in a^2 at a fixed frequency W and a quadratic in W^2 at a fixed amplitude a. Every quantity
 is dimensionless, angles are in radian.
+
+With a softening spring the response curve has a second part, whose amplitudes near the barrier
+|Z1| = wl/sqrt(-k3) a single harmonic describes badly. The curve through the peak is the one with
+amplitudes up to that of `maximum_response`.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import Polynomial
 
 from impact_damper.system.checks import check_frequency
 from impact_damper.theory.roots import polynomial_roots
+
+# Amplitudes that exceed a bound by this share or less are within it.
+ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
@@ -22,7 +31,7 @@ class FreeSolutions(NamedTuple):
     Attributes
     ----------
     amplitude : numpy.ndarray, shape (count,)
-        a > 0, ascending.
+        a > 0, ascending; the one solution without forcing is 0.
     phase : numpy.ndarray, shape (count,)
         t1 in (-pi, pi], phase of Z1 to the forcing.
     """
@@ -38,6 +47,21 @@ class Point(NamedTuple):
     amplitude: float
 
 
+class Resonance(NamedTuple):
+    """The free resonance branch at one frequency.
+
+    Attributes
+    ----------
+    amplitude : float
+        a; where the branch does not reach, its amplitude at its end.
+    phase : float or None
+        t1, None where the branch does not reach.
+    """
+
+    amplitude: float
+    phase: float | None
+
+
 def free_solutions(oscillator, frequency) -> FreeSolutions:
     """All solutions without the damper at one frequency, by ascending amplitude.
 
@@ -47,50 +71,157 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
         If the frequency is not a number or out of range.
     """
     detuning = oscillator.linear_frequency**2 - check_frequency(frequency) ** 2
+    force = oscillator.forcing_amplitude(frequency)
+    if force == 0:
+        return FreeSolutions(np.zeros(1), np.zeros(1))
     drag, hardening = oscillator.damping * frequency, oscillator.hardening
-    squares = polynomial_roots([-1, detuning**2 + drag**2, 2 * hardening * detuning, hardening**2])
+    squares = polynomial_roots(
+        [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
+    )
+    # with a tiny k3 rounding makes a double root out of a near miss far beyond the bound f/(h W)
+    squares = squares[squares <= (force / drag) ** 2 * (1 + ROUNDING)]
     amplitude = np.sqrt(squares)
     inline = amplitude * (detuning + hardening * squares)
     return FreeSolutions(amplitude, np.arctan2(-drag * amplitude, inline))
 
 
+def main_solutions(oscillator, frequency) -> FreeSolutions:
+    """Solutions on the curve through the peak: with a softening spring not all `free_solutions`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `free_solutions` and, with a softening spring, in `maximum_response`.
+    """
+    free = free_solutions(oscillator, frequency)
+    if oscillator.hardening >= 0:
+        return free
+    kept = free.amplitude <= maximum_response(oscillator).amplitude * (1 + ROUNDING)
+    return FreeSolutions(free.amplitude[kept], free.phase[kept])
+
+
+def resonance(oscillator, frequency) -> Resonance:
+    """Free resonance branch: the part of the response curve that begins at the peak.
+
+    With a hardening spring it extends to low frequencies and ends at the upper fold; with a
+    softening one it extends to high frequencies and ends at the fold next to the peak. Without
+    folds it is the whole curve.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `main_solutions`.
+    """
+    free = main_solutions(oscillator, frequency)
+    folds = _folds(oscillator)
+    if oscillator.hardening < 0:
+        most = maximum_response(oscillator).amplitude
+        folds = [fold for fold in folds if fold.amplitude < most]
+    if folds and np.sign(oscillator.hardening) * (frequency - folds[-1].frequency) > 0:
+        return Resonance(folds[-1].amplitude, None)
+    return Resonance(free.amplitude[-1], free.phase[-1])
+
+
 def maximum_response(oscillator) -> Point:
     """Maximum of the free response curve over W, exact within single-term harmonic balance.
 
-    The two frequencies at which the curve has the amplitude a are the roots
-    W^2 = m - h^2/2 +- sqrt(1/a^2 - h^2 m + h^4/4), with m = wl^2 + (3/4) a^2. They coincide at
-    the maximum.
+    The frequencies at which the curve has the amplitude a are the roots of a quadratic in W^2,
+
+        (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0,   m = wl^2 + g a^2.
+
+    They coincide at the maximum, where its discriminant, another quadratic in a^2, vanishes.
 
     Raises
     ------
     ValueError
-        If the damping is so large that the amplitude decreases from W = 0 on.
+        If the amplitude decreases from W = 0 on (large damping), increases without end (a large
+        unbalance and a hardening spring), or reaches the barrier of a softening spring.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
-    linear, hardening = damping * (stiffness - damping / 4), oscillator.hardening
-    amplitude = (-linear + np.sqrt(linear**2 + 4 * hardening * damping)) / (2 * hardening * damping)
-    square = stiffness + hardening * amplitude - damping / 2
-    if square <= 0:
-        raise ValueError(f"damping = {oscillator.damping:g}: too large, the response has no peak")
-    return Point(float(np.sqrt(square)), float(np.sqrt(amplitude)))
+    force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening
+    static = force + unbalance * stiffness
+    linear = damping * (stiffness - damping / 4) - 2 * hardening * unbalance * static
+    squares = polynomial_roots(
+        [
+            force * unbalance * damping - static**2,
+            linear,
+            hardening * (damping - hardening * unbalance**2),
+        ]
+    )
+    for square in squares[squares > unbalance**2]:
+        middle = stiffness + hardening * square
+        leading = 1 - unbalance**2 / square
+        frequency = (middle + force * unbalance / square - damping / 2) / leading
+        forcing = force + unbalance * frequency
+        slope = 2 * hardening * (middle - frequency) + (forcing / square) ** 2
+        if frequency > 0 and slope > 0:
+            return Point(float(np.sqrt(frequency)), float(np.sqrt(square)))
+    raise ValueError(
+        f"damping = {oscillator.damping:g}: the response has no peak, with force = {force:g}, "
+        f"unbalance = {unbalance:g} and cubic = {oscillator.cubic:g}: it falls from W = 0 on, "
+        "rises without end, or goes over the barrier of a softening spring"
+    )
 
 
 def free_folds(oscillator) -> list[Point]:
-    """Folds of the free response curve, by ascending amplitude; two or none.
+    """Folds of the free response curve, by ascending amplitude: two or none for a hardening spring.
 
-    On the branch W^2 = m - h^2/2 + S, where S is the square root in `maximum_response`, the
-    condition dW/da = 0 reads (3/2) S = 1/u^2 + (3/4) h^2 with u = a^2. Squared, it is a polynomial
-    of degree five in u.
+    The curve is a quadratic in s = W^2, see `maximum_response`. At a fold its derivative by
+    u = a^2, a quadratic too, vanishes as well. Their resultant is a polynomial of degree five in u,
+    and for U = 0 the common root is
+
+        s = wl^2 + g u - h^2/2 + (F^2/u^2 + g h^2)/(2 g).
+
+    With a softening spring the folds of the curve's second part are among them.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
-    g = oscillator.hardening
+    force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
+    if g == 0 or force == unbalance == 0:
+        return []
     fifth, fourth = 4 * g**3 * damping, 4 * g**2 * damping * stiffness
-    squares = polynomial_roots([1, 0, 2 * g * damping, -4 * g**2, fourth, fifth])
+    resultant = Polynomial(
+        [
+            force**4,
+            0,
+            2 * g * damping * force**2,
+            -4 * g**2 * force**2,
+            fourth,
+            fifth,
+        ]
+    ) + unbalance * _by_unbalance(oscillator)
+    squares = polynomial_roots(resultant.coef)
     squares = squares[squares > 0]
-    root = (1 / squares**2 + g * damping) / (2 * g)
+    root = (force**2 / squares**2 + g * damping) / (2 * g)
+    linear = damping - 2 * stiffness - 4 * g * squares
+    bend = stiffness**2 + 4 * g * stiffness * squares + 3 * (g * squares) ** 2
+    share = 1 - unbalance * (2 * force - unbalance * linear) / (2 * g * squares**2)
     frequencies = stiffness + g * squares - damping / 2 + root
+    frequencies = (frequencies - unbalance**2 * bend / (2 * g * squares**2)) / share
     return [
         Point(float(np.sqrt(square)), float(np.sqrt(u)))
         for square, u in zip(frequencies, squares, strict=True)
         if square > 0
     ]
+
+
+_folds = lru_cache(free_folds)
+
+
+def _by_unbalance(oscillator):
+    """Return the terms of the resultant in `free_folds` that contain U, divided by U."""
+    damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
+    force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
+    u = Polynomial([0, 1])
+    spring = (stiffness + g * u) ** 2 * u - force**2
+    bend = spring.deriv()
+    linear = (damping - 2 * stiffness) * u - 2 * g * u**2
+    slope = linear.deriv()
+    own = force**2 + 2 * g * stiffness * u**2 + 2 * g**2 * u**3
+    first = (damping - 2 * stiffness) * u * bend - spring * slope
+    second = bend * (4 * force**2 - 2 * own + slope * linear) - spring * slope**2
+    return (
+        -2 * force * first
+        + unbalance * second
+        - 2 * force * unbalance**2 * slope * bend
+        + unbalance**3 * bend**2
+    )

@@ -25,7 +25,7 @@ from scipy.linalg import lu_factor, lu_solve
 from impact_damper.system.bounds import HARMONIC_RANGE, check_count
 from impact_damper.system.packed import pack
 from impact_damper.theory import fourier, single_harmonic
-from impact_damper.theory.free_oscillator import free_solutions
+from impact_damper.theory.free_oscillator import main_solutions
 
 # Newton's method: largest relative change of a coefficient on convergence, steps allowed, and
 # smallest factor by which a step is shortened.
@@ -118,15 +118,16 @@ class Balance:
     def residual(self, coefficients, rows) -> np.ndarray:
         """Residual of (3) and (4), with a dashpot of (20) and (21), in each harmonic.
 
-        Left side minus right side, shape (1 or 2, m); the forcing cos(W T) has the coefficient
-        1/2. `rows` are the `contacts` of the coefficients.
+        Left side minus right side, shape (1 or 2, m); the forcing f cos(W T) has the coefficient
+        f/2. `rows` are the `contacts` of the coefficients.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, 3)
-        cube = np.fft.rfft(fourier.samples(first, k, count) ** 3)[k] / count
+        cube = np.fft.rfft(own.cubic * fourier.samples(first, k, count) ** 3)[k] / count
         spring = rate**2 + own.damping * rate + own.linear_frequency**2
-        balance = spring * first + cube - 0.5 * (k == self.period)
+        forcing = 0.5 * own.forcing_amplitude(self.frequency)
+        balance = spring * first + cube - forcing * (k == self.period)
         if self.damper is None:
             return balance[None]
         by_value, by_conjugate = _convolution(self._contact_share(rows), k)
@@ -158,8 +159,8 @@ class Balance:
         first = _real(unit * (inertia + spring), 0 * unit)
         if power == 0:
             count = fourier.product_samples(k, 3)
-            square = np.fft.rfft(3 * fourier.samples(coefficients[0], k, count) ** 2) / count
-            first += _real(*_convolution(square, k))
+            slope = 3 * own.cubic * fourier.samples(coefficients[0], k, count) ** 2
+            first += _real(*_convolution(np.fft.rfft(slope) / count, k))
         if self.damper is None:
             return first[np.ix_(self.kept, self.kept)]
         free = _real(unit * inertia, 0 * unit)
@@ -285,7 +286,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
     """Return the coefficients of a single-term solution, from which balances begin.
 
     With a damper this is the solution of equation (7) with the least |a|, the damper taken as
-    elastic; without one the solution with the greatest |a|.
+    elastic; without one the solution with the greatest |a| on the curve through the peak.
 
     Parameters
     ----------
@@ -303,9 +304,11 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
     ------
     ArithmeticError
         If (7) has no solution with contacts.
+    ValueError
+        Without a damper, as in `free_oscillator.main_solutions`.
     """
     if damper is None:
-        found = free_solutions(oscillator, frequency)
+        found = main_solutions(oscillator, frequency)
         sizes = found.amplitude[-1:]
         phase = found.phase[-1]
     else:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.theory.free_oscillator import free_folds, free_solutions
+from impact_damper.theory.free_oscillator import resonance
 from impact_damper.theory.single_harmonic import impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
@@ -27,7 +27,7 @@ class Cells(NamedTuple):
     Attributes
     ----------
     resonance : numpy.ndarray, shape (rows, columns)
-        Amplitude of the free resonance branch; above the frequency at which the branch ends, its
+        Amplitude of the free resonance branch; beyond the frequency at which the branch ends, its
         amplitude at the end.
     quiet, high : numpy.ndarray of int, shape (rows, columns)
         Values of the flags `balance_quiet` and `balance_high`.
@@ -77,10 +77,10 @@ def balance_cells(rows) -> Cells:
 
 def _cell(oscillator, damper, frequency):
     """Harmonic balance in one cell: `Cells` of scalars."""
-    resonance, resonance_phase = _resonance(oscillator, frequency)
+    free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
-    if resonance_phase is not None:
-        start = _start(resonance, 0.0, resonance_phase, frequency)
+    if phase is not None:
+        start = _start(free, 0.0, phase, frequency)
         # loose mass at rest in the middle of the gap: Z2 = 0, Z2' = Z1'
         high_start = np.array([start[0], start[1], 0.0, start[1]])
     nothing = np.nan, np.nan, np.full(4, np.nan)
@@ -89,7 +89,7 @@ def _cell(oscillator, damper, frequency):
         solutions, growth = _solutions(oscillator, elastic, frequency)
     except ArithmeticError:
         unresolved = flag("balance_quiet", "unresolved")
-        return Cells(resonance, unresolved, *nothing, unresolved, np.nan, high_start)
+        return Cells(free, unresolved, *nothing, unresolved, np.nan, high_start)
     signs = stability(growth)
     amplitude = np.abs(solutions.amplitude)
 
@@ -97,16 +97,16 @@ def _cell(oscillator, damper, frequency):
         return _start(*(values[k] for values in solutions), frequency)
 
     quiet = flag("balance_quiet", "none"), *nothing
-    if len(amplitude) and np.min(amplitude) < HIGH * resonance:
+    if len(amplitude) and np.min(amplitude) < HIGH * free:
         k = np.argmin(amplitude)
         verdict = {1: "stable", -1: "unstable", 0: "unresolved"}[int(signs[k])]
         quiet = flag("balance_quiet", verdict), amplitude[k], growth[k], start_at(k)
     high = flag("balance_high", "none"), np.nan, high_start
-    large = np.flatnonzero((signs == flag("stability", "stable")) & (amplitude >= HIGH * resonance))
+    large = np.flatnonzero((signs == flag("stability", "stable")) & (amplitude >= HIGH * free))
     if len(large):
         k = large[np.argmax(amplitude[large])]
         high = flag("balance_high", "stable"), amplitude[k], start_at(k)
-    return Cells(resonance, *quiet, *high)
+    return Cells(free, *quiet, *high)
 
 
 @lru_cache(4096)
@@ -116,17 +116,7 @@ def _solutions(oscillator, damper, frequency):
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
 
-@lru_cache(4096)
-def _resonance(oscillator, frequency):
-    """Amplitude and phase of the free resonance branch; above its end (end amplitude, None)."""
-    folds = _folds(oscillator)
-    if folds and frequency > folds[-1].frequency:
-        return folds[-1].amplitude, None
-    free = free_solutions(oscillator, frequency)
-    return free.amplitude[-1], free.phase[-1]
-
-
-_folds = lru_cache(free_folds)
+_resonance = lru_cache(4096)(resonance)
 
 
 def _start(amplitude, relative_amplitude, phase, frequency):

@@ -1,4 +1,7 @@
-"""The optimum clearance by harmonic balance, by straight flight and by rules for designers."""
+"""The optimum clearance by harmonic balance, by straight flight and by rules for designers.
+
+The ratio rm W^2 d0 stands for rm W^2 d0/f, with the forcing amplitude f = F + U W^2.
+"""
 
 from dataclasses import replace
 
@@ -18,7 +21,7 @@ from impact_damper.theory.straight_flight import (
 
 # rm W^2 d0 at which the first harmonic of a straight flight between rigid walls spans the gap.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# A solution of (7) with a smaller |a| counts as a = 0.
+# A solution of (7) with a smaller |a|, as a share of the clearance, counts as a = 0.
 ZERO_AMPLITUDE = 1e-6
 # Quantities that are smallest at the optimum, and rules for the clearance.
 CRITERIA = ("displacement", "first_harmonic")
@@ -89,7 +92,7 @@ def analytical_table(oscillator, dampers, frequency):
     for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
         clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
         # The sign also changes where the smallest solution becomes another one, with a jump.
-        if abs(amplitude(clearance)) < ZERO_AMPLITUDE:
+        if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
             best, kind = clearance, "kink"
     return {
         "analytical_amplitude": np.abs(signed),

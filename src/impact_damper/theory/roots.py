@@ -24,12 +24,20 @@ def polynomial_roots(coefficients) -> np.ndarray:
     Parameters
     ----------
     coefficients : array_like, shape (degree + 1,)
-        Lowest power first; the last must not be zero.
+        Lowest power first; last ones that are zero lower the degree. A constant has no roots.
 
     Returns
     -------
     numpy.ndarray, shape (count,)
+
+    Raises
+    ------
+    ArithmeticError
+        If values between the roots are beyond all floating-point numbers.
     """
+    coefficients = np.trim_zeros(np.asarray(coefficients, float), "b")
+    if len(coefficients) < 2:
+        return np.empty(0)
     reach = 2 * np.max(np.abs(polyroots(coefficients))) or 1.0
     return _between(
         lambda x: polyval(x, coefficients),
@@ -90,6 +98,8 @@ def _between(function, size, extrema, lower, upper):
     """Roots of `function` in [lower, upper], given its `extrema`, of which the real part counts."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
+    if not np.isfinite(values).all():
+        raise ArithmeticError(f"a function overflows between {points[0]:g} and {points[-1]:g}")
     signs = np.where(np.abs(values) <= ROUNDING * size(points), 0, np.sign(values))
     roots = [
         brentq(function, points[k], points[k + 1], xtol=1e-300, rtol=4 * EPSILON)

@@ -5,8 +5,8 @@ sin(t1 - t2) = 0; we take t2 = t1 and let the amplitude a have either sign. With
 are in antiphase. b > 0 loses no solution: changing the signs of both a and b only shifts t1 by
 half a period.
 
-The equations hold for elastic contact (restitution 1). Every quantity is dimensionless, angles
-are in radian.
+The equations hold for elastic contact (restitution 1). Below, g = (3/4) k3 and f = F + U W^2 is
+the forcing amplitude, 1 in the paper. Every quantity is dimensionless, angles are in radian.
 """
 
 from typing import NamedTuple
@@ -88,6 +88,9 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
     """All real roots D of (14), ascending, with the amplitude and phase that they give in (13).
 
+    With a forcing amplitude f other than 1, (14) holds with d0/f for d0, k3 f^2 for k3 and a/f for
+    a. Without forcing there is no solution.
+
     Raises
     ------
     TypeError
@@ -97,21 +100,24 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
     """
     check_elastic(damper)
     frequency = check_frequency(frequency)
+    force = oscillator.forcing_amplitude(frequency)
+    if force == 0:
+        return RigidSolutions(*np.empty((3, 0)), np.empty(0, bool), np.empty(0))
     inertia = damper.mass_ratio * frequency**2
     detuning = oscillator.linear_frequency**2 - frequency**2
     drag = oscillator.damping * frequency
     odd = -2 / drag * (detuning - inertia)
-    cubic = -8 * oscillator.hardening / drag**3
-    push = inertia * damper.clearance
+    cubic = -8 * oscillator.hardening * force**2 / drag**3
+    push = inertia * damper.clearance / force
     tangent = polynomial_roots(
         [push - 1, odd, 3 * push - 1, cubic + 2 * odd, 3 * push + 1, odd, push + 1]
     )
-    amplitude = -2 * tangent / (drag * (1 + tangent**2))
+    amplitude = -2 * force * tangent / (drag * (1 + tangent**2))
     phase = 2 * np.arctan(tangent)
     residual = (
         amplitude * (detuning + oscillator.hardening * amplitude**2)
         + inertia * (damper.clearance - amplitude)
-        - np.cos(phase)
+        - force * np.cos(phase)
     )
     return RigidSolutions(tangent, amplitude, phase, amplitude > damper.clearance, residual)
 
@@ -122,11 +128,11 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
     (7c) gives a(p) = (d0/cos p)(1 - k (p - sin p cos p)) with k = 2 r1/(pi rm W^2). Eliminating
     t1 from (7a, b) leaves one equation for p:
 
-        G(p) = (a wl^2 - a W^2 + (3/4) a^3 + rm W^2 (b - a))^2 + (h a W)^2 - 1 = 0.
+        G(p) = (a wl^2 - a W^2 + g a^3 + rm W^2 (b - a))^2 + (h a W)^2 - f^2 = 0.
 
     cos^6(p) G(p) is an entire function, and (7b) bounds |a| and thereby p. No root is missed, to
     rounding: between two neighbouring extrema the function is monotone, so their signs tell
-    whether there is one root or none (see `smooth_roots`).
+    whether there is one root or none (see `smooth_roots`). Without forcing there is none.
 
     Raises
     ------
@@ -174,11 +180,12 @@ class _Balance:
         self.detuning = oscillator.linear_frequency**2 - frequency**2
         self.drag = oscillator.damping * frequency
         self.hardening = oscillator.hardening
+        self.force = oscillator.forcing_amplitude(frequency)
         self.inertia = damper.mass_ratio * frequency**2
         self.stiffness = 2 * damper.contact_stiffness / (np.pi * self.inertia)
 
     def terms(self, angle):
-        """Return cos(p), a cos(p), cos(t1) cos^3(p) and -sin(t1) cos^3(p) by (7a, b)."""
+        """Return cos(p), a cos(p), f cos(t1) cos^3(p) and -f sin(t1) cos^3(p) by (7a, b)."""
         cosine = np.cos(angle)
         scaled = self.scaled_amplitude(angle)
         force = self.inertia * (self.clearance - scaled)
@@ -193,7 +200,7 @@ class _Balance:
     def defect(self, angle):
         """Return cos^6(p) G(p), with G as in `impacting_solutions`."""
         cosine, _, inline, quadrature = self.terms(angle)
-        return inline**2 + quadrature**2 - cosine**6
+        return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
     def defect_size(self, angle):
         """Bound on the rounding error of `defect`, in units of the machine precision.
@@ -203,26 +210,30 @@ class _Balance:
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled
-        slope = (abs(self.detuning) + self.inertia) * square + 3 * self.hardening * scaled**2
+        slope = (abs(self.detuning) + self.inertia) * square + 3 * abs(self.hardening) * scaled**2
         inline_error = error * slope
         return (
             2 * np.abs(inline) * inline_error
             + 2 * np.abs(quadrature) * self.drag * error * square
             + inline**2
             + quadrature**2
-            + square**3
+            + self.force**2 * square**3
         )
 
     def angle_range(self):
         """Smallest and largest p that (7a, b) allow; equal if they allow none.
 
-        (7b) bounds |a| by 1/(h W), and (7a) bounds (3/4) |a|^3 by the remaining terms.
+        (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the remaining terms.
         """
-        reach = 1 / self.drag
+        reach = self.force / self.drag
+        if reach == 0:
+            return 0.0, 0.0
         lower, upper = self._angles_within(reach)
-        constant = 1 + self.inertia * self.clearance / np.cos(upper)
-        slope = abs(self.detuning) + self.inertia
-        bound = max(np.sqrt(2 * slope / self.hardening), np.cbrt(2 * constant / self.hardening))
+        if self.hardening == 0:
+            return lower, upper
+        constant = self.force + self.inertia * self.clearance / np.cos(upper)
+        slope, cubic = abs(self.detuning) + self.inertia, abs(self.hardening)
+        bound = max(np.sqrt(2 * slope / cubic), np.cbrt(2 * constant / cubic))
         return self._angles_within(bound) if bound < reach else (lower, upper)
 
     def _angles_within(self, reach):
@@ -232,8 +243,8 @@ class _Balance:
         the first root of (a - reach) cos(p), which increases and then decreases, or 0.
         """
         reach *= 1 + 1e-6
-        spring = reach * (abs(self.detuning) + self.hardening * reach**2)
-        largest = reach + (1 + spring) / self.inertia
+        spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)
+        largest = reach + (self.force + spring) / self.inertia
         last = np.arccos(min(1, self.clearance / largest))
 
         def above(angle, amplitude):

@@ -44,14 +44,15 @@ def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
     drag = oscillator.damping * frequency * primary
     spring = oscillator.linear_frequency**2 + oscillator.hardening * np.abs(primary) ** 2
     spring = spring * primary
-    first = drag + 1j * (1 - spring + frequency**2 * primary)
+    force = oscillator.forcing_amplitude(frequency)
+    first = drag + 1j * (force - spring + frequency**2 * primary)
     if damper is None:
         rates = [first]
     else:
         loose = state[..., 2] + 1j * state[..., 3]
         push = _push(loose, damper)[0] * loose
         total = (1 + 1 / damper.mass_ratio) * push
-        rates = [first - 1j * push, drag + 1j * (1 - spring + frequency**2 * loose - total)]
+        rates = [first - 1j * push, drag + 1j * (force - spring + frequency**2 * loose - total)]
     parts = [part for rate in rates for part in (rate.real, rate.imag)]
     return -np.stack(parts, axis=-1) / (2 * frequency)
 

@@ -3,7 +3,8 @@
 At small displacement the cubic spring is negligible, and the primary mass is a linear oscillator
 under the forcing and two impulses per period. The walls may be rigid or stiff, the impacts elastic
 or inelastic. The optimum value of rm W^2 d0 follows for two criteria: the smallest max |Z1|, and
-the smallest first harmonic of Z1.
+the smallest first harmonic of Z1. Lengths are in units of f/W^2 with the forcing amplitude
+f = F + U W^2, so that rm W^2 d0 stands for rm W^2 d0/f everywhere in this module.
 """
 
 from functools import cache
@@ -27,13 +28,13 @@ APART = 1e-20j
 
 
 class Flight(NamedTuple):
-    """The quiet motion near its optimum, with lengths in units of 1/W^2 and time as phase W T.
+    """The quiet motion near its optimum, with lengths in units of f/W^2 and time as phase W T.
 
-    Let x = W^2 Z1. The response to the forcing alone is -A cos(phi), where the phase phi is zero
+    Let x = W^2 Z1/f. The response to the forcing alone is -A cos(phi), where the phase phi is zero
     at a peak of -x. An impact takes place at the lag s, phi = s. In the following half period the
-    loose mass flies at constant velocity, W^2 x2 = -(q/rm) (1 - 2 (phi - s)/pi); in the other half
-    the motion is its mirror image. The impulses 4 q/pi of the loose mass on the primary mass add
-    q R(y) to the displacement:
+    loose mass flies at constant velocity, W^2 x2/f = -(q/rm) (1 - 2 (phi - s)/pi); in the other
+    half the motion is its mirror image. The impulses 4 q/pi of the loose mass on the primary mass
+    add q R(y) to the displacement:
 
         x = -A cos(phi) + q R(y),      y = pi/2 - (phi - s),  |y| <= pi/2.
 
@@ -58,7 +59,7 @@ class Flight(NamedTuple):
     For rigid walls l and g enter exactly. The neglected effects of the contact are of the orders
     k^2, that is 1/r1, and k g; for e < 1 also a small part of the rounding of the tip, of order
     (1 - e) k. The cubic spring is neglected: near an optimum it would add about
-    (3/4) max |Z1|^2/W^2 to l^2, and the relative error of the clearance is about as large.
+    (3/4) k3 max |Z1|^2/W^2 to l^2, and the relative error of the clearance is about as large.
 
     Attributes
     ----------
@@ -184,9 +185,11 @@ def flight_of(oscillator, damper, frequency) -> Flight:
     TypeError
         If `damper` is not a Damper, or the frequency not a number.
     ValueError
-        If the frequency is not above the linear frequency omega_l.
+        If the frequency is not above the linear frequency omega_l, or there is no forcing.
     """
     check_damper(damper)
+    if oscillator.force == oscillator.unbalance == 0:
+        raise ValueError("force = 0, unbalance = 0: a quiet motion needs a forcing")
     frequency = check_number(
         "frequency",
         frequency,

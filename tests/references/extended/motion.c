@@ -19,7 +19,8 @@ enum { ORDER = 32, TERMS = ORDER + 1, MOST_ROOTS = ORDER };
 enum { DONE = 0, LOG_FULL = 1, NO_MEMORY = 2, TOO_MANY_STEPS = 3 };
 
 typedef struct {
-    real frequency, damping, stiffness, clearance, spring, inverse_mass, dashpot;
+    real frequency, damping, stiffness, cubic, force, unbalance, clearance, spring, inverse_mass,
+        dashpot;
 } Parameters;
 
 /* Numbers in an array of packed parameters. */
@@ -166,8 +167,8 @@ static int roots(const real *series, real length, int sign, real *found, int mos
 static void expand(const Run *run, Series *s)
 {
     const Parameters *p = run->p;
-    real w = p->frequency, phase = w * run->t;
-    real drive[4] = {cosl(phase), -sinl(phase), -cosl(phase), sinl(phase)}, factor = 1;
+    real w = p->frequency, phase = w * run->t, factor = p->force + p->unbalance * w * w;
+    real drive[4] = {cosl(phase), -sinl(phase), -cosl(phase), sinl(phase)};
     int touching = run->side != 0, columns = touching ? 4 : 2;
     memset(s, 0, sizeof *s);
     s->x[0] = run->y[0], s->x[1] = run->y[1], s->z[0] = run->y[2], s->z[1] = run->y[3];
@@ -179,7 +180,7 @@ static void expand(const Run *run, Series *s)
         for (int j = 0; j <= k; j++) cube += s->square[j] * s->x[k - j];
         real force = touching ? p->spring * s->z[k] + p->dashpot * (k + 1) * s->z[k + 1] : 0;
         real rest = drive[k % 4] * factor - p->damping * (k + 1) * s->x[k + 1]
-                    - p->stiffness * s->x[k] - cube - force;
+                    - p->stiffness * s->x[k] - p->cubic * cube - force;
         s->x[k + 2] = rest / both;
         s->z[k + 2] = (rest - p->inverse_mass * force) / both;
         factor *= w / (k + 1);
@@ -188,7 +189,8 @@ static void expand(const Run *run, Series *s)
             cube = 0;
             for (int j = 0; j <= k; j++) cube += s->square[j] * dx[k - j];
             force = touching ? p->spring * dz[k] + p->dashpot * (k + 1) * dz[k + 1] : 0;
-            rest = -p->damping * (k + 1) * dx[k + 1] - p->stiffness * dx[k] - 3 * cube - force;
+            rest = -p->damping * (k + 1) * dx[k + 1] - p->stiffness * dx[k]
+                   - 3 * p->cubic * cube - force;
             dx[k + 2] = rest / both;
             dz[k + 2] = (rest - p->inverse_mass * force) / both;
         }
@@ -370,7 +372,8 @@ int motion(const double *packed, const real *first, real start, const real *time
            long contact_room, real *turnings, long turning_room, real *flow, real *summary,
            long *counts)
 {
-    Parameters p = {packed[0], packed[1], packed[2], packed[3], packed[4], packed[5], packed[6]};
+    Parameters p = {packed[0], packed[1], packed[2], packed[3], packed[4],
+                    packed[5], packed[6], packed[7], packed[8], packed[9]};
     Run run = {.p = &p, .t = start, .since = IDENTITY, .margin = INFINITY,
                .turnings = turnings, .turning_room = turning_room};
     Series s;

@@ -36,7 +36,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper, Oscillator, describe, pick
 from references import extended
 
@@ -67,7 +67,7 @@ def packed(parameters):
 def reference(parameters, state, periods):
     """Entry of the file for one scene, by name of the quantity."""
     p = packed(parameters)
-    period, start = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
+    period, start = 2 * math.pi / p[FREQUENCY], 0.5 * math.pi / p[FREQUENCY]
     times = start + period * np.arange(1, periods + 1)
     run = extended.run(p, state, start, times)
     other = extended.run(p, state, start, times, tolerance=1e-22, longest=0.02)

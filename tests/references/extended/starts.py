@@ -5,8 +5,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.system.packed import COUNT, pack
-from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    COUNT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    pack,
+)
+from impact_damper.system.parameters import Damper, Oscillator, pick
 from references import extended
 
 PERIODS = 3
@@ -36,6 +43,11 @@ KINDS = {
     "grazing": {},
     "in contact": {"contact_stiffness": (10.0, 1e5)},
     "on a wall": {"contact_stiffness": (10.0, 1e5)},
+    "linear spring": {"linear_frequency": (0.3, 5.0), "cubic": (0.0, 0.0)},
+    # barriers beyond |Z1| = 3, some of which are crossed
+    "softening spring": {"linear_frequency": (1.0, 3.0), "cubic": (-0.1, 0.0)},
+    "other forces": {"cubic": (0.1, 10.0), "force": (0.1, 10.0), "unbalance": (0.1, 3.0)},
+    "no force": {"linear_frequency": (0.0, 2.0), "force": (0.0, 0.0)},
 }
 
 
@@ -57,23 +69,23 @@ def _draw(random, bounds):
 
 def _parameters(random, ranges, elastic):
     drawn = {name: _draw(random, bounds) for name, bounds in ranges.items()}
-    frequency = drawn.pop("frequency")
-    oscillator = Oscillator(drawn.pop("damping"), drawn.pop("linear_frequency"))
-    restitution = drawn.pop("restitution")
-    return pack(oscillator, Damper(**drawn, restitution=1.0 if elastic else restitution), frequency)
+    if elastic:
+        drawn["restitution"] = 1.0
+    oscillator = Oscillator(**pick(Oscillator, drawn))
+    return pack(oscillator, Damper(**pick(Damper, drawn)), drawn["frequency"])
 
 
 def _graze(random, p, state, start, end):
     """Shift Z2 until one of its extrema in free flight lies by 1e-13 to 1e-2 about a wall."""
     unbounded = p.copy()
-    unbounded[3] = FAR
+    unbounded[CLEARANCE] = FAR
     turnings = extended.run(unbounded, state, start, [end]).turnings[:-1]
     depth = random.choice((-1, 1)) * 10 ** random.uniform(-13, -2)
     for turning in random.permutation(turnings):
         z = turning[1] * (turning[2] + FAR)
         for wall in (-1, 1):
-            shifted = float(state[2] + wall * (p[3] + depth) - z)
-            if abs(shifted) < p[3]:
+            shifted = float(state[2] + wall * (p[CLEARANCE] + depth) - z)
+            if abs(shifted) < p[CLEARANCE]:
                 state[2] = shifted
                 return
 
@@ -91,18 +103,19 @@ def draw(kind, count, seed):
     starts, times = np.empty(count), np.empty((count, PERIODS))
     for i in range(count):
         p = parameters[i] = _parameters(random, USUAL | KINDS[kind], elastic=i % 2 == 0)
-        period = 2 * math.pi / p[0]
+        period = 2 * math.pi / p[FREQUENCY]
         starts[i] = random.uniform(0, period)
         times[i] = starts[i] + period * np.arange(1, PERIODS + 1)
-        y = states[i] = random.uniform(-1, 1, 4) * (2, 3, p[3], 4)
+        y = states[i] = random.uniform(-1, 1, 4) * (2, 3, p[CLEARANCE], 4)
         wall = random.choice((-1, 1))
         if kind == "grazing":
             _graze(random, p, y, starts[i], times[i, -1])
             states[i] = y
         elif kind == "in contact":
             speed = 10 ** random.uniform(-2, 1.5)
-            states[i, 2] = wall * (p[3] + speed / math.sqrt(p[4] * (1 + p[5])))
+            natural = math.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
+            states[i, 2] = wall * (p[CLEARANCE] + speed / natural)
         elif kind == "on a wall":
             speed = random.choice((0.0, 1.0), p=(0.1, 0.9)) * 10 ** random.uniform(-8, 0.6)
-            states[i, 2:] = wall * p[3], random.choice((-1, 1)) * speed
+            states[i, 2:] = wall * p[CLEARANCE], random.choice((-1, 1)) * speed
     return Starts(parameters, states, starts, times)

@@ -82,7 +82,7 @@ VARIABLES = {
     "band_status": Variable(
         (),
         "whether there is a suppression band at the peak frequency",
-        flags={"found": 0, "no_single_motion": 1, "no_reduction": 2},
+        flags={"found": 0, "no_single_motion": 1, "no_reduction": 2, "no_peak": 3},
     ),
     "edge": Variable(("edge",), "lower or upper end of a range"),
     "edge_frequency": Variable(("edge",), "edge of the suppression band", quantity="frequency"),
@@ -107,7 +107,8 @@ VARIABLES = {
     ),
     "break_even_frequency": Variable(
         (),
-        "frequency above the peak at which |a| equals the smallest amplitude without the damper",
+        "frequency above the peak, below it for a softening spring, at which |a| equals the "
+        "smallest amplitude without the damper",
         quantity="frequency",
     ),
     # optimum clearance
@@ -163,9 +164,9 @@ VARIABLES = {
         (), "clearance of rule (18) at the forcing frequency", "d0", quantity="clearance"
     ),
     "peak_rule_clearance": Variable((), "clearance of rule (19)", "d0", quantity="clearance"),
-    "optimum_ratio": Variable((), "rm W^2 d0 at the optimum clearance; 1 by rule (18)"),
+    "optimum_ratio": Variable((), "rm W^2 d0/f at the optimum clearance; 1 by rule (18)"),
     "straight_flight_ratio": Variable(
-        (), "rm W^2 d0 at the smallest max |Z1| for rigid walls at high frequency"
+        (), "rm W^2 d0/f at the smallest max |Z1| for rigid walls at high frequency"
     ),
     "first_harmonic_share": Variable(
         (), "share of the excess explained by the first harmonic: (pi^2/8 - 1)/(optimum_ratio - 1)"

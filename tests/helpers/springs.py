@@ -1,0 +1,38 @@
+"""Oscillators with springs and forces of every kind, and one system in other units."""
+
+from dataclasses import replace
+
+from impact_damper.system.parameters import Oscillator
+
+SPRINGS = {
+    "linear": Oscillator(0.1, 1.3, cubic=0.0, force=0.7),
+    "softening": Oscillator(0.05, 1.0, cubic=-0.5, force=0.04),
+    "shaken": Oscillator(0.2, 0.8, cubic=0.3, force=0.4, unbalance=0.15),
+    "unbalance": Oscillator(0.1, 1.0, cubic=0.02, force=0.0, unbalance=0.3),
+    "soft and shaken": Oscillator(0.1, 1.0, cubic=-0.1, force=0.05, unbalance=0.05),
+    "hard": Oscillator(0.3, 0.0, cubic=20.0, force=5.0),
+}
+
+
+def in_other_units(oscillator, damper, frequency, length, time):
+    """Oscillator, damper and frequency of the motion Z/length over T/time.
+
+    Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2) cos(W T) keeps its form. With powers of two
+    for both units every number keeps its digits.
+    """
+    acceleration = length / time**2
+    other = replace(
+        oscillator,
+        damping=oscillator.damping * time,
+        linear_frequency=oscillator.linear_frequency * time,
+        cubic=oscillator.cubic * (length * time) ** 2,
+        force=oscillator.force / acceleration,
+        unbalance=oscillator.unbalance / length,
+    )
+    if damper is not None:
+        damper = replace(
+            damper,
+            clearance=damper.clearance / length,
+            contact_stiffness=damper.contact_stiffness * time**2,
+        )
+    return other, damper, frequency * time

@@ -1,0 +1,44 @@
+"""The 80-bit reference with springs and forces of every kind, against SciPy and in other units."""
+
+import numpy as np
+import pytest
+from helpers.springs import SPRINGS, in_other_units
+from references import extended
+from scipy.integrate import solve_ivp
+
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper
+
+pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
+
+DAMPER = Damper(0.3, 0.5, 0.8, 400.0)
+
+
+@pytest.mark.parametrize("name", SPRINGS)
+def test_flights_are_those_of_scipy(name):
+    oscillator, frequency = SPRINGS[name], 1.3
+    force = oscillator.force + oscillator.unbalance * frequency**2
+
+    def rates(time, y):
+        spring = oscillator.linear_frequency**2 * y[0] + oscillator.cubic * y[0] ** 3
+        pull = force * np.cos(frequency * time) - oscillator.damping * y[1] - spring
+        return y[1], pull, y[3], pull
+
+    start, times = np.array([0.2, 0.1, 0.1, 0.3]), [1.0, 5.0]
+    run = extended.run(pack(oscillator, None, frequency), start, 0.0, times)
+    settings = {"t_eval": times, "rtol": 1e-13, "atol": 1e-13}
+    expected = solve_ivp(rates, (0, times[-1]), start, "DOP853", **settings).y.T
+    assert run.states.astype(float) == pytest.approx(expected, abs=1e-10)
+
+
+@pytest.mark.parametrize("name", SPRINGS)
+def test_motions_with_contacts_in_other_units(name):
+    """Powers of two keep all digits of the numbers, but for the error allowed in a step."""
+    length, time = 0.25, 4.0
+    state, scale = np.array([0.1, 0.2, 0.3, 1.5]), np.array([1, time, 1, time]) / length
+    other, damper, frequency = in_other_units(SPRINGS[name], DAMPER, 1.3, length, time)
+    ours = extended.run(pack(SPRINGS[name], DAMPER, 1.3), state, 0.0, [6.0])
+    theirs = extended.run(pack(other, damper, frequency), state * scale, 0.0, [6.0 / time])
+    assert ours.begun == theirs.begun > 1
+    assert np.max(np.abs(theirs.states / scale - ours.states)) < 1e-16 * ours.growth
+    assert np.max(np.abs(theirs.contacts[:, 1] * time - ours.contacts[:, 1])) < 1e-15 * ours.growth
