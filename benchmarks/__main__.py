@@ -7,7 +7,7 @@ from pathlib import Path
 from benchmarks import chart, costs, machine, overhead, ratios, scaling, scenes, stages, startup
 from benchmarks.timing import one_core
 from impact_damper.data import table_files
-from impact_damper.figures.style import save
+from impact_damper.figures.style import save_figure
 
 # How much of everything: in full, and to see that all of it runs.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
@@ -73,9 +73,9 @@ def main():
 
     def write(name, table, drawing=None, how=""):
         document = machine.document(how)
-        table_files.save(table, into / f"{name}.csv", into / f"{name}.md", document)
+        table_files.save_table(table, into / f"{name}.csv", into / f"{name}.md", document)
         if drawing is not None:
-            save(drawing, into / name)
+            save_figure(drawing, into / name)
 
     begin = time.perf_counter()
     for name in parts:

@@ -27,4 +27,4 @@ def document(how=""):
     """Return a function that makes a table's Markdown: machine, way of measuring, and numbers."""
     described = ", ".join(f"{row.item} {row.value}" for row in table().itertuples())
     made = f"Made by `make benchmark` on: {described}."
-    return lambda shown: "\n\n".join(filter(None, [made, how, table_files.plain(shown)]))
+    return lambda shown: "\n\n".join(filter(None, [made, how, table_files.as_markdown(shown)]))

@@ -116,7 +116,7 @@ def test_stages_are_gathered_from_the_pipelines_timings(tmp_path):
     assert list(table.index) == ["free", "kernels", "total"]
     assert table.loc["free", ["jobs", "seconds", "longest_job"]].tolist() == [2, 7.0, "b"]
     assert table.loc["total", ["seconds", "cpu_seconds", "memory_mb"]].tolist() == [10, 4, 250]
-    table_files.save(table.reset_index(), tmp_path / "t.csv", tmp_path / "t.md")
+    table_files.save_table(table.reset_index(), tmp_path / "t.csv", tmp_path / "t.md")
     assert stages.table(tmp_path / "nothing").empty
 
 

@@ -97,7 +97,7 @@ def main():
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     rows = try_all(given)
     table = given.table
-    table_files.save(pd.DataFrame(rows), table.with_suffix(".csv"), table.with_suffix(".md"))
+    table_files.save_table(pd.DataFrame(rows), table.with_suffix(".csv"), table.with_suffix(".md"))
     sys.exit(any(row["outcome"] == "FAILED" for row in rows))
 
 

@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 import impact_damper
 from impact_damper.figures import schematics
-from impact_damper.figures.style import COLUMNS, save, style
+from impact_damper.figures.style import COLUMNS, save_figure, style
 
 NAMES = ["elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair"]
 KINDS = ["pdf", "png"]
@@ -33,7 +33,7 @@ def elsewhere(tmp_path_factory):
     program = (
         "from impact_damper.figures import schematics, style\n"
         f"for name in {NAMES}:\n"
-        f"    style.save(getattr(schematics, name)(), f'{folder}/{{name}}')\n"
+        f"    style.save_figure(getattr(schematics, name)(), f'{folder}/{{name}}')\n"
     )
     source = str(pathlib.Path(impact_damper.__file__).parents[1])
     environment = os.environ | {"PYTHONPATH": source, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"}
@@ -44,9 +44,9 @@ def elsewhere(tmp_path_factory):
 @pytest.mark.parametrize("name", NAMES)
 def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
     drawn = getattr(schematics, name)()
-    save(drawn, tmp_path / "first")
-    save(drawn, tmp_path / "second")
-    save(getattr(schematics, name)(), tmp_path / "drawn again")
+    save_figure(drawn, tmp_path / "first")
+    save_figure(drawn, tmp_path / "second")
+    save_figure(getattr(schematics, name)(), tmp_path / "drawn again")
     assert read(tmp_path / "first") == read(tmp_path / "second")
     assert read(tmp_path / "first") == read(tmp_path / "drawn again")
     assert read(tmp_path / "first") == read(elsewhere / name)

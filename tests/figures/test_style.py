@@ -18,7 +18,7 @@ from impact_damper.figures.style import (
     figure,
     legend,
     letter_panels,
-    save,
+    save_figure,
     style,
     tex,
 )
@@ -83,7 +83,7 @@ def panels():
 
 def test_legend_names_each_role_once_and_covers_no_axes(tmp_path):
     drawn = panels()
-    save(drawn, tmp_path / "pair")
+    save_figure(drawn, tmp_path / "pair")
     (shown,) = drawn.legends
     names = ("free_stable", "period_1", "band")
     assert {text.get_text() for text in shown.get_texts()} == {ROLES[n]["label"] for n in names}
@@ -94,8 +94,8 @@ def test_legend_names_each_role_once_and_covers_no_axes(tmp_path):
 def test_saved_twice_the_bytes_and_the_width_are_the_same(tmp_path):
     drawn = panels()
     for name in ("one", "two"):
-        save(drawn, tmp_path / name)
-    save(panels(), tmp_path / "three")
+        save_figure(drawn, tmp_path / name)
+    save_figure(panels(), tmp_path / "three")
     for kind in ("pdf", "png"):
         one, *others = (
             Path(tmp_path / f"{n}.{kind}").read_bytes() for n in ("one", "two", "three")
@@ -109,5 +109,5 @@ def test_a_failed_save_leaves_nothing(tmp_path):
     drawn = panels()
     drawn.axes[0].set_xlabel(r"$\nosuchsymbol$")
     with pytest.raises(ValueError):
-        save(drawn, tmp_path / "broken")
+        save_figure(drawn, tmp_path / "broken")
     assert not list(tmp_path.iterdir())

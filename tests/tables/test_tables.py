@@ -6,7 +6,7 @@ import pytest
 from helpers.made_up import world
 
 from impact_damper.claims import extract
-from impact_damper.data.table_files import save
+from impact_damper.data.table_files import save_table
 from impact_damper.tables import clearance, design, migration, responses
 
 
@@ -91,7 +91,7 @@ def test_release_scan(data):
 def test_files(tmp_path):
     table = pd.DataFrame({"name": ["a|b", "c"], "number": [1 / 3, np.nan], "count": [10, 2000000]})
     csv, markdown = tmp_path / "new" / "table.csv", tmp_path / "new" / "table.md"
-    save(table, csv, markdown)
+    save_table(table, csv, markdown)
     assert csv.read_bytes() == b"name,number,count\na|b,0.333333,10\nc,,2000000\n"
     assert markdown.read_text().splitlines()[2].split() == [
         "|",
@@ -103,7 +103,7 @@ def test_files(tmp_path):
         "|",
     ]
     before = csv.read_bytes(), markdown.read_bytes()
-    save(table, csv, markdown)
+    save_table(table, csv, markdown)
     assert (csv.read_bytes(), markdown.read_bytes()) == before
     assert sorted(path.name for path in csv.parent.iterdir()) == ["table.csv", "table.md"]
 
@@ -111,5 +111,5 @@ def test_files(tmp_path):
 def test_failed_table_leaves_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr("os.replace", lambda *paths: (_ for _ in ()).throw(OSError("full")))
     with pytest.raises(OSError, match="full"):
-        save(pd.DataFrame({"a": [1]}), tmp_path / "a.csv", tmp_path / "a.md")
+        save_table(pd.DataFrame({"a": [1]}), tmp_path / "a.csv", tmp_path / "a.md")
     assert list(tmp_path.iterdir()) == []

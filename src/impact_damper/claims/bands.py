@@ -45,7 +45,7 @@ def accuracy(datasets):
         nearest = np.clip(upper - lower, band.least_width, band.width)
         widths.append(abs(upper - lower - nearest) / nearest)
         estimate = np.abs(extract.quiet_balance(extract.within(design, lower, upper)))
-        orbits = quiet_orbits(branches, free, estimate.frequency)
+        orbits = smallest_quiet_orbits(branches, free, estimate.frequency)
         size, first = orbits["size"].to_numpy(), np.abs(orbits.amplitude.to_numpy())
         shares.append(float(np.max(np.abs(size - estimate.values)) / design.peak_amplitude))
         ratios.append(size.mean() / float(estimate.mean()))
@@ -59,7 +59,7 @@ def accuracy(datasets):
     }
 
 
-def quiet_orbits(branches, free, frequency):
+def smallest_quiet_orbits(branches, free, frequency):
     """Return the smallest stable quiet orbit at each frequency; raise Missing if there is none."""
     orbits = exact_orbits.smallest(exact_orbits.quiet(branches, free), frequency)
     missing = np.setdiff1d(frequency, orbits.frequency)
@@ -80,7 +80,7 @@ def amplitude_by_mass(datasets):
     )
     parts = [extract.within(design, lower, upper) for design in designs]
     sizes = [
-        quiet_orbits(*exact_orbits.of_curve(datasets, name), part.frequency)["size"].mean()
+        smallest_quiet_orbits(*exact_orbits.of_curve(datasets, name), part.frequency)["size"].mean()
         for name, part in zip(extract.BY_MASS, parts, strict=True)
     ]
     balance = [float(np.abs(extract.quiet_balance(part)).mean()) for part in parts]

@@ -118,7 +118,7 @@ def smallest(part, frequency) -> pd.DataFrame:
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
 
-def largest(part, frequency):
+def largest_sizes(part, frequency):
     """Largest size of the pieces at each frequency; NaN without a piece there."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
@@ -137,7 +137,7 @@ def resonance(free, frequency):
     """Size of the free resonance branch at each frequency; NaN above its fold."""
     end, _ = resonance_fold(free)
     part = pieces(free)
-    sizes = largest(part[part.period == 1], frequency)
+    sizes = largest_sizes(part[part.period == 1], frequency)
     return np.where(np.asarray(frequency) <= end, sizes, np.nan)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from impact_damper.claims import exact_orbits, extract
-from impact_damper.claims.bands import quiet_orbits
+from impact_damper.claims.bands import smallest_quiet_orbits
 from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.suppression import suppression_band
 
@@ -75,7 +75,7 @@ def restitution(datasets):
     design = extract.get(datasets, "harmonic_balance", extract.BY_MASS[1])
     frequency = extract.within(design, *extract.band_edges(design)).frequency
     sharp, soft = (
-        quiet_orbits(*exact_orbits.of_curve(datasets, name), frequency)["size"].to_numpy()
+        smallest_quiet_orbits(*exact_orbits.of_curve(datasets, name), frequency)["size"].to_numpy()
         for name in names
     )
     ratio = soft / sharp

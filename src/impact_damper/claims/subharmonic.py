@@ -11,7 +11,7 @@ AS_LARGE = 0.95  # least ratio of amplitudes at which the subharmonic counts as 
 
 def largest_ratio(part, free):
     """Largest ratio of the size of pieces to the free subharmonic's; NaN without pieces."""
-    sizes = exact_orbits.largest(exact_orbits.subharmonic(free), part.frequency)
+    sizes = exact_orbits.largest_sizes(exact_orbits.subharmonic(free), part.frequency)
     return (part["size"] / sizes).max()
 
 
@@ -49,7 +49,7 @@ def unchanged(branches, free):
     lower, upper = exact_orbits.subharmonic_range(free)
     part = exact_orbits.stable_subharmonics(branches)
     part = part[part.frequency.between(lower, upper)]
-    alike = part["size"] >= AS_LARGE * exact_orbits.largest(
+    alike = part["size"] >= AS_LARGE * exact_orbits.largest_sizes(
         exact_orbits.subharmonic(free), part.frequency
     )
     return exact_orbits.covered(part[alike], lower, upper) / (upper - lower)

@@ -14,7 +14,7 @@ from impact_damper.claims import (
     subharmonic,
 )
 from impact_damper.claims.claim import VERDICTS
-from impact_damper.data.table_files import plain
+from impact_damper.data.table_files import as_markdown
 
 MODULES = (
     balance,  # 1, 2, 3
@@ -56,7 +56,7 @@ def document(frame) -> str:
         f"Claims: {_tally(frame[~slips])}. Slips: {_tally(frame[slips])}.",
         "S1 to S6 are misprints and gaps of the paper, each taken as the claim that the print is "
         "correct.",
-        plain(frame[["number", "claim", "verdict"]]),
+        as_markdown(frame[["number", "claim", "verdict"]]),
     ]
     for row in frame.to_dict("records"):
         parts.append(f"## {row['number']}. {row['claim']}")

@@ -9,7 +9,7 @@ from impact_damper.data.whole_files import whole
 DIGITS = 6
 
 
-def save(frame, csv_path, markdown_path, document=None) -> None:
+def save_table(frame, csv_path, markdown_path, document=None) -> None:
     """Write a table as CSV and as Markdown; each file appears only when it is complete.
 
     Numbers are rounded to six significant digits; NaN and None become empty cells.
@@ -19,14 +19,14 @@ def save(frame, csv_path, markdown_path, document=None) -> None:
     frame : pandas.DataFrame
     csv_path, markdown_path : str or pathlib.Path
     document : callable, optional
-        Maps the rounded table to Markdown; `plain` by default.
+        Maps the rounded table to Markdown; `as_markdown` by default.
     """
     shown = frame.map(_rounded).astype(object)
     _write(csv_path, shown.to_csv(index=False, lineterminator="\n"))
-    _write(markdown_path, (document or plain)(shown) + "\n")
+    _write(markdown_path, (document or as_markdown)(shown) + "\n")
 
 
-def plain(frame) -> str:
+def as_markdown(frame) -> str:
     """Markdown of a table of strings."""
 
     def escaped(value):

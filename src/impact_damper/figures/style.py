@@ -243,7 +243,7 @@ def draw_first() -> None:
             drawn.savefig(io.BytesIO(), format=kind)
 
 
-def save(figure, path) -> None:
+def save_figure(figure, path) -> None:
     """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
 
     The layout is computed once and then fixed, so that both files show the same picture. Removing

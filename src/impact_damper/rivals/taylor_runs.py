@@ -114,13 +114,13 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
     contacts = (begin + length)[(before == 0) & (after != 0)]
     if before[0] != 0:
         contacts = np.concatenate([begin[:1], contacts])
-    at, peaks = turning_points(rows)
+    at, peaks = turning_points_of_series(rows)
     at = np.concatenate([begin[:1], at, begin[-1:] + length[-1:]])
     peaks = np.concatenate([[abs(start[0])], peaks, [abs(end[0])]])
     return Run("ended", work, end, contacts, at, peaks, float(peaks.max()))
 
 
-def turning_points(rows):
+def turning_points_of_series(rows):
     """Return when Z1' vanishes within steps, and |Z1| there."""
     c = rows[:, SERIES:].T
     slopes = c[1:] * np.arange(1, len(c))[:, None]

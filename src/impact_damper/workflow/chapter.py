@@ -27,7 +27,7 @@ def make_table(name, datasets, path) -> None:
     frame = getattr(module, name)(read)
     # A module may have a layout of its own for Markdown.
     document = getattr(module, "document", None)
-    table_files.save(frame, f"{path}.csv", f"{path}.md", document)
+    table_files.save_table(frame, f"{path}.csv", f"{path}.md", document)
     _write(f"{path}.rst", table.caption)
 
 
@@ -43,7 +43,7 @@ def draw_figure(figure, datasets, path) -> None:
     path : pathlib.Path
         Name of the files, without suffix.
     """
-    from impact_damper.figures.style import save
+    from impact_damper.figures.style import save_figure
 
     kind = KINDS[figure["kind"]]
     module = import_module(f"impact_damper.{kind.source}")
@@ -58,7 +58,7 @@ def draw_figure(figure, datasets, path) -> None:
     else:
         (name,) = figure["data"]
         drawing = getattr(module, name)()
-    save(drawing, path)
+    save_figure(drawing, path)
     _write(f"{path}.rst", caption(figure, module.CAPTION))
 
 
