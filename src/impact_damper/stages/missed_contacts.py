@@ -153,37 +153,13 @@ def missed_contacts(
     tolerances, steps = check_resolutions(tolerances, steps)
     p = pack(oscillator, None, frequency)
     drawn_passages, drawn = draw_passages(p, passages, radius, depths[-1], seed)
-    free = free_flight(p)
-    methods, found = integrators(), []
     totals = [implicit_passages if METHODS[name].implicit else passages for name in LABELS]
-    for name, total in zip(LABELS, totals, strict=True):
-        resolutions = steps if METHODS[name].fixed else tolerances
-        for resolution in resolutions:
-            given = drawn_passages[:total], depths, resolution
-            if name == "taylor":
-                found.append((*_taylor_counts(p, *given), np.nan))
-            else:
-                found.append(_counts(methods[name], free, *given))
-    counts, spurious, error, mean_steps = (
-        np.reshape(each, (len(LABELS), len(tolerances), *np.shape(each[0])))
-        for each in zip(*found, strict=True)
-    )
-    curvatures = np.array([passage.curvature for passage in drawn_passages])
-    beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
-    period = 2 * math.pi / p[FREQUENCY]
-    expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps]
-    data = {
-        "passage_count": counts,
-        "spurious_count": spurious,
-        "mean_steps": mean_steps,
-        "motion_error": error,
+    data = _count_table(p, drawn_passages, totals, depths, tolerances, steps)
+    data |= _passage_table(drawn_passages, depths, steps, 2 * math.pi / p[FREQUENCY])
+    data |= {
         "passages": np.array(totals),
-        "expected_unseen": np.array(expected),
         "fixed_steps": np.array(steps),
         "passages_drawn": drawn,
-        "extremum_time": np.array([passage.time for passage in drawn_passages]),
-        "extremum": np.array([passage.extremum for passage in drawn_passages]),
-        "extremum_curvature": curvatures,
     }
     made = describe(oscillator) | {
         "frequency": frequency,
@@ -200,3 +176,37 @@ def missed_contacts(
         "contact_outcome": list(OUTCOMES),
     }
     return dataset(data, coordinates, made, "Contacts missed near grazing")
+
+
+def _count_table(p, passages, totals, depths, tolerances, steps):
+    """Return registered variables over integrator and tolerance.
+
+    `totals` are the numbers of passages, the first ones, that the integrators run.
+    """
+    free, methods, found = free_flight(p), integrators(), []
+    for name, total in zip(LABELS, totals, strict=True):
+        for resolution in steps if METHODS[name].fixed else tolerances:
+            given = passages[:total], depths, resolution
+            if name == "taylor":
+                found.append((*_taylor_counts(p, *given), np.nan))
+            else:
+                found.append(_counts(methods[name], free, *given))
+    names = ("passage_count", "spurious_count", "motion_error", "mean_steps")
+    shape = len(LABELS), len(tolerances)
+    return {
+        name: np.reshape(each, (*shape, *np.shape(each[0])))
+        for name, each in zip(names, zip(*found, strict=True), strict=True)
+    }
+
+
+def _passage_table(passages, depths, steps, period):
+    """Return registered variables of the passages, and the share expected to go unseen."""
+    curvatures = np.array([passage.curvature for passage in passages])
+    beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
+    expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps]
+    return {
+        "expected_unseen": np.array(expected),
+        "extremum_time": np.array([passage.time for passage in passages]),
+        "extremum": np.array([passage.extremum for passage in passages]),
+        "extremum_curvature": curvatures,
+    }

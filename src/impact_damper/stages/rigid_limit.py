@@ -66,29 +66,9 @@ def rigid_limit(
     frequencies = check_frequencies(frequencies, "two")
     stiffnesses = check_increasing("stiffnesses", stiffnesses, "two")
     settling = check_settling(settling)
-
-    def compliant_at(point, guess):
-        each = replace(damper, contact_stiffness=float(np.exp(point[1])))
-        return compliant_orbit(pack(oscillator, each, point[0]), guess, REACH)
-
-    def rigid_at(point, guess):
-        return rigid_orbit(oscillator, damper, point[0], guess, REACH)
-
-    logarithms = np.log(stiffnesses)
-    own_point = np.array([frequency, np.log(damper.contact_stiffness)])
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
-    stiffest = np.array([frequency, logarithms[-1]])
-    stiff = _reached(follow_line(compliant_at, own_point, stiffest, quiet), "stiffnesses")
-    own, _ = rigid_at(own_point, stiff.state)
-    if own is None:
-        raise ArithmeticError("stiffnesses: the rigid model has no orbit near the stiffest one")
-    row = int(np.argmin(np.abs(frequencies - own_point[0])))
-    column = int(np.argmin(np.abs(logarithms - own_point[1])))
-    points = np.stack(np.meshgrid(frequencies, logarithms, indexing="ij"), axis=-1)
-    compliant = _spread(compliant_at, points, (row, column), own_point, quiet)
-    rigid = _spread(rigid_at, frequencies[:, None], (row,), own_point[:1], own)
+    compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
     mended = _mended(oscillator, damper, frequencies, stiffnesses, rigid.orbits)
-
     data = (
         _columns("compliant", compliant.orbits, compliant.flags("compliant_status"))
         | _columns("rigid", rigid.orbits, rigid.flags("rigid_status"))
@@ -99,12 +79,11 @@ def rigid_limit(
     for name in ("rigid", "mended"):
         data[f"{name}_order"] = _orders(stiffnesses, data[f"{name}_error"])
     again = mended_orbit(oscillator, damper, frequency, own, REACH)[0]
+    mended_size = np.nan if again is None else again.displacement
     data |= {
         "own_displacement": quiet.displacement,
         "own_error": own.displacement / quiet.displacement - 1,
-        "own_mended_error": np.nan
-        if again is None
-        else again.displacement / quiet.displacement - 1,
+        "own_mended_error": mended_size / quiet.displacement - 1,
         "own_decay_error": abs(own.multiplier) - abs(quiet.multiplier),
     }
     made = describe(oscillator, damper, settling)
@@ -145,6 +124,34 @@ def _reached(followed, key):
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
     return followed.orbit
+
+
+def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
+    """Return the grids of compliant and of rigid orbits, and the rigid orbit at `frequency`.
+
+    The compliant orbits are followed from the orbit `quiet`, at the frequency and the r1 of the
+    damper. The rigid ones start from the compliant orbit at the greatest r1.
+    """
+
+    def compliant_at(point, guess):
+        each = replace(damper, contact_stiffness=float(np.exp(point[1])))
+        return compliant_orbit(pack(oscillator, each, point[0]), guess, REACH)
+
+    def rigid_at(point, guess):
+        return rigid_orbit(oscillator, damper, point[0], guess, REACH)
+
+    logarithms = np.log(stiffnesses)
+    own_point = np.array([frequency, np.log(damper.contact_stiffness)])
+    stiffest = np.array([frequency, logarithms[-1]])
+    stiff = _reached(follow_line(compliant_at, own_point, stiffest, quiet), "stiffnesses")
+    own, _ = rigid_at(own_point, stiff.state)
+    if own is None:
+        raise ArithmeticError("stiffnesses: the rigid model has no orbit near the stiffest one")
+    row = int(np.argmin(np.abs(frequencies - own_point[0])))
+    column = int(np.argmin(np.abs(logarithms - own_point[1])))
+    points = np.stack(np.meshgrid(frequencies, logarithms, indexing="ij"), axis=-1)
+    compliant = _spread(compliant_at, points, (row, column), own_point, quiet)
+    return compliant, _spread(rigid_at, frequencies[:, None], (row,), own_point[:1], own), own
 
 
 def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
