@@ -1,4 +1,7 @@
-"""A bad argument of a public function raises at once, and names itself and what is allowed."""
+"""A wrong argument of a public function raises at once.
+
+The message names it and what is allowed.
+"""
 
 import math
 
@@ -48,7 +51,7 @@ search |= {"settling": no_settling, "oscillator": no_oscillator}
 GOOD = {"oscillator": OSCILLATOR, "damper": DAMPER}
 MOVING = GOOD | {"frequency": 2.0, "state": STATE}
 
-# Each function with arguments that it takes, and what is bad in their place.
+# Each function with valid arguments, and wrong values in their place.
 FUNCTIONS = {
     "Oscillator": ({"damping": 0.2}, {"damping": positive, "linear_frequency": negative | huge}),
     "Damper": (

@@ -1,4 +1,4 @@
-"""The benchmarks' parts on small problems; nothing here looks at a clock."""
+"""Parts of the benchmarks on small problems, without measuring times."""
 
 import math
 
@@ -30,7 +30,7 @@ def test_scenes_begin_at_those_of_the_configuration():
     assert "chaos" not in found
     assert found["resonance"].components == 2
     assert found["design"].starts[0] == pytest.approx(STATE)
-    # steady motions of one period come back
+    # a motion of period 1 returns to its first state
     for name in ("design", "resonance", "inelastic"):
         assert found[name].error(found[name].starts) < 1e-6
 

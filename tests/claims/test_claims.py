@@ -1,4 +1,4 @@
-"""Claims: every verdict follows from the data, and changes with them."""
+"""Claims: every verdict follows from the data and changes with the data."""
 
 import json
 import math
@@ -199,7 +199,7 @@ def test_every_claim_and_slip_is_there_in_order():
 
 
 def test_all_are_reproduced_in_a_world_made_so(data):
-    # the time in contact that claim 15 speaks of is a closed form, whatever the data
+    # claim 15 computes the time in contact by a closed form, without any data
     expected = dict.fromkeys(BY_NUMBER, REPRODUCED) | {"15": DIFFERENT}
     table = claims(data)
     assert dict(zip(table.number, table.verdict, strict=True)) == expected
@@ -301,7 +301,7 @@ def test_an_unstable_quiet_orbit_refutes_whatever_omega_l(data):
 
 
 def test_suppression_band(data):
-    """The edge is the end of the high orbits; a chaotic motion above it leaves a grid's step."""
+    """The band begins where high orbits end, or chaotic motions above, to a step of the grid."""
     peak = PEAKS[0.215]
     band = suppression_band(data, "figure_05a")
     assert band.lower == pytest.approx(0.95 * peak)
@@ -339,7 +339,7 @@ def test_a_quiet_orbit_is_stable_and_smaller_than_half_the_resonance(data):
 
 
 def test_between_neighbouring_orbits_a_straight_line_is_close():
-    """Against motions simulated at other frequencies; the folds bound the stable pieces."""
+    """Compare with motions simulated at frequencies in between; stable pieces end at the folds."""
     oscillator, span = Oscillator(damping=0.215), (1.2, 2.6)
     free = orbit_branch(oscillator, None, 1.8, (2.2, 0.1), span=span)
     part = exact_orbits.pieces(free)

@@ -15,7 +15,7 @@ LONG = 20.0
 
 
 def integrated(restitution, load, rule):
-    """The contact by SciPy: its solution, and time and speed at its end, or None."""
+    """Return SciPy's solution of a contact, and time and speed at its end; None without an end."""
     z = damping_ratio(restitution)
 
     def rate(_, y):
@@ -57,7 +57,9 @@ def test_against_its_differential_equation(restitution, load, rule):
 
 @pytest.mark.parametrize("restitution", [0.05, 0.3, 0.6, 0.75, 0.9, 1.0])
 def test_without_load(restitution):
-    """e itself, and without pull the closed form of Schwager and Poeschel (2007), equation (21).
+    """The restitution is e.
+
+    With walls that cannot pull it is equation (21) of Schwager and Poeschel (2007).
 
     Granular Matter 9, 465-469: exp(-(z/w) (pi - atan(2 z w/(w^2 - z^2)))).
     """
@@ -80,7 +82,9 @@ def test_an_elastic_contact_returns_what_it_got_whatever_the_load(load):
 
 @pytest.mark.parametrize(("restitution", "load"), [(0.3, 0.05), (0.3, -1), (0.75, 0.2), (0.9, -3)])
 def test_energy_and_impulses(restitution, load):
-    """The dashpot takes 2 z times the integral of u'^2; the pull by quadrature of the force."""
+    """Compare the energy that the dashpot dissipates, 2 z times the integral of u'^2, and the
+    impulse of the pull with quadratures.
+    """
     z = damping_ratio(restitution)
     solution, (end, *_) = integrated(restitution, load, "zero_penetration")
     begin = integrated(restitution, load, "no_tension")[1][0]
@@ -102,7 +106,7 @@ def test_energy_and_impulses(restitution, load):
 
 @pytest.mark.parametrize("restitution", [0.3, 0.75, 0.95])
 def test_first_order_in_the_load(restitution):
-    """Restitution changes by -2 z (1 + e) G; what is left falls fourfold as G is halved."""
+    """The restitution changes by -2 z (1 + e) G; the remainder falls fourfold as G is halved."""
     slope = -2 * damping_ratio(restitution) * (1 + restitution)
     left = [
         contact(restitution, load, "zero_penetration").departure - restitution - slope * load

@@ -26,7 +26,9 @@ def rigid(damper, frequency, oscillator=PAPER):
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC, Damper(3.0, 1.0, 0.1)])
 @pytest.mark.parametrize("side", [-1, 1])
 def test_one_impact(damper, side):
-    """Momentum stays, Z2' turns into -e Z2', and energy falls by (1 - e^2) m Z2'^2/2, m reduced."""
+    """Momentum is conserved, Z2' becomes -e Z2', and the energy falls by (1 - e^2) m Z2'^2/2
+    with the reduced mass m.
+    """
     mass, e = damper.mass_ratio, damper.restitution
     before = np.array([0.3, -0.4, side * damper.clearance, side * 1.7])
     after = before.copy()
@@ -65,7 +67,7 @@ def test_volume(damper):
 
 
 def by_scipy(damper, frequency, y):
-    """The rigid model over a period with SciPy: last state, and the largest of many |Z1|."""
+    """Return the state after a period of the rigid model by SciPy, and the largest sampled |Z1|."""
     mass, e = damper.mass_ratio, damper.restitution
     t, end = 0.5 * math.pi / frequency, 2.5 * math.pi / frequency
     y, largest = np.array(y), 0.0
@@ -97,7 +99,7 @@ def by_scipy(damper, frequency, y):
 @pytest.mark.parametrize(("damper", "name"), CASES)
 @pytest.mark.parametrize("frequency", [2.0, 2.3])
 def test_against_scipy(damper, name, frequency):
-    """At W = 2.3 |Z1| is largest at an impact, which is no stationary point."""
+    """At W = 2.3 |Z1| is largest at an impact, where Z1' does not vanish."""
     y = polished_orbit(name).state
     state, _, impacts, _, _, largest = rigid_map(
         rigid(damper, frequency), damper.restitution, y, 1e-13
@@ -140,7 +142,9 @@ def test_compliant_contact_comes_to_it(damper, name):
 
 
 def test_chatter_ends_with_a_status():
-    """A loose mass that is pressed to a wall and loses nearly all speed in each impact."""
+    """A loose mass that is pressed to a wall and loses nearly all its speed at each impact
+    chatters: infinitely many impacts would follow each other, and the map stops with a status.
+    """
     damper = Damper(0.12, 2.0, 0.05)
     y = np.array([-2.0, 0.0, 1.999, 0.0])
     assert rigid_map(rigid(damper, 0.5), 0.05, y, 1e-9)[2] == MOST_IMPACTS

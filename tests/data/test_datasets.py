@@ -1,4 +1,4 @@
-"""Labelled datasets: attributes, files, and nothing left of a failure."""
+"""Labelled datasets: attributes, files, and clean-up after a failure to write."""
 
 import json
 
@@ -60,7 +60,10 @@ def test_every_dataset_survives_a_file(made, tmp_path):
 
 
 def test_registry():
-    """Units and names everywhere; flags differ, fit a byte and have names of one word."""
+    """Every variable has units and a name.
+
+    Its flags are distinct, fit into a byte and are single words.
+    """
     for name, entry in VARIABLES.items():
         assert name.isidentifier() and entry.long_name and entry.units in ("1", "radian")
         assert isinstance(entry.dims, tuple)
@@ -111,7 +114,7 @@ def test_file_can_be_overwritten_after_load(small, tmp_path):
 
 
 def test_nothing_is_left_of_a_failure(small, tmp_path, monkeypatch):
-    """Neither a part of the new file, nor any harm to the old one."""
+    """A failure leaves no part of the new file and does not change the old file."""
     path = tmp_path / "small.nc"
     datasets.save(small, path)
     before = path.read_bytes()
@@ -130,9 +133,9 @@ def test_nothing_is_left_of_a_failure(small, tmp_path, monkeypatch):
 
 
 def test_every_damage_is_told_or_harms_nothing(small, tmp_path):
-    """Bytes changed, lost or made zero, anywhere in the file."""
+    """Bytes are changed, lost or made zero anywhere in the file."""
     path = tmp_path / "small.nc"
-    extremes = [-np.nan, -0.0]  # of both NaN and zero, a file may keep the sign
+    extremes = [-np.nan, -0.0]  # the sign of NaN and of zero may differ
     small = small.assign(method=("motion", ["one", "another"]), displacement=("motion", extremes))
     small = small.assign(walls=("event", np.array([], object)))
     datasets.save(small, path)

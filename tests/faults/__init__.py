@@ -1,1 +1,1 @@
-"""Trials of what may go wrong with a run: `make faults`."""
+"""Trials of faults during a run, such as kills, damaged files and full disks: `make faults`."""

@@ -1,4 +1,4 @@
-"""All trials, or those of some kinds, and a table of what came of each."""
+"""Run all trials or chosen kinds of trials, and write a table of their outcomes."""
 
 import argparse
 import shutil
@@ -24,12 +24,12 @@ KINDS = {
 
 
 class Context:
-    """What all trials share: a folder, an undisturbed run, and random draws of their own."""
+    """Shared by all trials: a folder, the outputs of an undisturbed run, and random generators."""
 
     def __init__(self, folder, given):
         self.folder, self.seed, self.moments = folder, given.seed, given.moments
         self._whole = Project(folder / "undisturbed")
-        code, told = self._whole.run()  # compiles, where nothing is compiled yet
+        code, told = self._whole.run()  # the first run also compiles the kernels
         expect(code == 0, told)
         self.undisturbed = self._whole.outputs()
         begin = time.monotonic()
@@ -39,15 +39,15 @@ class Context:
         again.expect_same(self.undisturbed)
 
     def fresh(self, name):
-        """A project that has not run."""
+        """Return a copy of the project without results."""
         return Project(self.folder / name)
 
     def finished(self, name):
-        """A project after its run."""
+        """Return a copy of the project with the results of an undisturbed run."""
         return Project(self.folder / name, like=self._whole)
 
     def clear(self):
-        """Remove all projects but the undisturbed one."""
+        """Remove all copies except that of the undisturbed run."""
         for left in self.folder.iterdir():
             if left != self._whole.folder:
                 shutil.rmtree(left, ignore_errors=True)
@@ -57,7 +57,7 @@ class Context:
 
 
 def tried(trial):
-    """How a trial ended, and what is to be said of it."""
+    """Run a trial; return its outcome and a remark."""
     try:
         return "as it should", trial()
     except CannotMount as reason:
@@ -67,7 +67,7 @@ def tried(trial):
 
 
 def try_all(given):
-    """A row for each trial, printed as it ends."""
+    """Run all trials; return a row for each and print it when the trial ends."""
     rows = []
     with tempfile.TemporaryDirectory(prefix="faults-") as folder:
         try:
@@ -93,7 +93,7 @@ def main():
     given = reader.parse_args()
     if unknown := set(given.kinds) - set(KINDS):
         reader.error(f"unknown: {', '.join(sorted(unknown))}; known: {', '.join(KINDS)}")
-    # As after Ctrl-C, runs under way end and mounts are taken down.
+    # Raise SystemExit on SIGTERM, so that unfinished runs are ended and disks unmounted.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     rows = try_all(given)
     table = given.table

@@ -1,4 +1,4 @@
-"""Files in the folder of results that no run has left like this."""
+"""Damaged and foreign files in the folder of results."""
 
 import os
 
@@ -69,7 +69,7 @@ def _trial(context, name, damage, old):
         expect(lines, f"it is not told what to do: {told[-500:]}")
         expect("Traceback" not in told, "a traceback is shown")
         path.unlink()
-        # what was made of the file is made again, a table and a figure
+        # the chapter made from the file is made again
         project.recover(context.undisturbed, lost=2)
         return "told: delete it; run again"
 

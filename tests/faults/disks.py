@@ -1,4 +1,4 @@
-"""A full disk, and a folder that cannot be written to; both take the right to mount."""
+"""A full disk, and a folder that cannot be written to; both trials need the right to mount."""
 
 import subprocess
 from contextlib import contextmanager
@@ -12,7 +12,7 @@ KILOBYTES = (8, 40, 80, 120, 160, 200)
 
 
 class CannotMount(Exception):
-    """The reason why a trial is skipped."""
+    """A file system cannot be mounted, so the trial is skipped."""
 
 
 def _mount(*arguments):
@@ -40,7 +40,7 @@ def full_disk(context):
             f"a full disk under `results/`, of {kilobytes} kB",
             _full(context, kilobytes, whole=False),
         )
-    # a copy of the project takes some two megabytes
+    # a copy of the project occupies about two megabytes
     yield "a full disk under all of the project", _full(context, 200, whole=True)
 
 
@@ -50,7 +50,7 @@ def _full(context, kilobytes, whole):
         disk = folder if whole else folder / "results"
         with _mounted(disk, "-t", "tmpfs", "-o", "size=1g", "tmpfs"):
             project = context.fresh(folder.name)
-            # as much room as is said, beside what the project itself takes
+            # free space: the size that was asked for, beside the space that the project occupies
             used = subprocess.run(["df", "--output=used", disk], capture_output=True, text=True)
             size = int(used.stdout.split()[-1]) + kilobytes
             _mount("-o", f"remount,size={size}k", disk)

@@ -12,13 +12,13 @@ WAIT = 0.02  # seconds between two looks
 
 
 def moments(context, name):
-    """Random moments of a run, in seconds after its start."""
+    """Return sorted random moments of a run, in seconds after its start."""
     spread = context.random(name).uniform(0.0, context.seconds, context.moments)
     return sorted(float(moment) for moment in spread)
 
 
 def job_of(process):
-    """A job of a run, or None if none runs or the run has ended."""
+    """Return the process of a job of a run, or None if there is none."""
     try:
         children = psutil.Process(process.pid).children(recursive=True)
         jobs = [child for child in children if ".snakemake/scripts" in " ".join(child.cmdline())]
@@ -28,7 +28,10 @@ def job_of(process):
 
 
 def wait_for_end_of_orphans(folder):
-    """Jobs end with their run, so that this does not wait until they have computed."""
+    """Wait until no job of the folder is running; raise Fault after 10 s.
+
+    A job ends soon after its run, even if it has not finished.
+    """
     end = time.monotonic() + 10
     while time.monotonic() < end:
         if not any(_within(folder, process) for process in psutil.process_iter(["cmdline"])):
@@ -99,7 +102,7 @@ def _interrupted(context, number, moment):
 
 
 def edit_after_kill(context):
-    """A job of a killed run must not write over what a run of an edited configuration makes."""
+    """A job that outlives its killed run must not overwrite results of a newer configuration."""
 
     def trial():
         def edit(project):

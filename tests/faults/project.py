@@ -1,4 +1,4 @@
-"""A small copy of the project, runs of it, and whether it came to what an undisturbed run makes."""
+"""A small copy of the project, its runs, and the comparison with an undisturbed run."""
 
 import os
 import re
@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-# Not the package: kernels are kept by the place of their sources, and would be compiled again.
+# The package is not copied: the cache of kernels depends on the path of their sources.
 PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow"]
 DATA = "results/optimum/h215_rm012.nc"
 TARGETS = [
@@ -23,11 +23,11 @@ CORES = 2
 KINDS = {".nc", ".csv", ".md", ".png", ".pdf", ".rst"}
 LOCKED = "cannot be locked"
 DELETE = "delete it and run the same command again"
-STARTED = []  # runs, so that none outlives the trials
+STARTED = []  # processes, to be ended after the trials
 
 
 def end_all():
-    """End every run that goes on."""
+    """Kill every run that has not ended."""
     for process in STARTED:
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
@@ -35,13 +35,16 @@ def end_all():
 
 
 def job_of(path):
-    """Name of the job that makes an output; figures and tables here are of one chapter."""
+    """Return the name of the job that makes an output.
+
+    All figures and tables here are of one chapter.
+    """
     folder = Path(path).parent.name
     return "chapter" if folder in ("figures", "tables") else str(Path(path).with_suffix(""))
 
 
 class Fault(AssertionError):
-    """What a trial has found wrong."""
+    """A trial failed; the message says why."""
 
 
 def expect(holds, what):
@@ -50,14 +53,14 @@ def expect(holds, what):
 
 
 class Project:
-    """A copy of the project in a folder of its own.
+    """A copy of the project in another folder.
 
     Parameters
     ----------
     folder : pathlib.Path
-        Made if there is none; a copy of `like` if that is given, with its results.
+        Made if it does not exist.
     like : Project
-        Where to copy from, in place of this project.
+        Copied with its results, in place of this project.
     """
 
     def __init__(self, folder, like=None):
@@ -72,7 +75,7 @@ class Project:
         shutil.copy(Path(__file__).with_name("small.yaml"), folder / CONFIGURATIONS[-1])
 
     def start(self, *arguments, targets=TARGETS):
-        """The documented command, as a process at the head of a group of its own."""
+        """Start the documented command as the leader of a new process group; return the process."""
         command = [sys.executable, "-m", "snakemake", "--cores", str(CORES), *targets]
         process = subprocess.Popen(
             [*command, "--configfile", *CONFIGURATIONS, *arguments],
@@ -87,19 +90,19 @@ class Project:
         return process
 
     def run(self, *arguments, **options):
-        """Exit code of the documented command, and what it told."""
+        """Run the documented command; return its exit code and its output."""
         process = self.start(*arguments, **options)
         told, _ = process.communicate()
         return process.returncode, told
 
     def planned(self):
-        """What a dry run would do, in the words of its messages."""
+        """Return the messages of the jobs that a dry run plans."""
         code, told = self.run("-n")
         expect(code == 0, f"a dry run fails: {told[-500:]}")
         return re.findall(r"^Job \d+: (.*)$", told, re.M)
 
     def outputs(self):
-        """Contents of all outputs that are to be the same at every run, by path."""
+        """Return the contents of all outputs that must not differ between runs, by path."""
         found = sorted((self.folder / "results").rglob("*"))
         return {
             str(path.relative_to(self.folder)): path.read_bytes()
@@ -108,7 +111,7 @@ class Project:
         }
 
     def written(self):
-        """When each output was written, and into which file on the disk."""
+        """Return inode and time of modification of each output, by path."""
         return {
             path: (stat.st_ino, stat.st_mtime_ns)
             for path in self.outputs()
@@ -116,14 +119,15 @@ class Project:
         }
 
     def expect_only_whole(self, undisturbed):
-        """No file has a name that it does not deserve."""
+        """Raise Fault if an output is incomplete or differs from that of the undisturbed run."""
         for path, content in self.outputs().items():
             expect(content == undisturbed.get(path), f"{path} is taken for whole and is not")
 
     def recover(self, undisturbed, lost=CORES):
-        """Run the documented command again, and look at what comes of it.
+        """Run the documented command again, and raise Fault unless the results become complete.
 
-        Returns what it took: "run again" or "--unlock, run again".
+        At most `lost` jobs may run a second time. Returns what the user has to do: "run again" or
+        "--unlock, run again".
         """
         self.expect_only_whole(undisturbed)
         before, took = self.written(), "run again"
@@ -135,7 +139,7 @@ class Project:
             code, told = self.run()
         expect(code == 0, f"the run does not recover: {told[-800:]}")
         after = self.written()
-        # the first second of 1970 is what the check of dates leaves
+        # the check of dates sets dates in the future to the first second of 1970
         again = {
             job_of(path)
             for path in before
@@ -146,7 +150,7 @@ class Project:
         return took
 
     def expect_same(self, undisturbed):
-        """The bytes of an undisturbed run, nothing beside them, nothing left to do."""
+        """Raise Fault if outputs differ from an undisturbed run, or something is left to do."""
         found = self.outputs()
         differing = sorted(
             path for path in found.keys() | undisturbed if found.get(path) != undisturbed.get(path)
@@ -157,7 +161,7 @@ class Project:
         expect(not self.planned(), "another run would do it all again")
 
     def edit(self, name, old, new):
-        """Replace a text that stands in a file."""
+        """Replace the first occurrence of a text in a file."""
         path = self.folder / name
         text = path.read_text()
         expect(old in text, f"{old} does not stand in {name}")

@@ -1,7 +1,7 @@
 """Two runs at once, and a clock that was set back.
 
-The clock of a machine cannot be set for a trial, so the dates of files are: after a clock was set
-back by a day, what was written before is dated a day ahead.
+A trial cannot set the clock of the machine, so it changes the dates of files: if a clock is set
+back by a day, files written before seem to be from tomorrow.
 """
 
 import os

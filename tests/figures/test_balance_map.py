@@ -1,4 +1,4 @@
-"""The drawing of a map: every class drawn and named, legends beside the panels."""
+"""The drawing of a map: every class is drawn and named, and legends stand beside the panels."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ COLUMNS = 12
 
 
 def made_up():
-    """Each class in two columns or more, and a restitution for which the orbit ends."""
+    """Return a map over the restitution with each class in two columns or more."""
     shape = 3, COLUMNS
 
     def cells(values):

@@ -1,4 +1,4 @@
-"""Every figure of data: quiet, whole on its sheet, with all that it draws in its legend."""
+"""Every figure of data: no warnings, nothing cut off, and a legend entry for all that is drawn."""
 
 from functools import cache
 
@@ -34,7 +34,7 @@ MOTIONS = [  # outcome, period, contacts
 
 
 def response(**parameters):
-    """A branch of each kind, at heights of their own."""
+    """Return a response with a branch of each kind, at different displacements."""
     outcome, period, contacts = zip(*MOTIONS, strict=True)
     shape = len(FREQUENCY), len(MOTIONS)
     ends = {"end_direction": [1], "end_value": [2.0], "end_displacement": [1.0]}
@@ -50,7 +50,7 @@ def response(**parameters):
 
 
 def balance():
-    """Free solutions on a curve with a fold at each end of its middle, and a band."""
+    """Return free solutions on a curve with two folds, and a suppression band."""
     phase = -np.stack([FREQUENCY - 0.9, 2.3 - FREQUENCY / 2, 1 + FREQUENCY], axis=1)
     stable = [flag("free_stability", name) for name in ("stable", "unstable", "stable")]
     shape = phase.shape
@@ -95,7 +95,7 @@ def optimum(mass_ratio, restitution):
 
 
 def migration():
-    """A run that is switched twice, another once; releases from every motion to every other."""
+    """Return runs with one and two switchings, and releases from each motion to each other one."""
     time = np.linspace(-30, 300, 2000)
     kinds = [value for value in DAMPED_MOTION.values() if value >= 0]
     destinations = list(FREE_MOTION.values())
@@ -115,7 +115,7 @@ def migration():
 
 
 def orbits(**parameters):
-    """Branches of periods 1, 2 and 3, each stable, then unstable from a fold on, at own heights."""
+    """Return branches of periods 1, 2 and 3 at different heights, each stable up to a fold."""
     periods = [1, 2, 3]
     count = len(FREQUENCY)
     value = np.concatenate([FREQUENCY, FREQUENCY[::-1]])
@@ -197,7 +197,7 @@ DRAWINGS = {
 
 @cache
 def drawn_once(name):
-    """The figure of this name, drawn in the style in use; tests only look at it."""
+    """Return the figure of this name, drawn once; tests must not change it."""
     drawn = DRAWINGS[name][0]()
     FigureCanvasAgg(drawn).draw()
     return drawn
@@ -252,7 +252,7 @@ def test_the_drawing_is_as_wide_as_a_column(drawing):
 
 
 def looks(drawn, labels):
-    """What a line looks like in grey, by its label."""
+    """Return what distinguishes each line without its colour, by its label."""
     found = {}
     for line in drawn.axes[0].lines:
         if line.get_label() in labels:

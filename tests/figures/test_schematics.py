@@ -1,4 +1,4 @@
-"""The schematics: quiet, repeatable to the byte, and legible."""
+"""The schematics: no warnings, the same bytes at every drawing, and legible."""
 
 import os
 import pathlib
@@ -28,7 +28,7 @@ def read(path):
 
 @pytest.fixture(scope="module")
 def elsewhere(tmp_path_factory):
-    """All schematics, saved by another process with another hash seed and time zone."""
+    """Return the folder of all schematics, saved with another hash seed and time zone."""
     folder = tmp_path_factory.mktemp("elsewhere")
     program = (
         "from impact_damper.figures import schematics, style\n"
@@ -55,7 +55,7 @@ def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
 
 @cache
 def drawn_once(name):
-    """The schematic of this name, drawn in the style in use; tests only look at it."""
+    """Return the schematic of this name, drawn once; tests must not change it."""
     figure = getattr(schematics, name)()
     FigureCanvasAgg(figure).draw()
     return figure

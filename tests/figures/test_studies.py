@@ -14,7 +14,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 def made_up(frequencies, restitutions):
-    """Three cells of twelve with a start that did not settle, in each panel."""
+    """Return a study; in each panel three of twelve cells have a start that did not settle."""
     shape = 3, 4, len(frequencies), len(restitutions)
     counts = np.zeros((*shape, len(OUTCOMES)), int)
     counts[..., OUTCOMES.index("settled")] = 5
@@ -48,5 +48,5 @@ def test_panels_and_hatched_cells(frequencies, restitutions, panels):
     assert len(maps) == panels
     for axes in maps:
         (hatched,) = [patch for patch in axes.patches if type(patch) is PathPatch]
-        # a rectangle is five points
+        # the path of a rectangle has five points
         assert len(hatched.get_path().vertices) == 3 * 5

@@ -1,4 +1,4 @@
-"""The common style: labels from the registry, roles that differ, figures saved whole."""
+"""The common style: labels from the registry, distinct roles, complete files."""
 
 from itertools import combinations
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Configurations that are broken on purpose, each in one place that is known."""
+"""Configurations with one known fault each."""
 
 import copy
 from pathlib import Path
@@ -13,7 +13,7 @@ from impact_damper.workflow.configuration import without_left_out
 
 ROOT = Path(__file__).parents[2]
 GONE = object()
-# Keys of whole numbers, beside those of whole sections.
+# Keys whose values are whole numbers, outside sections that hold nothing else.
 WHOLE = {
     "starts",
     "sweep_starts",
@@ -30,7 +30,7 @@ ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "scipy_every", "with
 
 
 def small_configuration():
-    """That of the smoke run: an entry or two in each section."""
+    """Return the configuration of the smoke run, with an entry or two in each section."""
     config = yaml.safe_load((ROOT / "config/config.yaml").read_text())
     update_config(config, yaml.safe_load((ROOT / "config/smoke.yaml").read_text()))
     return without_left_out(config)
@@ -40,14 +40,14 @@ SMALL = small_configuration()
 
 
 class Broken(NamedTuple):
-    """A change that breaks the small configuration.
+    """A change that makes the small configuration wrong.
 
     Attributes
     ----------
     place, value
-        Path of keys that is set, and to what; GONE takes it out.
+        Path of keys, and the value that is set there; GONE removes the key.
     told, shown
-        Path of keys that is to be told, and what stands there, or GONE where only the key is told.
+        Path of keys and value that the message must name; GONE if it names the key only.
     """
 
     place: tuple
@@ -56,7 +56,7 @@ class Broken(NamedTuple):
     shown: object
 
     def config(self):
-        """The broken configuration."""
+        """Return the wrong configuration."""
         config = copy.deepcopy(SMALL)
         parent = config
         for key in self.place[:-1]:
@@ -69,7 +69,7 @@ class Broken(NamedTuple):
 
 
 def places(value, path=()):
-    """Every path of keys and list positions, with what stands there."""
+    """Yield every path of keys and list positions, with the value there."""
     yield path, value
     if isinstance(value, (dict, list)):
         for key, part in value.items() if isinstance(value, dict) else enumerate(value):
@@ -77,7 +77,7 @@ def places(value, path=()):
 
 
 def is_named(path):
-    """Whether the keys at a path are names of entries, free to choose."""
+    """Return whether the keys at a path are names of entries, which the user chooses."""
     if path[:1] == ("method_verdicts",) and len(path) == 3:
         return path[2] in ("damped", "free")
     return len(path) == 1 and isinstance(next(iter(SMALL[path[0]].values())), dict)
@@ -88,7 +88,7 @@ def is_number(value):
 
 
 def at(path):
-    """What the small configuration has at a path."""
+    """Return the value of the small configuration at a path."""
     place = SMALL
     for key in path:
         place = place[key]
@@ -98,11 +98,11 @@ def at(path):
 MAPPINGS = [path for path, value in places(SMALL) if isinstance(value, dict)]
 FIXED = [path for path in MAPPINGS if not is_named(path)]
 NAMED = [path for path in MAPPINGS if is_named(path)]
-# Where a number or a range may stand.
+# Keys that take a number or a range.
 AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXES]
 NUMBERS = [path for path, value in places(SMALL) if is_number(value)]
 TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]
-# There may be no further orders.
+# This list may be empty.
 LISTS = [
     path
     for path, value in places(SMALL)
@@ -137,7 +137,7 @@ junk = st.recursive(
 
 
 def changed(path, value):
-    """The small configuration with one value set, or taken out."""
+    """Return the change that sets or removes one value of the small configuration."""
     return Broken(path, value, path, value)
 
 
@@ -183,7 +183,7 @@ def empty(draw):
     texts = [path for path in TEXTS if path[-1] != "remark"]
     path = draw(st.sampled_from(LISTS + FIXED[1:] + named + texts))
     made = changed(path, type(at(path))())
-    # of a mapping the keys that are missing are told
+    # for a mapping the message names the missing keys
     return made._replace(shown=GONE) if path in FIXED else made
 
 

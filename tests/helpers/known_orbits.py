@@ -55,7 +55,7 @@ class KnownOrbit(NamedTuple):
 
 
 def polished_orbit(name):
-    """The orbit of `STARTS` with this name, its state polished to 1e-13."""
+    """Return the orbit of `STARTS` with this name, its state converged to 1e-13."""
     damper, frequency, start = STARTS[name]
     p, state = pack(PAPER, damper, frequency), np.array(start)
     found, _, _ = strobe_map.polish(p, state, 1, 0.1, 1e-13)

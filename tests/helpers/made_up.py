@@ -1,6 +1,6 @@
 """Invented datasets of every stage, from closed forms, in which every claim of the paper holds.
 
-Tests of claims, tables and figures change one of them and expect one claim to fail.
+Tests of claims, tables and figures change one dataset and expect one claim to fail.
 """
 
 import numpy as np
@@ -59,7 +59,7 @@ def resonance_size(frequency, peak, damping):
 
 
 def design(name, mass_ratio=0.12, damping=0.215, linear=0.0):
-    """Harmonic balance: a quiet solution that passes a = 0 at the peak, and a high one below."""
+    """Return a harmonic balance: a quiet solution with a = 0 at the peak, a high one below it."""
     peak = LINEAR[linear] if damping == 0.215 else PEAKS[damping]
     frequency = frequencies(peak)
     given = damper(mass_ratio, peak)
@@ -129,7 +129,7 @@ def motions(frequency, columns):
 
 
 def free_branches(damping):
-    """A resonance branch that folds at the peak, and the one-third subharmonic, an isola."""
+    """Return a resonance branch with a fold at the peak, and a closed subharmonic branch."""
     peak = PEAKS[damping]
     rising, falling = np.linspace(0.5, 1, 101) * peak, np.linspace(1, 0.6, 81)[1:] * peak
     beyond = np.linspace(0.6, 1.5, 181)[1:] * peak
@@ -147,9 +147,9 @@ def free_branches(damping):
 
 
 def damped_branches(name, damping=0.215, restitution=1.0, third=None):
-    """High orbits up to the band, quiet ones everywhere, and orbits of period 3 of a size.
+    """Return high orbits up to the band, quiet orbits everywhere, and orbits of period 3.
 
-    The orbits that the high solutions of (7) stand for are not stable.
+    The orbits that the high solutions of (7) approximate are not stable.
     """
     peak, mass_ratio = PEAKS[damping], DAMPERS[name]
     below, all_over = np.linspace(0.5, BAND_START[name], 101) * peak, frequencies(peak)
@@ -205,7 +205,7 @@ def response(name, damping=0.215, restitution=1.0):
 
 
 def motion():
-    """The slip S3 holds here: a state of three components."""
+    """Return a motion for the slip S3 of the paper, a state of three components."""
     data = {name: np.zeros(3) for name in ("displacement", "velocity", "relative_displacement")}
     return dataset(data, {"time": np.arange(3.0)}, parameters(frequency=2.0), "made up")
 
@@ -216,7 +216,7 @@ def collisions():
 
 
 def sweep(damping, mass_ratio, restitution=1.0):
-    """The optimum exceeds the rule by 5 %, falls with e, and is flat."""
+    """Return a clearance sweep with a flat optimum 5 % above the rule, smaller for smaller e."""
     frequency = PEAKS[damping]
     rule = 1 / (mass_ratio * frequency**2)
     best = rule * (1.05 - 0.5 * (1 - restitution))
@@ -245,7 +245,7 @@ def sweep(damping, mass_ratio, restitution=1.0):
 
 
 def subharmonic(name, damping=0.215, damped=np.nan):
-    """The free subharmonic from 0.8 to 1.1 Wp, and a small damped one at most, where it is free."""
+    """Return the free subharmonic from 0.8 to 1.1 Wp, and there at most a small damped one."""
     peak = PEAKS[damping]
     frequency = np.linspace(0.8, 1.1, 61) * peak
     present = np.full(len(frequency), np.isfinite(damped))
@@ -273,7 +273,7 @@ def subharmonic(name, damping=0.215, damped=np.nan):
 
 
 def migration(frequency, subharmonic_share):
-    """Releases from the unsettled and from the quiet motion, and four runs."""
+    """Return four runs of the controller, and releases of the unsettled and of the quiet motion."""
     kinds, destinations = list(DAMPED_MOTION)[1:], list(FREE_MOTION)[1:]
     shares = np.zeros((2, len(destinations), 3))
     shares[:, destinations.index("subharmonic")] = subharmonic_share
@@ -307,7 +307,7 @@ def migration(frequency, subharmonic_share):
 
 
 def release_scan(frequency, subharmonic_share):
-    """Releases from the unsettled and from the quiet motion; no third motion exists."""
+    """Return a scan of releases of the unsettled and of the quiet motion, the only motions."""
     destinations = list(FREE_MOTION)[1:]
     share = np.array(subharmonic_share)[:, None, None]
     shares = np.zeros((len(frequency), 3, len(destinations), 3))
@@ -333,7 +333,7 @@ LINEAR_OF = {"3a": 1.5, "3b": 1.0, "3c": 0.0}
 
 
 def design_orbit(linear):
-    """A small orbit, stable at every damping."""
+    """Return a branch of small orbits that are stable at every damping."""
     made = parameters(linear=linear) | damper(0.12, LINEAR[linear])
     runs = {
         "design_orbit_status": flag("design_orbit_status", "found"),
@@ -345,7 +345,7 @@ def design_orbit(linear):
 
 
 def world():
-    """Datasets by stage and name, in which every claim is reproduced."""
+    """Return datasets by stage and name in which every claim is reproduced."""
     linear = {"a": 1.5, "b": 1.0}
     designs = {
         name: design(name, rm)

@@ -12,7 +12,7 @@ TOGETHER = ("collisions", "rigid_limit")
 
 
 class Job(NamedTuple):
-    """What Snakemake compares of a job: texts of its parameters, and the jobs that it needs."""
+    """A job as Snakemake compares it: its parameters as texts, and the jobs that it needs."""
 
     parameters: frozenset
     needs: frozenset
@@ -68,7 +68,7 @@ def job_of_file(config, path):
 
 
 def reruns(before, after, edited=()) -> set:
-    """Jobs with other parameters or needs, jobs that are edited, and all that follow from them."""
+    """Return jobs that are edited or whose parameters or needs differ, and their dependants."""
     found = {name for name, job in after.items() if job != before.get(name)} | set(edited)
     new = found
     while new:

@@ -9,7 +9,7 @@ from impact_damper.kernel.memory import pointer
 
 @cache
 def pointed(kernel):
-    """The kernel as a function of one array, or of two."""
+    """Return a kernel that takes pointers as a function of one array, or of two."""
 
     @numba.njit
     def one(a):

@@ -1,8 +1,8 @@
-"""Two runs make the same bytes: one core and two, in two folders, one with a space in its name.
+"""Compare the bytes of two runs: on one core and on two, the latter in a folder with a space.
 
     PYTHONPATH=src:tests python -m helpers.same_bytes [config/smoke.yaml]
 
-Every file of the results is compared but those that tell of the run itself.
+Every file of the results is compared, except logs, timings and the like (`OF_THE_RUN`).
 """
 
 import hashlib
@@ -15,12 +15,12 @@ import yaml
 
 from helpers.running import copy_of_project, snakemake
 
-# What a run says of itself: logs, times and the machine.
+# Files about the run itself: logs, times and the machine.
 OF_THE_RUN = ("logs", "timings", "benchmarks", "provenance.json")
 
 
 def digests(results):
-    """Digest of each file of the results that is to be the same."""
+    """Return the digest of each file of the results that must not differ, by path."""
     return {
         path.relative_to(results).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in sorted(results.rglob("*"))
@@ -29,7 +29,7 @@ def digests(results):
 
 
 def run(project, cores, chosen):
-    """Digests of what a run of a copy of the project makes."""
+    """Run a copy of the project on a number of cores; return the digests of its results."""
     copy_of_project(project)
     arguments = ["everything", "--cores", str(cores)]
     arguments += ["--configfile", chosen] if chosen else []

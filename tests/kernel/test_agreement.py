@@ -8,8 +8,8 @@ from references.extended.starts import KINDS
 
 pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
 
-# No more than these shares of a kind may be too close to call; starts made to graze, or to be
-# on the wall, and motions that part fast are so more often.
+# Largest share of starts for which rounding decides whether a contact takes place. It is larger
+# for starts that graze or lie on a wall, and for motions with large Lyapunov exponents.
 MOST_APART = {1e-6: 0.45, 1e-9: 0.25, 1e-12: 0.15}
 
 
@@ -21,7 +21,10 @@ def test_there_are_ten_thousand_starts():
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_kernel_agrees_with_the_reference(kernel, tolerance, kind):
-    """Same count, state within 10 tolerances times growth; starts too close to call apart."""
+    """Numbers of contacts agree, and states within 10 tolerances times growth.
+
+    Starts for which rounding decides whether a contact takes place are counted separately.
+    """
     error, differs, apart = agreement(kernel, kind, tolerance)
     wrong = ~apart & (differs | ~(error < 10))
     assert not np.any(wrong), "\n".join(
@@ -32,6 +35,6 @@ def test_kernel_agrees_with_the_reference(kernel, tolerance, kind):
 
 
 def test_the_bound_is_tight_enough_to_fail():
-    """Runs at a tolerance 1000 times looser than judged break it, and not by a single start."""
+    """Runs at a tolerance 1000 times looser exceed the bound in more than 5 % of the starts."""
     loose = agreement("scalar", "usual", 1e-6)
     assert np.mean(loose.error > 10 * 1e-3) > 0.05

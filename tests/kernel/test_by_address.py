@@ -1,4 +1,4 @@
-"""Kernels called by address do what they do when called, and failures to compile them raise."""
+"""Kernels called by address return what they return when called, and failures to compile raise."""
 
 import os
 import subprocess
@@ -16,7 +16,7 @@ from impact_damper.kernel.compiling import kernel
 
 @kernel
 def add(a, d):
-    """a += d, of two numbers."""
+    """Add the number at d to the number at a."""
     for i in range(2):
         a[i] += d[i]
 
@@ -85,7 +85,7 @@ except KeyboardInterrupt:
 
 
 def run(folder, code):
-    """Output of a fresh Python that finds MODULE and keeps compiled kernels in a folder."""
+    """Run a fresh Python that can import MODULE, with the cache of kernels in a folder."""
     (folder / "module_of_kernels.py").write_text(MODULE)
     paths = [str(folder), *sys.path]
     environment = os.environ | {

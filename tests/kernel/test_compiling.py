@@ -1,4 +1,4 @@
-"""What importing the package leaves as it was, and the folder and the message of compiling."""
+"""The import of the package changes no setting of numba; folder and message of compiling."""
 
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""The 80-bit reference against another method, heyoka.py in the same digits, laws and itself."""
+"""The 80-bit reference against another method, heyoka.py in 80 bits, laws, and other tolerances."""
 
 import json
 import math
@@ -27,7 +27,7 @@ from impact_damper.system.parameters import Damper, Oscillator
 pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
 
 Real = np.longdouble
-DIGITS = 2e-17  # what the reference is good for, beside the growth of errors
+DIGITS = 2e-17  # error of the reference, to be multiplied by the growth of errors
 
 MOTIONS = {
     **{name: (pack(PAPER, damper, w), state, 3) for name, (damper, w, state) in STARTS.items()},
@@ -45,7 +45,10 @@ def case(request):
 
 
 def field(p, touching, t, y):
-    """The equations (3), (4), (20) to (24) as they are read; y[2] is Z2 from the wall touched."""
+    """Return the rate by equations (3), (4), (20) to (24) literally.
+
+    Y[2] is Z2 from the wall touched.
+    """
     p = p.astype(Real)
     force = p[CONTACT_STIFFNESS] * y[2] + p[DASHPOT] * y[3] if touching else Real(0)
     pull = (p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2) * np.cos(p[FREQUENCY] * t) - force
@@ -54,7 +57,7 @@ def field(p, touching, t, y):
 
 
 def extrapolate(p, touching, t, y, length, columns=8):
-    """One step of Gragg's, Bulirsch's and Stoer's method: midpoint rule, extrapolated."""
+    """Return the state after a step of the method of Gragg, Bulirsch and Stoer."""
     table = []
     for n in range(2, 2 * columns + 1, 2):
         h = length / n
@@ -70,7 +73,9 @@ def extrapolate(p, touching, t, y, length, columns=8):
 
 
 def test_replay_by_extrapolation(case):
-    """Between the events logged another method is on the wall at each, and on its side between."""
+    """Integrated by another method, the loose mass is at a wall at each logged event, and
+    between two events on the side that the log gives.
+    """
     p, state, start, times = case
     run = extended.run(p, state, start, times)
     allowed = 10 * DIGITS * run.growth
@@ -149,7 +154,7 @@ def test_flow_by_differences_and_liouville(case):
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
 @pytest.mark.parametrize("exponent", range(2, 17))
 def test_grazing_to_the_last_digit(damper, exponent):
-    """In flight Z2 shifts with its start: an extremum put so far beyond the wall, and before it."""
+    """Z2 of a flight shifts with its start: an extremum is placed just beyond or before a wall."""
     p = pack(PAPER, damper, 2.0)
     state, unbounded = np.array([0.3, 0.5, 0.0, 0.9], Real), p.copy()
     unbounded[3] = 16.0
@@ -161,7 +166,8 @@ def test_grazing_to_the_last_digit(damper, exponent):
         shifted[2] = p[CLEARANCE] + depth - (16.0 + height)
         run = extended.run(p, shifted, 0.0, [instant + 0.05])
         assert run.begun == (sign == 1)
-        if sign == 1 and exponent > 5:  # the deeper, the more the wall holds back
+        # the wall reduces a deep extremum
+        if sign == 1 and exponent > 5:
             assert run.turnings[0, 2] == pytest.approx(depth, rel=0.1, abs=1e-18)
         if sign == -1:
             assert abs(run.turnings[0, 0] - instant) < 1e-17
@@ -170,7 +176,10 @@ def test_grazing_to_the_last_digit(damper, exponent):
 
 @pytest.mark.parametrize("exponent", range(2, 15))
 def test_quick_return_to_the_wall_left(exponent):
-    """From the wall inward at speed v, pushed outward with a: back at 2 v/a, not hidden by 0."""
+    """A mass that leaves the wall at speed v and is pushed back with a returns at 2 v/a.
+
+    The root at time 0 must not hide this one.
+    """
     p = pack(PAPER, DESIGN, 2.0)
     for wall in (1, -1):
         speed = Real(10) ** -exponent
@@ -205,7 +214,7 @@ def test_heyoka_in_the_same_digits(case):
 
 @pytest.mark.parametrize("scene", list(scenes.configured_scenes()), ids=lambda scene: scene[0])
 def test_stored_references_are_what_the_program_gives(scene):
-    """To the last digits but two, in which C libraries may differ."""
+    """All digits but the last two agree; in those C libraries may differ."""
     name, *motion = scene
     stored = json.loads(scenes.FILE.read_text(), parse_float=Real)[name]
     made = scenes.reference(*motion)

@@ -1,4 +1,4 @@
-"""Valid extremes run to an end and say how it went."""
+"""Runs with extreme valid parameters come to an end and return how they ended."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ EXTREMES = [
 
 
 def system(extreme):
-    """Oscillator, damper and frequency, all usual but for an extreme."""
+    """Return oscillator, damper and frequency; parameters that are not given are usual ones."""
     own = {"damping": 0.215, "linear_frequency": 0.0} | extreme
     oscillator = idm.Oscillator(own["damping"], own["linear_frequency"])
     damper = idm.Damper(**USUAL | {key: extreme[key] for key in USUAL if key in extreme})
@@ -77,7 +77,7 @@ def test_a_response_at_an_extreme_has_outcomes(extreme):
 
 
 def scale(least, most):
-    """Numbers whose logarithm is uniform."""
+    """Strategy of numbers whose logarithm is uniform."""
     return st.floats(np.log10(least), np.log10(most)).map(lambda power: float(10**power))
 
 

@@ -36,7 +36,7 @@ def compare(heyoka_references, p, state, start, times, atol, side=0):
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_error_stays_within_ten_tolerances(known_orbit, heyoka_references, tolerance):
-    """After 20 periods, from the orbit and from beside it, at a phase of mid-flight."""
+    """After 20 periods, from a state on the orbit and one beside it, both in mid-flight."""
     p, end = known_orbit.parameters, known_orbit.strobe + 20 * known_orbit.period
     for nudge in (0.0, 1e-2):
         first = known_orbit.state + nudge
@@ -47,7 +47,7 @@ def test_error_stays_within_ten_tolerances(known_orbit, heyoka_references, toler
 
 
 def test_whole_motion(known_orbit, heyoka_references):
-    """Every sample and every contact, in contact too."""
+    """All samples, those in contact included, and all contacts agree."""
     times = known_orbit.strobe + np.linspace(0, 5, 401)[1:] * known_orbit.period
     log = compare(
         heyoka_references,
@@ -74,7 +74,7 @@ def test_start_in_contact(heyoka_references, damper, linear_frequency, speed):
 
 
 def grazing_state(reference, p, depth):
-    """A state whose Z2 would pass its first maximum at `depth` beyond the wall, and when."""
+    """Return a state whose Z2 without walls has its first maximum `depth` beyond one, and when."""
     state = np.array([0.3, 0.5, 0.0, 0.9])
     unbounded = p.copy()
     unbounded[CLEARANCE] = 16.0
@@ -99,7 +99,7 @@ def test_no_grazing_contact_is_missed_or_invented(heyoka_references, damper, exp
         if sign == 1:
             assert log[0, 1] < instant
             assert 0 < log[0, 3] < 3 * math.sqrt(6 * depth)
-        # The speed of approach goes as the square root of a depth known to rounding.
+        # The speed of approach is the square root of a depth with rounding errors.
         compare(heyoka_references, p, state, 0.0, [instant + 0.3], 3e-15 / math.sqrt(depth) + 1e-11)
 
 
@@ -107,7 +107,7 @@ def test_no_grazing_contact_is_missed_or_invented(heyoka_references, damper, exp
     "damper", [DESIGN, INELASTIC, Damper(0.4, 0.625, 0.3)], ids=["elastic", "inelastic", "dead"]
 )
 def test_random_starts(heyoka_references, damper):
-    """Contacts counted twice over; states agree as far as the motion's own sensitivity allows."""
+    """Numbers of contacts agree; states agree within the growth of errors along the motion."""
     p = pack(PAPER, damper, 1.7)
     start, end = math.pi / 3.4, math.pi / 3.4 + 2 * math.pi / 1.7
     counted = 0

@@ -35,7 +35,7 @@ def period_of_contacts(known_orbit):
 
 
 def test_momentum_through_every_contact(impacting_orbit):
-    """It changes by the impulse of forcing, damping and springs, and by nothing else."""
+    """The total momentum changes by the impulse of forcing, damping and springs alone."""
     p, start = impacting_orbit.parameters, impacting_orbit.strobe
     mass_ratio = impacting_orbit.damper.mass_ratio
     for _, begin, end, *_ in period_of_contacts(impacting_orbit):
@@ -56,7 +56,7 @@ def energy(p, mass_ratio, state):
 
 
 def test_energy_over_a_period(known_orbit):
-    """Work of the forcing against what damping and dashpot take."""
+    """The work of the forcing is the energy that damping and dashpot dissipate."""
     p, end = known_orbit.parameters, known_orbit.strobe + known_orbit.period
     _, log = sample(p, known_orbit.state, known_orbit.strobe, [end])
     times, weights = gauss(np.concatenate([[known_orbit.strobe], log[:, 1:3].ravel(), [end]]))
@@ -77,7 +77,7 @@ def test_energy_over_a_period(known_orbit):
 @pytest.mark.parametrize("oscillator", [PAPER, WITH_LINEAR_SPRING])
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC, Damper(0.4, 0.625, 0.6)])
 def test_liouville(oscillator, damper):
-    """Volume of state space: exp(-h t - 2 zc sqrt(r1 rm) (1 + 1/rm) x time in contact)."""
+    """The determinant of the flow is exp(-h t - 2 zc sqrt(r1 rm) (1 + 1/rm) x time in contact)."""
     p = pack(oscillator, damper, 1.8)
     strobe, period = 0.5 * math.pi / 1.8, 2 * math.pi / 1.8
     rate = damper.dashpot * (1 + 1 / damper.mass_ratio)
@@ -119,7 +119,9 @@ def isolated_contact(mass_ratio, restitution, stiffness):
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.12, 1.0, 10.0])
 @pytest.mark.parametrize("restitution", [0.3, 0.6, 0.75, 0.9, 1.0])
 def test_restitution_of_an_isolated_contact(mass_ratio, restitution):
-    """(25) and the impulse law; forcing and springs matter as the time of contact, r1^(-1/2)."""
+    """(25) and the impulse law hold up to an error of forcing and springs, of the order
+    r1^(-1/2) of the time in contact.
+    """
     stiffness = np.array([1e5, 1e7, 1e9])
     seen = [isolated_contact(mass_ratio, restitution, r1) for r1 in stiffness]
     found, velocity, duration = np.array(seen).T

@@ -49,14 +49,17 @@ def amplitude(p):
 
 
 def drive(p):
-    """Series of A cos(W (t + t0)) from its derivatives, each a quarter turn on."""
+    """Return the Taylor series of A cos(W (t + t0)) from its derivatives."""
     k = np.arange(LENGTH)
     factorials = np.array([math.factorial(i) for i in k], float)
     return Polynomial(amplitude(p) * p[FREQUENCY] ** k * np.cos(ANGLE + k * np.pi / 2) / factorials)
 
 
 def filled(lanes, p, state, phase):
-    """The array of an instance with the series of a step; every lane has a motion of its own."""
+    """Return an instance and its array with the series of a step.
+
+    Every lane has a different motion.
+    """
     module = instance(lanes)
     a = np.zeros((module.SIZE // lanes, lanes))
     for i in range(lanes):
@@ -76,7 +79,7 @@ def filled(lanes, p, state, phase):
 
 
 def row(module, a, first, count):
-    """Coefficients of a series in the lane looked at."""
+    """Return the coefficients of a series in the lane LANE."""
     lanes = module.LANES
     return a[first + LANE % lanes :: lanes][:count].copy()
 
@@ -96,7 +99,7 @@ def state_series(lanes, p, state, phase):
 
 
 def vanishes(polynomial, order, scale):
-    """All coefficients of an equation vanish, up to the order to which the series holds."""
+    """Assert that all coefficients of an equation vanish, up to the order of the series."""
     coefficients = np.zeros(order - 1)
     known = polynomial.coef[: order - 1]
     coefficients[: len(known)] = known
@@ -104,7 +107,7 @@ def vanishes(polynomial, order, scale):
 
 
 def size(*polynomials):
-    """Size of each coefficient, as the rounding errors scale with it."""
+    """Return the size of each coefficient, to which rounding errors are proportional."""
     width = LENGTH
     padded = [np.pad(np.abs(q.coef[:width]), (0, max(0, width - len(q.coef)))) for q in polynomials]
     return 1 + np.maximum.reduce(padded)
@@ -172,7 +175,7 @@ def test_tangents_solve_the_variational_equations(lanes, p, phase):
 
 
 class Pair:
-    """Two exact numbers as `straight` takes them: each operation is done with both."""
+    """A pair of exact numbers, as `straight` knows pairs: operations act on both numbers."""
 
     def __init__(self, *numbers):
         self.numbers = numbers
@@ -191,7 +194,7 @@ class Pair:
 
 
 def exact(lines, numbers):
-    """The numbers that lines of arithmetic give, without rounding."""
+    """Return the results of lines of arithmetic, without rounding."""
 
     class Exactly(ast.NodeTransformer):
         def visit_Constant(self, node):
@@ -210,9 +213,9 @@ def exact(lines, numbers):
 @pytest.mark.parametrize("phase", ORDERS)
 @pytest.mark.parametrize("order", range(2, 28))
 def test_recurrence_without_rounding(phase, order):
-    """The lines of every order, odd or even, against the equations with all products written out.
+    """Compare the recurrence of every order with the equations with all products written out.
 
-    The drive's coefficients are any, as are factors.
+    Coefficients of the forcing and parameters are arbitrary fractions.
     """
     random = np.random.default_rng(order)
     draw = lambda: Fraction(int(random.integers(-9, 10)), 4)  # noqa: E731
@@ -269,7 +272,7 @@ def test_kept_series(p):
 @pytest.mark.parametrize("orders", [(18, 23), (10, 13), (15, 20)])
 @pytest.mark.parametrize("phase", ORDERS)
 def test_tail_and_values(lanes, orders, phase):
-    """The last terms of the speeds' series, and what their sums come to, against numpy."""
+    """Compare the last terms of the speeds' series, and the sums of all series, with NumPy."""
     module, order = instance(lanes, *orders), orders[list(ORDERS).index(phase)]
     random = np.random.default_rng(order)
     a = np.zeros((module.SIZE // lanes, lanes))

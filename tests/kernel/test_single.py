@@ -23,7 +23,7 @@ from impact_damper.system.packed import (
 )
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Beyond this much the wall counts as passed: rounding of the polynomials below.
+# Rounding error of the polynomials below: a wall counts as passed beyond this penetration.
 HAIR = Fraction(1, 10**12)
 DEGREE = 7
 coefficients = st.lists(st.integers(-200, 200), min_size=2, max_size=DEGREE + 1)
@@ -71,16 +71,16 @@ def roots_within(c, end):
 
 
 def found(lanes, searched, series_given, length, **numbers):
-    """Where kernels of an instance find the event of the series: time, whether met, and the wall.
+    """Return time, kind and wall of the event that the kernels of an instance find.
 
-    With several lanes the trajectory stands in one of them, beside others of its kind.
+    With several lanes the trajectory is in one of them, beside similar ones.
     """
     module = instance(lanes)
     a = np.zeros((module.SIZE // lanes, lanes))
     rows = {name: getattr(module, name) // lanes for name in [*SINGLE, *SERIES]}
     lane = lanes // 3
     for i in range(lanes):
-        # The others have the same beginning, but not the same bends.
+        # The other lanes have the same initial state and other higher coefficients.
         for name, c in series_given(1.0 if i == lane else 1.0 + 0.1 * i).items():
             a[rows[name] : rows[name] + len(c), i] = c
     for name, number in (numbers | {"LENGTH": length, "T": length}).items():
@@ -106,9 +106,11 @@ def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
 
 
 def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
-    """Time of the first release, and whether there is one; the penetration is the polynomial.
+    """Return the time of the first release and whether there is one.
 
-    What does not come from the wall is such that q'' = g - (1 + 1/rm) (r1 q + D q').
+    The polynomial is the penetration q.
+
+    The acceleration g without the wall follows from q'' = g - (1 + 1/rm) (r1 q + D q').
     """
 
     def series_given(bend):
@@ -129,9 +131,9 @@ def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
 
 
 def check_contact(lanes, c, offset, drift, clearance, length, expecting=()):
-    """The time found is on the wall, and no wall was passed before it.
+    """Assert that the gap vanishes at the time found, and that no wall was passed before.
 
-    Where a contact was expected but not found, the step may end before its length.
+    If a contact was expected but not found, the step may end early.
     """
     t, side = first_contact(lanes, c, offset, drift, clearance, length, expecting)
     path = [Fraction(float(a)) for a in [*c, *[0.0] * (2 - len(c))]]
@@ -166,7 +168,7 @@ def test_first_contact_of_random_polynomials(lanes, expecting, c, offset, drift,
 @examples
 @given(coefficients, st.integers(2, 14), st.booleans())
 def test_first_contact_of_grazing_polynomials(lanes, expecting, c, exponent, beyond):
-    """The wall stands next to the largest |Z2|: a double root, nearly."""
+    """The wall is close to the largest |Z2|, so the gap has nearly a double root."""
     c = [0.0, *(a / 64 for a in c)]
     t = np.linspace(0, 1, 10001)
     largest = np.max(np.abs(Polynomial(c)(t)))
@@ -187,7 +189,7 @@ def test_grazing_parabola(lanes, exponent, sign):
     assert side == sign
     assert_allclose(t, 1 - math.sqrt(depth), atol=1e-15 / math.sqrt(depth))
     if exponent < 15:
-        # with the wall moved out, the other wall is met, at -1 - eps
+        # with this wall farther out, the motion meets the other wall, at -1 - eps
         t, side = first_contact(lanes, c, 0.0, 0.0, 1 + depth, 3.0)
         assert side == -sign
         assert_allclose(t, 1 + math.sqrt(2 + depth), rtol=1e-14)
@@ -201,7 +203,7 @@ def test_no_contact_without_walls(lanes):
 @widths
 @pytest.mark.parametrize("side", [1, -1])
 def test_start_on_a_wall_that_recedes(lanes, side):
-    """Just released: the wall itself is no contact, the next one is found."""
+    """The state on the wall just after a release is no contact; the next contact is found."""
     c = [side * 1.0, side * -1e-3, side * 1.0]
     t, found_side = first_contact(lanes, c, 0.0, 0.0, 1.0, 1.0)
     assert found_side == side
@@ -211,7 +213,9 @@ def test_start_on_a_wall_that_recedes(lanes, side):
 @pytest.mark.parametrize("roundings", [0, 1, 2, 7, 1000])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_start_within_rounding_of_a_wall(roundings, sign):
-    """Moving outward, so near that time stands still until the contact: one step is enough."""
+    """The mass moves outward so near to the wall that the time of contact rounds to the present
+    time: one step suffices.
+    """
     p, work = pack(Oscillator(0.3, 1.1), DESIGN, 1.9), single.workspace()
     wall = p[CLEARANCE] * (1 - roundings * 2.0**-53)
     y = sign * np.array([-2.6, 1.3, wall, 1.7])
@@ -284,7 +288,7 @@ def contact_series(p, state, t):
 
 
 def test_order_of_contact_series():
-    """Contact steps are capped below where their error shows: the series itself is looked at."""
+    """Steps in contact are too short to show their error: the series is evaluated beyond them."""
     p = pack(Oscillator(0.215, 1.0), Damper(0.12, 2.0, 0.9), 2.0)
     state = 0.5, -0.4, 0.0, 1.5
     lengths = 0.04, 0.06, 0.09
@@ -304,7 +308,7 @@ def test_order_of_contact_series():
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_contact_steps_never_pass_a_release(tolerance):
-    """Stiff and soft walls: a contact lasts half a natural period, nearly."""
+    """A contact lasts nearly half a natural period, with stiff and with soft walls."""
     for stiffness in (1e2, 1e4, 1e6):
         damper = Damper(0.12, 2.0, 1.0, stiffness)
         p = pack(PAPER, damper, 2.0)
@@ -334,7 +338,10 @@ def test_tangents_against_differences(impacting_orbit):
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
 def test_tangents_of_a_motion_that_starts_in_contact(damper):
-    """At tolerance and phase at will; the dashpot's jump at the release included."""
+    """For several tolerances and phases.
+
+    The jump of the dashpot force at the release is included.
+    """
     p = pack(Oscillator(0.3, 1.1), damper, 1.9)
     state = np.array([0.4, 0.2, damper.clearance + 0.01, 1.0])
 

@@ -1,4 +1,4 @@
-"""Straight lines against Python, what they refuse, and the forcing against cosine and sine."""
+"""`straight` against Python and the errors that it raises; the forcing against cosine and sine."""
 
 import linecache
 import math
@@ -135,7 +135,7 @@ def test_each_lane_has_its_own_numbers():
 @pytest.mark.parametrize("shift", [0.0, 1e-9, 3e-5, -3e-5, 4.9e-5, 0.3, -2.0, math.inf])
 @pytest.mark.parametrize("time", [0.0, 1.0, 1234.5])
 def test_forcing_near_a_known_one(time, shift):
-    """Turned by little or found anew, it is that of its time, to rounding of the phase."""
+    """The forcing, rotated by a small angle or computed anew, is exact to rounding of the phase."""
     module, frequency = instance(1), 2.0
     a = np.zeros(module.SIZE)
     a[module.FREQUENCY], a[module.FORCE], a[module.UNBALANCE] = frequency, 0.3, 0.8

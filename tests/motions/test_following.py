@@ -1,4 +1,4 @@
-"""Following from one value to another: prediction, steps, and where it ends."""
+"""Following an orbit from one value to another: prediction, steps, and ends."""
 
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ class Point(NamedTuple):
 
 
 def root(value, guess):
-    """Orbits at the square root of the value, which ends in a fold at 0."""
+    """Return an orbit at the square root of the value; the branch has a fold at 0."""
     if value < 0 or abs(guess[0] - np.sqrt(value)) > 0.1:
         return None, "lost"
     return Point(np.full(4, np.sqrt(value))), "found"

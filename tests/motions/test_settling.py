@@ -1,4 +1,4 @@
-"""Settled motions, chaos, and the measures of a motion, each by another way to the number."""
+"""Settled motions, chaos, and measures of a motion, each compared with another computation."""
 
 import math
 
@@ -25,7 +25,7 @@ def settled(p, state, tolerance=1e-9, patience=300, limit=1500, watched=50):
 
 
 def growth_of_tangent(p, state, periods, skipped):
-    """Growth per unit time of one tangent, renormalised here."""
+    """Return the growth per unit time of one tangent, renormalised every period."""
     period, strobe = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
     y, tangents, total = np.array(state), np.full((1, 4), 0.5), 0.0
     side, work = single.side_of(p, y), single.workspace()
@@ -38,7 +38,7 @@ def growth_of_tangent(p, state, periods, skipped):
 
 
 def divergence_of_neighbours(p, state, periods, skipped=100, apart=1e-7, batches=20):
-    """Rate at which two motions part, brought together again every period, and its error."""
+    """Return the rate at which two motions, rescaled every period, diverge, and its error."""
     period, strobe = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
     work = single.workspace()
 
@@ -71,7 +71,7 @@ def test_free_motions_settle(state, period, largest):
     assert record["period"] == period
     assert record["contacts"] == 0
     assert abs(record["multiplier"]) < 1
-    # what is given as settled does come back, by plain integration, and repeats no sooner
+    # by integration a settled motion returns after its period and not before
     back = [strobe_map.period_map(p, record["state"], n, 1e-13)[0] for n in range(1, period + 1)]
     apart = [np.max(np.abs(y - record["state"])) for y in back]
     assert apart[-1] < 1e-8
@@ -90,7 +90,7 @@ def test_known_orbits_settle(known_orbit):
 
 
 def test_asymmetry(known_orbit):
-    """Distance from the mirrored motion half a period on, here by integration of the mirror."""
+    """The asymmetry is the distance from the mirrored motion half a period later."""
     record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
     later = [known_orbit.strobe + known_orbit.period / 2]
     (half,), _ = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, later)
@@ -100,19 +100,19 @@ def test_asymmetry(known_orbit):
 
 
 def test_mass_that_drifts_is_not_taken_for_settled():
-    """So slow that it meets no wall for a while: no motion of the damper's own."""
+    """A loose mass that drifts so slowly that it meets no wall for a while has not settled."""
     p = pack(PAPER, Damper(0.12, 2.0), 2.0)
     y = np.array([0.02716339, 0.4994648, 0.02716339, 0.4994648 + 1e-5])
     record = settled(p, y, patience=100, limit=200)
     assert record["outcome"] == records.NON_COLLIDING
 
 
-# a start of the violent regime below the band
+# a start of the violent motion below the band
 VIOLENT = pack(PAPER, DESIGN, 1.1), [1.0, 0.5, 0.3, -1.0]
 
 
 def test_chaos_and_its_exponent():
-    """Against the divergence of two neighbours, which needs no variational equations."""
+    """Compare with the divergence of two neighbouring motions, without variational equations."""
     p, state = VIOLENT
     record = settled(p, state, patience=1000, limit=3000)
     assert record["outcome"] == records.CHAOTIC
@@ -143,10 +143,10 @@ def test_error_of_the_exponent_shrinks_with_the_run():
 
 
 def test_exponent_of_a_settled_motion_is_its_multiplier(known_orbit):
-    """log |multiplier| / period, against the growth of a tangent along the orbit."""
+    """The exponent is log |multiplier| / period, and the growth rate of a tangent on the orbit."""
     record = settled(known_orbit.parameters, known_orbit.state)
     expected = math.log(abs(record["multiplier"])) / (record["period"] * known_orbit.period)
-    # without a damper the loose mass only rides along, a neutral tangent: start without it
+    # without a damper the tangent of the loose mass is neutral: start without this component
     if known_orbit.damper is None:
         _, matrix, _ = strobe_map.period_map(known_orbit.parameters, known_orbit.state, 1, 1e-13)
         found = math.log(max(abs(np.linalg.eigvals(matrix[:2, :2])))) / known_orbit.period
@@ -156,7 +156,7 @@ def test_exponent_of_a_settled_motion_is_its_multiplier(known_orbit):
 
 
 def test_polish_comes_back_from_aside(known_orbit):
-    """To the orbit, from a percent aside; the return is by an integration of its own."""
+    """From a state 1 % away Newton's method returns to the orbit, as an integration shows."""
     p = known_orbit.parameters
     y = known_orbit.state * 1.01
     found, residual, multiplier = strobe_map.polish(p, y, 1, 0.2, 1e-13)
@@ -177,7 +177,7 @@ def test_polish_finds_no_orbit_where_none_is_near(design_orbit):
 
 @pytest.mark.parametrize("start, target", [((2.35, -0.78), 2.2), ((0.03, 0.5), 1.2)])
 def test_follow_ends_at_the_folds_of_the_free_response(start, target):
-    """On one side of the end the motion goes on, on the other it leaves for the other branch."""
+    """A simulated motion stays on the branch on one side of its end and leaves it on the other."""
     p, y = pack(PAPER, None, 2.0), np.tile(start, 2)
     p, (y, multiplier) = follow_stable(p, y, 1, FREQUENCY, target)
     end = p[0]
@@ -197,7 +197,7 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
 
 
 def test_follow_arrives(design_orbit):
-    """At a target within the branch; the orbit there is the one that simulation comes to."""
+    """Within the branch following arrives at the orbit that a simulation settles on."""
     p, y = design_orbit.parameters.copy(), design_orbit.state.copy()
     p, (y, multiplier) = follow_stable(p, y, 1, CLEARANCE, 1.9)
     assert p[CLEARANCE] == 1.9
@@ -218,7 +218,7 @@ def test_measures_against_dense_samples(known_orbit):
     assert -1e-12 < record["maximum_displacement"] - np.max(np.abs(x)) < 1e-5
     assert record["contacts"] == len(log)
     # Re(c exp(i W T)), while the transform counts its time from the strobe, W T = pi/2
-    # and contacts between the few samples of the record leave an error in it
+    # and contacts fall between the few samples of the record, an error of the transform
     turn = 2 * np.exp(-0.5j * np.pi) / count
     atol = 2e-4 if known_orbit.damper else 1e-8
     assert_allclose(record["harmonic_displacement"], turn * np.fft.rfft(x)[1], atol=atol)
@@ -235,7 +235,7 @@ def test_extremum_of_an_unsettled_motion():
 
 
 def test_log_of_contacts_may_be_short(design_orbit):
-    """Contacts beyond its end are counted only."""
+    """Contacts beyond the end of the log are counted but not logged."""
     log, states = np.full((3, 5), np.nan), np.empty((1, 4))
     end = np.array([design_orbit.strobe + 10 * design_orbit.period])
     count = records.trace(

@@ -28,7 +28,7 @@ def test_samples_and_contacts_of_a_simulation():
     assert_allclose(data.time[[0, -1]], [0, 6.5 * math.pi], rtol=1e-15)
     assert_allclose(np.diff(data.time), math.pi / 100, rtol=1e-10)
     assert_allclose([data[name][0] for name in list(data)[:4]], [0, 0, 0, 1])
-    # beyond the wall just while a contact lasts
+    # |Z2| exceeds the clearance exactly during contacts
     beyond = np.sign(data.relative_displacement) * (abs(data.relative_displacement) > 2)
     t = data.time.values[:, None]
     within = (t > data.contact_begin.values) & (t < data.contact_end.values)
@@ -41,7 +41,7 @@ def test_samples_and_contacts_of_a_simulation():
 
 
 def test_simulation_goes_on_where_it_stopped():
-    """From a later start, at that phase of the forcing."""
+    """A run started later, at the phase of the forcing there, continues the first run."""
     whole = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=4, samples=10)
     first = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=1.5, samples=10)
     middle = [first[name].values[-1] for name in list(first)[:4]]
@@ -94,7 +94,7 @@ def test_arguments_are_checked(wrong, message):
 @pytest.mark.parametrize("damper", [None, DESIGN, Damper(0.4, 0.625)])
 @pytest.mark.parametrize("within_gap", [True, False])
 def test_random_states_are_uniform(damper, within_gap):
-    """Moments and distributions of a ball, cut by the walls where asked for."""
+    """Moments and distributions are those of a ball, cut off by the walls with `within_gap`."""
     states = random_states(4000, 2.0, damper, 5, within_gap=within_gap)
     assert states.shape == (4000, 4)
     if damper is None:
@@ -112,7 +112,7 @@ def test_random_states_are_uniform(damper, within_gap):
             shape = (size + 1) / 2
             assert stats.kstest((1 + values / 2) / 2, stats.beta(shape, shape).cdf).pvalue > 0.001
     else:
-        # Z2 given, the others are uniform in what is left of the ball
+        # given Z2, the others are uniform in the remaining ball
         left = 1 - (states[:, 2] / 2) ** 2
         others = np.linalg.norm(states[:, [0, 1, 3]], axis=1) / (2 * np.sqrt(left))
         assert stats.kstest(others**3, "uniform").pvalue > 0.01
@@ -130,8 +130,8 @@ def test_random_states_depend_on_the_seed_only():
 
 
 def test_steady_motion_of_the_design():
-    """Two symmetric contacts a period and little motion; its state returns by simulation."""
-    # from there to T = pi, which is like T = 0
+    """It has two symmetric contacts a period and is small; a simulation returns to its state."""
+    # from W T = pi/2 to T = pi, one forcing period after T = 0
     before = simulate(PAPER, DESIGN, 2.0, ON_ORBIT, start=math.pi / 4, periods=0.75, samples=4)
     start = [float(before[name][-1]) for name in list(before)[:4]]
     data = steady_motion(PAPER, DESIGN, 2.0, start)
@@ -145,7 +145,7 @@ def test_steady_motion_of_the_design():
 
 
 def test_phases_of_a_steady_motion():
-    """Of Z1 to Z2 and to Z1 - Z2, by Fourier transform of a simulation."""
+    """Phases of Z1 relative to Z2 and to Z1 - Z2, compared with a Fourier transform."""
     for frequency in (1.8, 2.2):
         p, y = pack(PAPER, DESIGN, 2.0), np.array(ON_ORBIT)
         p, (y, _) = follow_stable(p, y, 1, FREQUENCY, frequency)
@@ -177,7 +177,7 @@ def test_results_do_not_depend_on_the_threads():
 
 
 def test_time_of_the_first_state():
-    """From T = 0 or from the strobe: a quarter of a period apart."""
+    """The first state of a motion may be given at T = 0 or at the strobe, W T = pi/2."""
     p = pack(PAPER, None, 2.0)
     (later,) = np.array(simulate(PAPER, None, 2.0, (0.3, 0.2), periods=0.25, samples=4)[
         ["displacement", "velocity", "relative_displacement", "relative_velocity"]

@@ -1,4 +1,4 @@
-"""Motions along a sweep: that they are motions, how they join, and where they end."""
+"""Motions along a sweep: periods, branches, and ends of branches."""
 
 import math
 
@@ -32,14 +32,14 @@ def free():
 
 
 def ends_of(data, event="fold"):
-    """Value, direction and size of all ends of one kind."""
+    """Return parameter, direction and displacement of all ends of branches with one event."""
     chosen = data["end_event"] == flag("end_event", event)
     columns = (data["end_value"], data["end_direction"], data["end_displacement"])
     return np.array(columns).T[chosen]
 
 
 def test_every_motion_returns(free):
-    """After its own period and no sooner, by integration from its state."""
+    """An integration from its state returns after its period and not before."""
     period, state = free["period"][1], free["state"][1]
     outcome = free["outcome"][1]
     for i, frequency in enumerate(FREQUENCIES):
@@ -51,7 +51,7 @@ def test_every_motion_returns(free):
 
 
 def test_three_branches_of_the_free_oscillator(free):
-    """Resonance, non-resonance and one-third subharmonic, each where it exists and alone."""
+    """Resonance, non-resonance and one-third subharmonic are found where they exist, no others."""
     period, size = free["period"][1], free["maximum_displacement"][1]
     assert np.array_equal((period == 1).sum(axis=1), [1, 2, 2, 2, 2, 2, 1, 1])
     assert np.array_equal((period == 3).sum(axis=1), [0, 0, 0, 1, 1, 1, 1, 0])
@@ -73,7 +73,7 @@ def test_branches_end_at_folds(free):
 
 
 def test_motions_change_at_an_end(free):
-    """Followed across each end by plain settling, a motion leaves for another size."""
+    """Simulated beyond the end of its branch, a motion settles at another displacement."""
     p = pack(PAPER, None, 2.0)
     for value, direction, size in ends_of(free):
         row = np.argmin(np.abs(FREQUENCIES - value) + 10 * ((FREQUENCIES - value) * direction > 0))
@@ -106,7 +106,7 @@ def test_shares_and_runs(free):
 
 
 def test_following_finds_what_random_starts_miss():
-    """The upper resonance branch is out of reach of a start near rest, but not of following."""
+    """A start near rest does not reach the upper resonance branch; following does."""
     frequencies = np.array([0.8, 1.1, 1.4, 1.7, 2.0])
     parameters = np.array([pack(PAPER, None, w) for w in frequencies])
     states = np.full((5, 1, 4), 0.01)
@@ -118,7 +118,7 @@ def test_following_finds_what_random_starts_miss():
 
 
 def test_mirrored_motion_is_the_same():
-    """The large motion with two contacts is not symmetric: it has a twin, which is not counted."""
+    """The large motion with two contacts is not symmetric; its mirror image is not counted."""
     p = pack(PAPER, DESIGN, 1.7)
     y = np.array([1.87868319, -2.47688679, 0.02448582, -0.45289641])
     later = y.copy()
@@ -134,10 +134,10 @@ def test_mirrored_motion_is_the_same():
 
 
 def test_sweep_of_the_clearance():
-    """The quiet motion on one branch; at every clearance it is the one found by itself."""
+    """The quiet motion is one branch, and at every clearance the motion that a single run finds."""
     clearances = np.array([1.9, 2.0, 2.1])
     parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
-    # as the orbit for 2.0 is at T = 0, in contact
+    # state of the orbit for d0 = 2 at T = 0, in contact
     states = np.array([[[-0.006288, -0.060053, d + 0.020827, -0.571848]] for d in clearances])
     data = sweep(parameters, CLEARANCE, "clearance", states, Settling())
     branch = data["branch"][1][data["contacts"][1] == 2]

@@ -27,7 +27,7 @@ def stored(damping, branch):
 
 
 def followed(damping, branch):
-    """The package's own branch, from the same first orbit."""
+    """Return the branch by this package from the same first orbit."""
     (periods, frequency, starts), span = BRANCHES[branch]
     state = folds.first_orbit(damping, frequency, starts[damping], periods)[0, 1:3]
 
@@ -56,7 +56,7 @@ def test_auto_finds_the_stored_points(tmp_path, run):
 @pytest.mark.parametrize("branch", BRANCHES)
 @pytest.mark.parametrize("damping", folds.DAMPINGS)
 def test_continuation_finds_the_points_of_auto(damping, branch):
-    """All of them and no other: the frequencies to 1e-10 at folds."""
+    """Both programs find the same points; the frequencies of folds agree to 1e-10."""
     own = followed(damping, branch)
     assert own.lost == 0
     events = sorted((event for _, event in own.events), key=lambda event: event.point.value)

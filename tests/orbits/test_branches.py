@@ -43,7 +43,7 @@ def quiet():
 
 
 def event(branch, kind, number=0):
-    """A located event of a kind, by its number."""
+    """Return an event of a branch by its kind and number."""
     return [event for _, event in branch.events if event.kind == kind][number].point
 
 
@@ -55,7 +55,7 @@ def test_every_orbit_is_exact(quiet, resonance):
 
 
 def test_folds_are_where_one_multiplier_is_one(resonance):
-    """The other follows from Liouville's theorem: a check of the place to eight digits."""
+    """The other multiplier is that of Liouville's theorem: the place is right to eight digits."""
     for number in (0, 1):
         fold = event(resonance, "fold", number)
         values = np.sort(fold.orbit.multipliers[:2].real)[::-1]
@@ -71,7 +71,7 @@ def test_folds_are_where_one_multiplier_is_one(resonance):
 
 
 def test_fold_by_simulation_on_both_sides(resonance):
-    """The resonance motion lives just below the upper fold, and is lost just above."""
+    """The resonance motion persists just below the upper fold and is lost just above."""
     fold = event(resonance, "fold")
     p = free(fold.value - 1e-4)
     below = [point for point in resonance.points if point.orbit.stable and point.value < fold.value]
@@ -95,7 +95,7 @@ def test_symmetry_is_lost_where_simulation_loses_it(resonance):
 
 
 def test_period_doubles_where_simulation_doubles_it():
-    """The large motion, followed down in frequency: period 1 above the event, 2 below."""
+    """The large motion has period 1 above the frequency of the event and period 2 below."""
     orbit = find_orbit(damped(1.7), polished_orbit("large").state)
     branch = follow_branch(damped, orbit, 1.7, (1.58, 1.8))
     doubling = event(branch, "period_doubling")
@@ -107,7 +107,7 @@ def test_period_doubles_where_simulation_doubles_it():
 
 
 def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
-    """One branch holds both; on it the quiet motion is stable from the fold on."""
+    """Both lie on one branch; from the fold on the quiet motion is stable."""
     assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
     assert all(point.orbit.sequence == "+-" for point in quiet.points)
     assert_allclose(
@@ -165,7 +165,7 @@ def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
 
 
 def test_no_guess_far_away_near_a_fold(resonance, monkeypatch):
-    """Along a tangent at right angles to the parameter a guess would be 1e5 away."""
+    """Near a fold, along the tangent, the guess at a given parameter would be 1e5 away."""
     fold = event(resonance, "fold")
     guesses = []
     monkeypatch.setattr(Problem, "correct", lambda self, x, border: guesses.append(x))
@@ -191,7 +191,7 @@ def test_what_was_found_is_told(capsys):
     ],
 )
 def test_any_parameter_ends_on_the_orbit_there(parameter, span):
-    """The last orbit of a branch is that of Newton's method with the parameter changed by hand."""
+    """The last orbit of a branch is the one that Newton's method finds at this parameter."""
     state = polished_orbit("design").state
     branch = orbit_branch(PAPER, DESIGN, 2.0, state, parameter=parameter, span=span)
     values = branch["followed_value"].values
@@ -219,7 +219,7 @@ def test_any_parameter_ends_on_the_orbit_there(parameter, span):
 
 @pytest.fixture(scope="module")
 def grazing():
-    """A branch on which the sequence of contacts changes, and where it does."""
+    """Return a damper, its branches, and the events at which the sequence of contacts changes."""
     soft = Damper(0.4, 0.625, contact_stiffness=50.0)
     response = frequency_response(PAPER, soft, [1.2, 1.4, 2.0], starts=24)
     branches = complete_branches(PAPER, soft, (0.9, 2.6), [response])
@@ -236,7 +236,7 @@ def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
 
 
 def test_contacts_on_both_sides_of_grazing(grazing):
-    """The orbits next to the event, simulated over a period, touch as often as is said."""
+    """On both sides of the event simulated orbits have the number of contacts that is stored."""
     soft, branches, changes = grazing
     counts = branches["orbit_contacts"].values
     periods = branches["branch_period"].values

@@ -1,4 +1,4 @@
-"""Orbits over a grid: which cells are reached, in which order, and how following ends."""
+"""Orbits over a grid: the cells reached, their order, and how following ends."""
 
 from types import SimpleNamespace
 
@@ -16,7 +16,7 @@ def known(point):
 
 
 def correction(lost):
-    """Orbits whose state is the point itself, without the points that are lost."""
+    """Return a correction whose orbit has the point as its state, except at the points `lost`."""
 
     def correct(point, _):
         return (None, "not_followed") if lost(*point) else (known(point), "found")
@@ -25,7 +25,7 @@ def correction(lost):
 
 
 def spread(lost, **options):
-    """All cells that are reached from a corner."""
+    """Return the grid after spreading from a corner."""
     grid = Grid(POINTS, correction(lost), **options)
     grid.put((0, 0), known([0, 0]))
     grid.spread()

@@ -1,4 +1,4 @@
-"""The quiet orbit over a grid: its ends, its multipliers and what destabilises it."""
+"""The quiet orbit over a grid: its ends, multipliers and bifurcations."""
 
 from dataclasses import replace
 
@@ -54,7 +54,7 @@ def orbit_at(damper, frequency, design_orbit):
 
 
 def settled(orbit, push):
-    """What a motion beside an orbit becomes."""
+    """Return the record of the motion that starts beside an orbit."""
     state = orbit.strobe_states[0] + push
     return ensemble.settle(orbit.p[None], state[None], SETTLING, from_strobe=True)[0]
 
@@ -134,7 +134,7 @@ def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design_orbit):
 
 @pytest.mark.parametrize("restitution", [0.5, 0.6])
 def test_with_restitution_it_ends_where_straight_flight_says(restitution):
-    """The closed form is for rigid walls at high frequency, which d0 = 0.5 comes near."""
+    """The closed form holds for rigid walls and high frequency; d0 = 0.5 is close to this limit."""
     oscillator = Oscillator(0.02)
     damper = replace(DESIGN, clearance=0.5, restitution=restitution, contact_stiffness=2e6)
     expected = straight_flight_end(oscillator, 0.5, restitution)

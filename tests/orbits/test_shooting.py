@@ -25,7 +25,7 @@ def test_residual_and_phase(orbit):
 
 
 def test_liouville(orbit):
-    """Elastic contact keeps volume, the dashpot shrinks it at a known rate."""
+    """Elastic contact conserves volume; the dashpot contracts it at a known rate."""
     assert orbit.liouville_error < 1e-11
 
 
@@ -46,7 +46,10 @@ def test_multipliers_by_heyoka(orbit):
 
 
 def test_half_the_map_squared_is_the_whole(orbit):
-    """A symmetric orbit solves y = -map(half a period, y), and that map's square is the whole."""
+    """A symmetric orbit solves y = -map(half a period, y).
+
+    This map applied twice is the map over a period.
+    """
     if not orbit.record["asymmetry"] < 1e-6:
         pytest.skip("the orbit is not symmetric")
     half, end = shoot(orbit.p, orbit.state, 1, orbit.phase, symmetric=True)
@@ -61,7 +64,10 @@ def test_multipliers_do_not_depend_on_the_phase(orbit):
 
 
 def test_contacts_of_the_design_orbit():
-    """Two, half a period apart, as fast off the wall as onto it but for the forcing's work."""
+    """There are two contacts half a period apart.
+
+    Speeds of approach and departure differ only by the work of the forcing.
+    """
     known_orbit = polished_orbit("design")
     orbit = find_orbit(known_orbit.parameters, known_orbit.state)
     wall, begin, end, approach, departure = orbit.contacts.T
@@ -75,7 +81,10 @@ def test_contacts_of_the_design_orbit():
 
 
 def test_unstable_orbit_is_found_and_left_by_simulation():
-    """The large symmetric orbit: Newton's method holds it, the flow leaves it as its multiplier."""
+    """Newton's method finds the large symmetric orbit.
+
+    A simulation leaves it at the rate of its multiplier.
+    """
     branch = follow_branch(
         lambda value: pack(PAPER, DESIGN, value),
         find_orbit(pack(PAPER, DESIGN, 2.0), polished_orbit("design").state),
@@ -93,13 +102,13 @@ def test_unstable_orbit_is_found_and_left_by_simulation():
 
 
 def test_no_orbit_is_said_so():
-    """No orbit of period 2 lives near a state far from all."""
+    """Far from all orbits Newton's method does not converge, and says so."""
     orbit = find_orbit(pack(PAPER, Damper(0.12, 2.0), 2.0), np.array([1.0, 1.0, 0.0, 4.0]), 2)
     assert not orbit.converged or orbit.repeats_sooner()
 
 
 def test_phase_leaves_a_contact():
-    """Begun inside a contact, at W T = 0 of the design orbit, the state is moved into flight."""
+    """At W T = 0 the design orbit is in contact: its state is given at a later phase, in flight."""
     known_orbit = polished_orbit("design")
     reference = find_orbit(known_orbit.parameters, known_orbit.state)
     inside = reference.p[0] * (reference.contacts[1, 1] + 0.01)

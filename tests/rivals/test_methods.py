@@ -1,4 +1,4 @@
-"""The registry of integrators: every one that a stage compares has what the stage asks for."""
+"""The registry of integrators: each implements the functions of the stages that compare it."""
 
 import subprocess
 import sys
@@ -35,7 +35,7 @@ def test_compared_integrators_implement_what_the_stage_calls(stage):
     assert set(ASKED) == set(COMPARED)
     for label in COMPARED[stage]:
         name, _ = name_and_mode(label)
-        # the stage asks the Taylor series for its first contact instead
+        # for the Taylor series the stage looks for the first contact instead
         if (stage, name) != ("missed_contacts", "taylor"):
             function = ASKED[stage]
             assert getattr(type(integrators()[name]), function) is not getattr(Integrator, function)

@@ -1,4 +1,4 @@
-"""Rival methods show their order on smooth motion, and their linear stability limit in contact."""
+"""Rival methods: order of convergence on smooth motion, and linear stability limit in contact."""
 
 import math
 
@@ -46,7 +46,9 @@ def test_order_of_fixed_steps(method, free):
 
 @pytest.mark.parametrize("locate", [False, True])
 def test_merson_follows_its_tolerance(locate, free):
-    """Error of order h^4 with an estimate of order h^5: 4/5 of the digits of the tolerance."""
+    """The error is of order h^4 and its estimate of order h^5, so the error goes as
+    tolerance^(4/5).
+    """
     p, end = free
     errors = []
     for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
@@ -68,7 +70,7 @@ def test_scipy_on_smooth_motion(method, free):
 def test_linear_stability_limit_of_the_contact(method):
     """With almost no clearance the pair of masses is a linear oscillator of frequency omega_c.
 
-    The primary's own spring is cubic and does not count for small motions.
+    The cubic spring of the primary mass is negligible for small motions.
     """
     stiffness, mass_ratio = 1e6, 0.25
     p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)
@@ -77,7 +79,7 @@ def test_linear_stability_limit_of_the_contact(method):
     limit = fixed_step.STABILITY_LIMIT[method]
 
     def growth(scaled):
-        """Largest growth per step, from the step's matrix; drift of both masses has 1."""
+        """Return the largest |eigenvalue| of a step; the drift of both masses has 1."""
         h = scaled / contact
         number = fixed_step.NAMES.index(method)
         drives = fixed_step.forcing(p, 0.0, h)

@@ -1,4 +1,4 @@
-"""Runs of the Taylor series, read off their steps, against what records motions otherwise."""
+"""Runs of the Taylor series, read off their steps, against the records of motions."""
 
 import math
 
@@ -39,7 +39,7 @@ def test_a_run_is_what_is_recorded_of_the_motion(damper):
 
 @cases
 def test_peaks_are_turning_points(damper):
-    """Where the speed vanishes, by a run that ends there."""
+    """The speed vanishes at each peak, as a run shows that ends there."""
     p, found = run(damper)
     begin = strobe_time(p)
     for k in (1, len(found.peaks) // 2, -2):

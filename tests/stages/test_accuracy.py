@@ -1,4 +1,4 @@
-"""Errors and counted work of methods on scenes, and the choice that stages use."""
+"""Errors and counted work of methods on scenes, and the tolerance that stages use."""
 
 import json
 import math
@@ -144,7 +144,7 @@ def test_the_taylor_series_comes_to_the_extended_reference(inelastic):
     assert (np.diff(found["operations"]) > 0).all()
     other = of(inelastic, "taylor_10_13")
     assert (other["state_error"].values < 0.1 * np.array(FEW["taylor"])).all()
-    # of lower order: cheaper for a loose tolerance, dearer for a tight one
+    # a lower order costs less at a loose tolerance and more at a tight one
     dearer = other["operations"].values > found["operations"].values
     assert list(dearer) == sorted(dearer) and dearer[-1]
 
@@ -192,7 +192,7 @@ def test_events_near_grazing_are_missed_by_those_who_look_at_the_ends_of_steps()
 def typical_averages(given, integrate, periods, exponents=False):
     """Medians over five starts of averages and their errors.
 
-    In one of them the loose mass may be left almost at rest for hundreds of periods.
+    In one run the loose mass may be almost at rest for hundreds of periods.
     """
     begin, found = strobe_time(given.p), []
     for shift in 1e-3 * np.arange(5):
@@ -221,7 +221,7 @@ def test_averages_agree_between_methods_and_have_errors_that_fall():
 
 
 def loosest_tolerance(data):
-    """The tolerance of the Taylor series with the least work such that all tighter ones do too."""
+    """Return the loosest tolerance of the series that, with all tighter ones, is accurate."""
     of = data["method"].values == "taylor"
     tolerances = data["setting"].values[of]
     meets = data["meets_accuracy"].values[of] == flag("meets_accuracy", "yes")

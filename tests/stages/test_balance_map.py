@@ -74,7 +74,7 @@ def test_classes_are_what_both_sides_say(over_restitution):
 
 
 def test_the_orbit_exists_only_before_the_fold_with_restitution(over_restitution):
-    """At e = 0.6 the quiet orbit is gone at the design point, where the balance has it stable."""
+    """At e = 0.6 the balance predicts a stable quiet orbit at the design point; there is none."""
     verdict = names(over_restitution, "quiet_verdict")
     design = np.argmin(np.abs(RATIOS - 1))
     assert verdict[0, design] == "stable_absent"
@@ -85,7 +85,7 @@ def test_the_orbit_exists_only_before_the_fold_with_restitution(over_restitution
 
 
 def test_absence_by_simulation():
-    """Beyond its end no start comes to the quiet orbit, before it some do."""
+    """Beyond the end no start leads to the quiet orbit, before it some do."""
     damper = Damper(0.12, 2.0, restitution=0.6)
     for ratio, expected in ((0.7, True), (1.0, False)):
         frequency = ratio * peak_frequency(PAPER)

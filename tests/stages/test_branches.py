@@ -1,4 +1,4 @@
-"""Periodic orbits with labels: what is stored of an orbit against the motion simulated from it."""
+"""Datasets of periodic orbits against the motion simulated from the stored state."""
 
 import numpy as np
 import pytest

@@ -55,7 +55,7 @@ def test_logged_contacts_are_those_of_the_simulation():
 
 
 def test_stiffer_contacts_come_closer_to_the_closed_form():
-    """What it leaves out, the change of the load in contact, goes as the time of contact."""
+    """The closed form neglects the change of the load during a contact."""
     scene = polished_orbit("inelastic")
     errors = []
     for stiffness in (1e4, 1e6):
@@ -86,7 +86,7 @@ def test_dataset(model):
 
 
 def test_why_a_motion_without_pull_is_not_given():
-    """A motion is told that has not settled, or whose contacts are not those of the orbit."""
+    """Either the motion has not settled, or its contacts are not those of the orbit."""
     settling = Settling()
     motion, _ = extreme_motions(PAPER, INELASTIC, 2.0, 2, 1995, settling)
     names = VARIABLES["scene_without_pull_status"].flags

@@ -1,4 +1,4 @@
-"""The true quiet orbit at design points: against simulation on both sides of where it is stable."""
+"""The exact quiet orbit at design points, simulated where it is stable and where it is not."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def linear():
 
 
 def settles(damping, data):
-    """Whether a motion begun beside the orbit at a damping settles on it."""
+    """Return whether a motion that starts beside the orbit settles on it."""
     place = int(np.argmin(np.abs(data["followed_value"].values - damping)))
     oscillator = Oscillator(float(data["followed_value"][place]), 1.5)
     p = pack(oscillator, RULE, peak_frequency(LINEAR))
@@ -58,7 +58,7 @@ def test_starts_do_not_settle_where_it_is_unstable(linear):
 
 
 def test_an_orbit_that_is_not_found_is_said_so():
-    """Where the only start meets no wall there is nothing to follow."""
+    """The only start meets no wall, so there is no orbit to follow."""
     data = design_orbit(LINEAR, Damper(0.12, 500.0), starts=1)
     assert data["design_orbit_status"] == flag("design_orbit_status", "no_start")
     assert data.sizes["point"] == 0

@@ -1,4 +1,4 @@
-"""Optima of exact orbits: against clearance sweeps, quadrature and runs; the table, the figure."""
+"""Optima of exact orbits, against clearance sweeps, quadrature and runs; table and figure."""
 
 import numpy as np
 import pytest
@@ -82,7 +82,7 @@ def test_a_motion_that_ends_before_its_minimum_and_one_that_is_not_there():
 
 @pytest.mark.parametrize(("mass_ratio", "stable"), [(0.12, False), (0.4, True)])
 def test_stability_is_what_a_run_shows(mass_ratio, stable):
-    """With linear stiffness a light loose mass leaves its quiet motion, started close to it."""
+    """With linear stiffness the quiet motion of a light loose mass is unstable: a run leaves it."""
     oscillator, frequency = Oscillator(0.215, 1.5), 2.3
     cell = design_rules(oscillator, [mass_ratio], [1.0], [2000.0], [frequency]).squeeze()
     cell = cell.sel(criterion="displacement")
@@ -101,7 +101,10 @@ def test_stability_is_what_a_run_shows(mass_ratio, stable):
 
 
 def test_rules_and_excess(grid):
-    """Rule (18) is 1 and pi^2/8 a constant; excess is not negative; explicit for e = 1 alone."""
+    """rm W^2 d0 is 1 by rule (18) and pi^2/8 by the first harmonic; the excess is not negative.
+
+    The explicit formula holds for e = 1 only.
+    """
     rules = grid.rule_ratio
     assert np.all(rules.sel(rule="balance") == 1)
     assert_allclose(rules.sel(rule="gap_harmonic"), np.pi**2 / 8)

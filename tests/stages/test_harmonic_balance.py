@@ -1,4 +1,4 @@
-"""Design rule, response and suppression band: meaning, limits and what happens at the edges."""
+"""Design rule, response and suppression band: closed forms, limits and edges."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def stable_amplitudes(frequency, oscillator=CUBIC, damper=PAPER):
 
 @pytest.mark.parametrize("linear, rounded", [(0.0, 2.07), (1.0, 1.83), (1.5, 1.57)])
 def test_optimum_clearance(linear, rounded):
-    """Rule (19) for figure 3; the rigid balance then has a motion of no amplitude at Wp."""
+    """With the clearance of rule (19) the rigid balance has a solution of amplitude 0 at Wp."""
     oscillator = Oscillator(0.215, linear)
     clearance = optimum_clearance(oscillator, 0.12)
     assert_allclose(clearance, rounded, atol=5e-3)
@@ -87,7 +87,7 @@ def test_response_survives_a_file(response, tmp_path):
 
 
 def test_band_of_the_paper(band):
-    """Below the lower edge a large antiphase motion is stable too; above, only the quiet one."""
+    """A large antiphase motion is stable below the lower edge; above it only the quiet one is."""
     lower, upper = band.edge_frequency.values
     assert band.band_status == flag("band_status", "found")
     assert lower < band.peak_frequency < upper
@@ -105,7 +105,7 @@ def test_upper_edge_is_the_fold_of_the_free_response(band):
 
 
 def test_lower_edge_is_a_fold(band):
-    """At a fold two solutions meet and an eigenvalue is zero: growth falls as a square root."""
+    """At a fold an eigenvalue vanishes, as the square root of the distance in frequency."""
     lower = float(band.edge_frequency[0])
     rates = []
     for distance in (1e-5, 1e-7):
@@ -139,7 +139,7 @@ def test_band_without_folds_ends_where_nothing_is_gained():
 
 
 def test_no_band_where_the_damper_is_too_light():
-    """The resonance branch then hardly moves and goes on at Wp beside the quiet motion."""
+    """A light damper hardly changes the resonance branch, which continues past Wp."""
     damper = Damper(0.0005, 0.1)
     band = suppression_band(CUBIC, damper)
     assert len(stable_amplitudes(float(band.peak_frequency), damper=damper)) == 2

@@ -1,4 +1,4 @@
-"""Convergence of harmonic balance: the rates that theory predicts, and what failed."""
+"""Convergence of harmonic balance: rates against theory, and failures."""
 
 import numpy as np
 import pytest
@@ -101,7 +101,7 @@ def test_wrong_arguments_are_named(change, message):
 
 
 def test_failures_are_stored():
-    """Walls so stiff that 63 harmonics cannot be reached from one."""
+    """With very stiff walls Newton's method for 63 harmonics fails from a single harmonic."""
     stiff = Damper(0.12, 2.0, contact_stiffness=1e8)
     data = harmonic_convergence.harmonic_convergence(PAPER, stiff, 2.0, [63])
     assert data["series_status"][0] != flag("series_status", "converged")

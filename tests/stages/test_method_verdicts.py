@@ -1,4 +1,4 @@
-"""Verdicts: the truth of a scene by another program, the rule on made-up states."""
+"""Verdicts: the truth of a scene against another program, and the rule on invented states."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Migration control: against SciPy's integrator, and its books balance."""
+"""Migration control: runs against SciPy's integrator, and consistent totals."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ SMALL = {"trials": 20, "releases": 40, "lifetime": 1000, "longest_hold": 20}
 
 
 def course(frequency, state, span, damper=None, times=None):
-    """Motion by DOP853, with contacts through short steps where there is a damper."""
+    """Return a motion by DOP853, with short steps through contacts if there is a damper."""
 
     def slope(t, y):
         push = 0.0
@@ -44,7 +44,7 @@ def runs():
 
 
 def test_every_run_ends_once(runs):
-    """Switchings are made until the goal is reached, in order, and all are counted."""
+    """Switchings follow each other in time until the goal is reached, and all are counted."""
     goal = flag("destination", "non_resonance")
     made = runs.destination.values != flag("destination", "none")
     assert_array_equal(made.sum(axis=1), runs.switchings)
@@ -62,7 +62,7 @@ def test_every_run_ends_once(runs):
 
 
 def test_destinations_are_single_motions(runs):
-    """All releases to a free motion of one name settle on one displacement."""
+    """Releases that lead to the same named motion have the same displacement."""
     for name in ("non_resonance", "resonance", "subharmonic"):
         there = runs.destination_displacement.values[
             runs.destination.values == flag("destination", name)
@@ -71,7 +71,7 @@ def test_destinations_are_single_motions(runs):
 
 
 def test_workers_and_file(runs, tmp_path):
-    """Two threads give what one gives, and a file gives it back."""
+    """Two threads give the same dataset as one, and so does loading the saved file."""
     again = trials(CUBIC, PAPER, 1.85, **SMALL, workers=2)
     assert again.identical(runs)
     save(runs, tmp_path / "runs.nc")
@@ -79,7 +79,7 @@ def test_workers_and_file(runs, tmp_path):
 
 
 def test_single_run_is_the_trial(runs):
-    """`migrate` with the seed of the example gives the example, trace included."""
+    """`migrate` with the seed of the example repeats the example and its trace."""
     example = int(runs.example)
     seed = np.random.SeedSequence(1995).spawn(2)[0].spawn(SMALL["trials"])[example]
     one = migrate(CUBIC, PAPER, 1.85, seed=seed, longest_hold=20)
@@ -101,14 +101,14 @@ def test_course_of_a_run():
         inside = (run.time >= first) & (run.time < last)
         times = np.append(run.time.values[inside], last)
         path = course(1.95, y, (first, last), damper, times)
-        # the reference steps over the walls, and the free transient amplifies what that costs
+        # the reference does not locate contacts; the free transient amplifies this error
         assert_allclose(path[0, :-1], run.displacement.values[inside], atol=1e-4)
         y = path[:, -1]
 
 
 @pytest.mark.parametrize("row", [1, 2])
 def test_releases(runs, row):
-    """Releases of the quiet motion and of the one of period 3, each followed by SciPy."""
+    """Releases of the quiet motion and of the motion of period 3 lead where SciPy's runs lead."""
     maxima = {}
     for k in range(0, 40, 4):
         begin = (float(runs.release_phase[row, k]) % 1 + 0.25) * 2 * np.pi / 1.85
@@ -133,7 +133,7 @@ def test_shares_of_releases(runs):
 
 @pytest.mark.parametrize("frequency", [1.31, 1.7, 2.014])
 def test_scene(frequency):
-    """Both free motions are found up to their folds, near those of harmonic balance."""
+    """Both free motions are found up to their folds, close to the folds by harmonic balance."""
     known = release_case(CUBIC, PAPER, frequency, Settling()).known
     free = free_solutions(CUBIC, min(frequency, 2.0))
     assert_allclose(known, free.amplitude[[0, -1]], rtol=0.08)
@@ -146,7 +146,7 @@ def test_nothing_to_migrate_between(frequency):
 
 
 def test_survival():
-    """Kaplan and Meier's estimate of SciPy, with runs alive at the horizon censored."""
+    """Compare with SciPy's Kaplan-Meier estimate; runs that survive the horizon are censored."""
     lives = np.array([3, 12, 12, 25, 40, 77, 100, 100])
     times = np.array([0, 10, 12, 30, 80])
     data = CensoredData(uncensored=lives[lives <= 80], right=np.full(2, 80))
@@ -158,7 +158,7 @@ def test_survival():
 
 
 def test_escape_rate():
-    """By hand, and with the true rate inside most intervals."""
+    """A case by hand; and intervals of drawn lifetimes mostly contain the true rate."""
     rate = escape_rate(np.array([10, 30, 40, 200]), horizon=100, lead=20)
     assert_allclose(rate[0], 2 / (10 + 20 + 80))
     generator = np.random.default_rng(0)
@@ -169,7 +169,7 @@ def test_escape_rate():
 
 
 def test_wilson():
-    """Against the closed form of an interval for no successes: z^2/(n + z^2)."""
+    """Without successes the upper end is z^2/(n + z^2)."""
     square = 1.959964**2
     assert_allclose(wilson(0, 10), [0, 0, square / (10 + square)], atol=1e-6)
     assert np.isnan(wilson(0, 0)).all()

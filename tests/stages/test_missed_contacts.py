@@ -1,4 +1,4 @@
-"""Contacts near grazing: what is known of them, what SciPy's own events find, and the count."""
+"""Contacts near grazing: the passages, SciPy's own events, and the counts."""
 
 import math
 
@@ -75,7 +75,7 @@ def test_the_taylor_series_misses_none_and_invents_none(passages):
 
 @pytest.mark.parametrize("method", ["RK45", "DOP853", "LSODA"])
 def test_scipy_events_find_what_the_ends_of_steps_show(method, passages):
-    """SciPy's own events, one for each depth, on the same flights."""
+    """Runs with an event for each depth find the same contacts on the same flights."""
     p, drawn = passages
     free = free_flight(p)
 
@@ -135,7 +135,7 @@ def test_every_passage_is_counted_once(counted):
 
 @pytest.mark.parametrize("method", ["merson", "RK45", "DOP853"])
 def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
-    """A rate that is nowhere finite."""
+    """A rate that is never finite makes every run fail."""
     p, drawn = passages
     p = free_flight(p)
     p[2] = -np.inf
@@ -153,7 +153,7 @@ def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
 
 
 def test_failed_runs_are_neither_found_nor_missed(counted):
-    """In table and figure alike: the share missed is that of the runs that came to their end."""
+    """In table and figure the share missed counts only runs that reached their end."""
     data = counted.copy(deep=True)
     given = data.passage_count.sel(integrator="merson")
     given[0] = 0

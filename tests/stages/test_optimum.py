@@ -1,4 +1,4 @@
-"""Optimum clearance: against direct simulation, closed forms, and what happens at the edges."""
+"""Optimum clearance: against simulation and closed forms, and at the edges of the sweep."""
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ def sweeps():
 
 
 def settled(damper, clearance):
-    """max |Z1| of the last periods of a long run towards the quiet motion, by dense samples."""
+    """Return max |Z1| over the last periods of a long run to the quiet motion, by dense samples."""
     flight = 4 * clearance / np.pi
     motion = simulate(
         PAPER,
@@ -67,7 +67,10 @@ def test_near_range_is_where_the_minimum_is_exceeded_by_a_tenth(sweeps, case):
 
 
 def test_kind_of_minimum(sweeps):
-    """Elastic: the displacements at an impact and between impacts cross. Inelastic: smooth."""
+    """With e = 1 the displacements at and between impacts cross at the minimum, a kink.
+
+    With e < 1 the minimum is smooth.
+    """
     assert [int(sweep.optimum_kind) for sweep in sweeps] == [
         flag("optimum_kind", "kink"),
         flag("optimum_kind", "smooth"),
@@ -87,7 +90,7 @@ def test_quiet_motion_is_no_larger_than_the_largest_reached(sweeps):
 
 
 def test_analytical_optimum_has_no_amplitude_and_tends_to_the_rule():
-    """a = 0 asks for rm W^2 b = 1 and r1 B(b) = 1; B grows like (b - d0)^(3/2)."""
+    """a = 0 requires rm W^2 b = 1 and r1 B(b) = 1, where B grows as (b - d0)^(3/2)."""
     excess = []
     for stiffness in (2e3, 2e5, 2e7):
         damper = ELASTIC | {"contact_stiffness": stiffness}
@@ -128,7 +131,7 @@ def test_straight_flight_ratio_is_the_limit_of_rigid_walls_at_high_frequency(
     damper = {"mass_ratio": mass_ratio, "restitution": restitution, "contact_stiffness": 1e8}
     frequency = 30.0
     clearances = np.linspace(0.4, 1.6, 7) / (mass_ratio * frequency**2)
-    # Of elastic starts one in twenty comes to the quiet motion.
+    # With e = 1 one start in twenty leads to the quiet motion.
     sweep = clearance_sweep(
         Oscillator(0.1), damper, frequency, clearances, starts=32, radius=2 * clearances[-1]
     )
@@ -151,7 +154,10 @@ def test_optimum_at_the_edge_of_the_sweep():
 
 
 def test_no_quiet_motion(tmp_path):
-    """Beyond the fold of its branch; the file is whole all the same."""
+    """Beyond the fold of its branch there is no quiet motion.
+
+    The dataset is complete nevertheless.
+    """
     sweep = run(INELASTIC | {"mass_ratio": 0.12}, 2.6, 3.0, points=3)
     assert np.all(sweep.quiet_status == flag("quiet_status", "absent"))
     assert sweep.optimum_kind == flag("optimum_kind", "not_found")
@@ -160,7 +166,7 @@ def test_no_quiet_motion(tmp_path):
 
 
 class Line(_Branch):
-    """A branch that ends at 1.3 and whose displacement is the clearance."""
+    """Branch that ends at d0 = 1.3 and whose displacement equals the clearance."""
 
     def displacement(self, clearance):
         return clearance if clearance >= 1.3 else np.inf

@@ -34,7 +34,7 @@ def test_response_holds_what_random_starts_come_to(response):
 
 
 def test_quiet_motion_is_there(response, design_orbit):
-    """One motion of two contacts on one branch; at W = 2 the known orbit."""
+    """There is one branch with two contacts a period; at W = 2 it is the known orbit."""
     quiet = (response.contacts == 2) & (response.period == 1)
     assert np.all(quiet.sum("motion") == 1)
     assert len(np.unique(response.branch.values[quiet.values])) == 1
@@ -75,7 +75,7 @@ def test_arguments_are_checked(wrong, message):
 
 
 def test_one_frequency_has_no_ends():
-    """A number will do; with nothing to follow to, each motion is a branch by itself."""
+    """A single number is accepted; each motion is then a branch of its own, without ends."""
     data = frequency_response(PAPER, None, 2.0, starts=12)
     assert data.sizes["frequency"] == 1 and data.sizes["end"] == 0
     branches = data.branch.values[data.branch.values >= 0]
@@ -91,7 +91,7 @@ def test_arguments_of_collisions(wrong):
 
 
 def test_collisions():
-    """Starts beyond a wall are as many as the ball has; the others wait as simulated."""
+    """The share beyond a wall is that of the ball; other starts collide when a simulation does."""
     damper, starts = Damper(0.25, 1.0), 1500
     data = collisions(PAPER, damper, 1.8, starts=starts, periods=60)
     literal, within = data.isel(ball=0), data.isel(ball=1)

@@ -23,7 +23,7 @@ NEAR = 0.2
     [(DESIGN, "design"), (INELASTIC, "inelastic"), (replace(INELASTIC, restitution=0.7), None)],
 )
 def test_orders(damper, name):
-    """States of the orbits differ by r1^(-1/2); with walls mended, by 1/r1."""
+    """States of rigid and compliant orbits differ by r1^(-1/2), with mended walls by 1/r1."""
     guess = polished_orbit(name or "inelastic").state
     errors = []
     for stiffness in (1e5, 1e6):
@@ -42,7 +42,7 @@ def test_an_orbit_repeats_and_is_symmetric():
     again, _ = rigid_orbit(PAPER, INELASTIC, 2.0, orbit.state + 1e-3, NEAR)
     assert_allclose(again.state, orbit.state, atol=1e-10)
     mirrored, _ = rigid_orbit(PAPER, INELASTIC, 2.0, -orbit.state, NEAR)
-    # the mirror image half a period on is the same motion, at the strobe another state
+    # the mirror image half a period later is the same motion with another state at the strobe
     assert mirrored is None
 
 
@@ -67,7 +67,7 @@ def test_dataset(limit):
 
 
 def test_stiffness_needed(limit):
-    """The error is that threshold there, by a solution of its own."""
+    """At the stiffness given, a separate solution has the error of the threshold."""
     row = limit.sel(frequency=1.95)
     for level, r1, status in zip(
         limit.threshold.values, row.needed_stiffness.values, row.needed_status.values, strict=True

@@ -1,4 +1,4 @@
-"""Largest stable steps: exact orbits by laws and heyoka, cells by their definition."""
+"""Largest stable steps: exact orbits against laws and heyoka, cells against their definition."""
 
 import math
 
@@ -24,7 +24,7 @@ def test_orbits_return_by_heyoka(damper, heyoka_references):
 
 
 def test_the_displacement_tends_to_that_of_rigid_walls():
-    """At rate r1^(-1/2), with which the time in contact goes to zero."""
+    """The difference falls as r1^(-1/2), like the time in contact."""
     r1 = 10.0 ** np.array([4.0, 5.0, 6.0, 7.0])
     found = steps.orbits_over_stiffness(PAPER, DESIGN, 2.0, r1)
     sizes = np.array([orbit.displacement for orbit in found])

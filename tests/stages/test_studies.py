@@ -1,4 +1,4 @@
-"""A study does not depend on how it is cut, and its chunks come back to their cells."""
+"""A study does not depend on its division into chunks, and each chunk fills its own cells."""
 
 import json
 import math
@@ -42,7 +42,7 @@ def entire():
 
 
 def made_up(shape, cells, made=7):
-    """A chunk whose values tell its cells."""
+    """Return a chunk whose values are functions of the number of the cell."""
     names = ("mass_ratio", "clearance", "frequency", "restitution")
     axes = {name: np.linspace(0.1, 1, n) for name, n in zip(names, shape, strict=True)}
     numbers = np.arange(*cells)
@@ -172,7 +172,7 @@ def test_every_start_is_counted_once(entire):
 
 def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator():
     axes = AXES | {"mass_ratio": [0.12], "clearance": [1000], "restitution": [1]}
-    # so short that the loose mass flies on for longer
+    # shorter than a flight of the loose mass
     settling = Settling(patience=100, limit=100, watched=20)
     wide = studies.study_chunk(PAPER, axes, (0, 1), starts=20, settling=settling).isel(cell=0)
     starts = random_states(20, 2.0, Damper(0.12, 1000), [1995, 0])[:, :2]
@@ -193,7 +193,7 @@ def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator()
         ({"cells": (3, 3)}, r"cells\[1\] = 3: must be from 4 to 8"),
         ({"cells": (-1, 3)}, r"cells\[0\] = -1: must be from 0 to 7"),
         ({"starts": 0}, "starts = 0"),
-        # told by the first chunk, though the last cell alone has it
+        # raised by the first chunk, although only the last cell is out of range
         ({"axes": AXES | {"mass_ratio": [1, 20]}}, "mass_ratio = 20: must be .*at most 10"),
         ({"axes": AXES | {"clearance": [1e-3, 1]}}, "radius = 2: must be .*at most 1"),
         ({"oscillator": None}, "oscillator = None: must be an Oscillator"),

@@ -1,4 +1,4 @@
-"""One-third subharmonic: against long runs on both sides of its ends, and laws it must obey."""
+"""One-third subharmonic: against long runs on both sides of its ends, and against laws."""
 
 import numpy as np
 import pytest
@@ -61,7 +61,10 @@ def test_free_subharmonic_ends_where_long_runs_leave_it(free, side):
 
 
 def test_free_subharmonic_is_symmetric_and_balances_its_energy(free):
-    """Half its time later it is mirrored; the forcing's work is what damping takes."""
+    """Half its period later the motion is mirrored.
+
+    The work of the forcing is dissipated by damping.
+    """
     state = free.at(1.9)["state"]
     motion = from_strobe(state, None, 1.9, 3)
     half = motion.displacement.values[len(motion.time) // 2 :]
@@ -116,7 +119,7 @@ def test_damped_branch_ends_where_long_runs_leave_it(damped):
 
 
 def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free):
-    """With walls out of reach the state at T = 0 is one of the three of the free motion."""
+    """With walls out of reach the state at T = 0 is one of three states of the free motion."""
     p = pack(PAPER, Damper(0.12, 500.0), 1.9)
     state = free.at(1.9)["state"]
     loose = np.tile([0.0, 0.0, 1.0, 2.0], (20, 1))
@@ -145,7 +148,7 @@ def test_suppression_by_size():
 
 
 def test_no_free_subharmonic(tmp_path):
-    """Heavy damping leaves none; the frequencies stay as given and the file is whole."""
+    """With heavy damping there is none; frequencies stay as given, and the dataset is complete."""
     frequencies = np.linspace(1.6, 2.2, 3)
     data = subharmonic_suppression(Oscillator(1.0), DAMPER, frequencies, starts=4)
     assert_allclose(data.frequency, frequencies)

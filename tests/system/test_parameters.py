@@ -1,4 +1,4 @@
-"""Parameters: what they mean, and what a bad one is answered."""
+"""Parameters: their meaning, and the errors for wrong values."""
 
 import math
 from functools import partial

@@ -1,4 +1,4 @@
-"""Tables: a row for each thing that was computed, and files that are whole and always the same."""
+"""Tables: a row for each computed case; files are complete and reproducible."""
 
 import numpy as np
 import pandas as pd

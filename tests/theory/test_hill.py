@@ -1,4 +1,4 @@
-"""Hill's method against the exact variational equations, Liouville's theorem, and itself."""
+"""Hill's method against the exact variational equations and Liouville's theorem."""
 
 import numpy as np
 import pytest
@@ -53,7 +53,7 @@ def test_eigenvalues_near_zero_are_those_of_the_whole_problem(monkeypatch):
 
 
 def test_all_harmonics_give_the_same_multipliers():
-    """A symmetric motion, its disturbances not restricted to odd harmonics."""
+    """With all harmonics in the disturbances the multipliers are the same as with odd ones."""
     odd = solve(Balance(PAPER, None, 1.9, 15), single_term(PAPER, None, 1.9))
     spread = np.zeros((1, 16), complex)
     spread[:, 1::2] = odd.coefficients

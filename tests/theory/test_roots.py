@@ -1,4 +1,4 @@
-"""Real roots: double ones are kept, complex ones dropped, and none is missed."""
+"""Real roots: double roots are kept, complex ones dropped, and none is missed."""
 
 import numpy as np
 import pytest

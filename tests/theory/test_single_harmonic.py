@@ -17,7 +17,7 @@ PAPER = Oscillator(0.215), Damper(0.12, 2.0)
 
 
 def random_scenes(count, seed):
-    """Oscillators, dampers and frequencies well beyond the paper's."""
+    """Yield random oscillators, dampers and frequencies in wider ranges than the paper's."""
     generator = np.random.default_rng(seed)
     for _ in range(count):
         oscillator = Oscillator(10 ** generator.uniform(-1.5, 0.3), generator.uniform(0, 3))
@@ -131,7 +131,7 @@ def test_soft_walls_too():
 
 
 def test_near_double_solutions_are_kept_up_to_the_fold():
-    """Just below the fold of the antiphase pair both solutions are there, just above neither."""
+    """Just below the fold of the antiphase pair both solutions exist, just above neither does."""
 
     def count(frequency):
         return len(impacting_solutions(*PAPER, frequency).phase)

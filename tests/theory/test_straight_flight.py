@@ -1,4 +1,4 @@
-"""Closed forms for the optimum clearance: against sampled motions, laws, and exact orbits."""
+"""Closed forms for the optimum clearance, against sampled motions, laws, and exact orbits."""
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ CASES = [(0.05, 1.0), (0.12, 1.0), (0.4, 1.0), (0.12, 0.97), (0.25, 0.9), (0.12,
 
 @pytest.mark.parametrize(("mass_ratio", "restitution"), CASES)
 def test_optima_of_sampled_straight_flights(mass_ratio, restitution):
-    """Both criteria by brute force on samples, whose largest is true to 1e-9, its place to 1e-4."""
+    """Minimised over samples, both criteria are exact to 1e-9, and their places to 1e-4."""
     loss = 2 / np.pi * (1 + 1 / mass_ratio) * (1 - restitution) / (1 + restitution)
     most = min(1.5, 0.999 / loss) if loss else 1.5
 
@@ -114,7 +114,10 @@ def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 @pytest.mark.parametrize("restitution", [1.0, 0.75])
 def test_what_a_contact_of_finite_duration_leaves_is_of_second_order(restitution):
-    """r1 times 16, the contact a quarter: errors a sixteenth, without corrections a quarter."""
+    """With 16 times the r1 a contact lasts a quarter of the time.
+
+    The errors fall to a sixteenth, without corrections to a quarter.
+    """
     errors, uncorrected = [], []
     for stiffness in (4e3, 6.4e4):
         exact, rules, flight = optima(Oscillator(0.02), 0.25, restitution, stiffness, 8.0)
@@ -141,7 +144,7 @@ def test_damping_and_linear_stiffness_are_exact(oscillator, mass_ratio, restitut
 
 
 def test_explicit_ratios_are_of_first_order():
-    """Halving contact and damping quarters what the explicit formulas leave."""
+    """Halving the time in contact and the damping quarters the error of the explicit formulas."""
     left = []
     for half in (1.0, 0.5):
         flight = Flight(0.2, 1.0, 0.02 * half, 0.04 * half)

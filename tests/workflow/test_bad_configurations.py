@@ -1,6 +1,6 @@
-"""No broken configuration starts a job: a line tells key, value and what is allowed.
+"""A wrong configuration starts no job: a line names key, value and what is allowed.
 
-What is broken is known from how it was made (`broken`), not from the models.
+The fault is known from the way the configuration was made (`broken`), not from the models.
 """
 
 import re
@@ -54,7 +54,7 @@ def test_what_is_broken_is_told(made):
 @settings(fuzz, max_examples=100)
 @given(st.sampled_from([path for path, _ in places(SMALL) if path]), junk)
 def test_nothing_at_any_place_is_worse_than_rejected(path, value):
-    """What is accepted by chance is of the kind of what stands there."""
+    """A random value that is accepted is of the type of the valid value there."""
     try:
         check_configuration(changed(path, value).config())
     except ConfigurationError as error:

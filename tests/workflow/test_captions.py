@@ -1,4 +1,4 @@
-"""Parameters in the words of captions."""
+"""Parameters as words in captions."""
 
 from dataclasses import fields
 

@@ -1,4 +1,4 @@
-"""The paper's configuration is accepted; a broken one is answered with a line for each problem."""
+"""The paper's configuration is accepted; a wrong one is refused with a line for each problem."""
 
 import copy
 import math
@@ -98,7 +98,7 @@ def test_valid_extremes_are_accepted(path, value):
 
 @pytest.mark.parametrize("value", [math.nan, -math.inf, None, {}, [[]], True])
 def test_each_value_of_another_kind_has_its_line(value):
-    """All leaves at once: a line for each, which begins with its key, and no others."""
+    """With all values wrong at once there is one line for each value, which begins with its key."""
     lines = problems(with_all_leaves(value))
     # keys without values could be a range of a study
     lines = [line for line in lines if not line.endswith("needed here: first, last, points")]
@@ -112,7 +112,7 @@ def test_each_value_of_another_kind_has_its_line(value):
 
 
 def test_each_missing_value_has_its_line():
-    """All leaves at once; those of a damper and the tolerance of a scene may be left out."""
+    """With all values missing at once there is a line for each, except for optional ones."""
 
     def emptied(part):
         return {key: emptied(value) for key, value in part.items() if isinstance(value, dict)}
@@ -404,7 +404,7 @@ def bounds():
 
 @pytest.mark.parametrize(("path", "known"), list(bounds()))
 def test_the_configuration_has_the_bounds_of_the_library(path, known):
-    """Beyond each end a value is refused by its own bounds, and at the end it is not."""
+    """A value at an end of its range is accepted, a value beyond is refused with these bounds."""
     key = path.replace("/", ".")
     for end, direction in ((known["least"], -math.inf), (known["most"], math.inf)):
         beyond = math.nextafter(end, direction)

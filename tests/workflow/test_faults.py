@@ -1,4 +1,4 @@
-"""What is quick of the trials of faults; `make faults` tries them all."""
+"""The quick ones of the trials of faults; `make faults` runs them all."""
 
 import os
 import subprocess
@@ -13,14 +13,14 @@ pytestmark = pytest.mark.workflow
 FILE = "results/harmonic_balance/figure_05a.nc"
 YEAR = 365 * 86400
 
-# Code of a job: it takes over its log, and then does what is inserted.
+# Code of a job: it opens its log and then runs the statement that is inserted.
 JOB = (
     "import sys, time; from types import SimpleNamespace; from impact_damper.workflow.job "
     "import Job; "
     "Job(SimpleNamespace(log=[{!r}], output=['a.nc'], params=[])); print('begun'); {}"
 )
 LONG = "time.sleep(60); sys.__stdout__.write('lived on')"
-# What starts a job, and waits.
+# Code of a run: it starts a job, and waits.
 RUN = "import subprocess, sys; subprocess.Popen([sys.executable, '-c', {!r}]); sys.stdin.read()"
 
 
@@ -33,7 +33,7 @@ def job_log(folder):
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
-    """A project that has run, without a job that takes kernels."""
+    """Return a project that has run one job, which needs no kernels."""
     project = Project(tmp_path_factory.mktemp("faults") / "a project")
     code, told = project.run(targets=[FILE])
     assert code == 0, told
@@ -75,13 +75,13 @@ def test_a_job_ends_with_its_run(tmp_path):
         while not (log.exists() and log.read_text()):
             time.sleep(0.05)
         run.kill()
-        # The job holds the other end of this pipe: it is read until the job has ended.
+        # The job holds the other end of this pipe, so reading blocks until the job has ended.
         assert run.stdout.read() == ""
 
 
 @pytest.mark.parametrize("kind, lines", [("OSError", 1), ("ValueError", None)])
 def test_what_stops_a_job_is_told(kind, lines, tmp_path):
-    """A file that stops it in one line, to terminal and log; else a traceback in the log."""
+    """A file error is one line on terminal and log, another error a traceback in the log."""
     log = job_log(tmp_path)
     command = JOB.format(str(log), f"raise {kind}('a.nc is broken')")
     job = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)

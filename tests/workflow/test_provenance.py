@@ -1,4 +1,4 @@
-"""Where results come from is told in full."""
+"""The record of versions, commit, configuration and machine is complete."""
 
 import shutil
 import subprocess

@@ -19,7 +19,7 @@ def test_caption_of_a_figure(name):
     module = import_module(f"impact_damper.{KINDS[figure['kind']].source}")
     text = caption(figure, module.CAPTION)
     assert text.startswith(figure["title"])
-    # Between bars reStructuredText expects the name of a substitution.
+    # In reStructuredText a text between bars is the name of a substitution.
     assert "|" not in text.replace(r"\|", "")
 
 

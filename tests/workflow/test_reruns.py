@@ -1,6 +1,6 @@
 """After an edit exactly those jobs run again that depend on it.
 
-Snakemake is asked about a project whose results were only touched.
+Snakemake plans for a project whose results are empty files.
 """
 
 import copy
@@ -68,7 +68,7 @@ FILES = {
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory):
-    """The whole project after a run to its end, in which every dataset is empty."""
+    """Return the whole project with the results of a complete run, all of them empty files."""
     project = copy_of_project(tmp_path_factory.mktemp("a project"))
     for line in snakemake(project, "everything", "--summary").stdout.splitlines()[1:]:
         output = project / line.split("\t")[0]
@@ -106,7 +106,7 @@ def edit(project):
 
 
 def leaves(value, path=()):
-    """Keys that lead to each value of the configuration that holds no others."""
+    """Yield the path of keys of each value that is no mapping."""
     if isinstance(value, dict):
         for key, part in value.items():
             yield from leaves(part, (*path, key))
@@ -141,7 +141,7 @@ def to_do(project, config):
 
 
 def matching(jobs, patterns):
-    """Jobs of names in which a final star stands for anything."""
+    """Return the jobs with names in which a final star stands for any text."""
     return {
         job
         for job in jobs
@@ -171,7 +171,7 @@ def test_each_value_is_read_and_reruns_not_everything(config, jobs):
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_a_script_uses_all_of_its_parameters(stage, config):
-    """A parameter that a job does not use would rerun it for nothing."""
+    """A change of a parameter that the job does not use would rerun the job unnecessarily."""
     text = (ROOT / f"workflow/scripts/{stage}.py").read_text()
     parameters = STAGES[stage].parameters(config, selection.entries(config, stage)[0])
     unused = {key for key in parameters if f'"{key}"' not in text and f".{key}" not in text}
@@ -212,7 +212,7 @@ def test_sources_of_a_script_are_what_python_imports(script, config):
 
 
 def test_chunks(project, edit, config):
-    """Cutting a study into chunks computes it anew; then a lost chunk costs only itself."""
+    """After a change of `chunks` a study is computed anew; a lost chunk reruns only its own job."""
     edit("config/config.yaml", yaml.safe_dump(config | {"chunks": 2}, sort_keys=False))
     plan = snakemake(project, "-n", "results/studies/design_plane.nc")
     messages = re.findall(r"^Job \d+: (.*)$", plan.stdout, re.M)

@@ -1,6 +1,6 @@
-"""Checkouts share what they compute, as long as all that it depends on is the same.
+"""Checkouts share results through a cache if parameters, sources and lock file agree.
 
-Scripts are replaced by one that writes down in which checkout it ran.
+Scripts are replaced by one that writes the name of its checkout.
 """
 
 import inspect
@@ -37,7 +37,7 @@ def checkout(folder):
 
 
 def run(project, cache, *targets):
-    """Files made or taken from the cache, in a run that has nothing of its own."""
+    """Return the files that a run without results makes or takes from the cache."""
     for target in targets:
         (project / target).unlink(missing_ok=True)
     result = snakemake(project, *targets, "--cache", env={"SNAKEMAKE_OUTPUT_CACHE": str(cache)})
@@ -88,7 +88,7 @@ def test_what_differs_is_not_shared(name, old, new, shared):
 
 
 def test_an_entry_of_another_name_is_not_shared(shared):
-    """Its file says whose data it holds, and is told to be another's where it is not."""
+    """A dataset holds the name of its entry, and loading it under another name raises."""
     _, second, cache = shared
     path = second / "config/config.yaml"
     text = path.read_text()
@@ -111,7 +111,7 @@ def test_without_the_option_nothing_is_shared(shared):
 
 
 def test_scripts_of_shared_data_know_no_names_but_those_in_their_parameters():
-    """The cache does not look at wildcards: what they decide would be taken for another entry."""
+    """The cache ignores wildcards: a job that used one could get the file of another entry."""
     for script in (ROOT / "workflow/scripts").glob("*.py"):
         assert "wildcards" not in script.read_text(), script
     assert "wildcards" not in inspect.getsource(job)

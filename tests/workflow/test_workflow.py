@@ -1,4 +1,4 @@
-"""The workflow as it is asked for, and what it says to a broken configuration."""
+"""Plans of the workflow for its targets, and its messages about wrong configurations."""
 
 import re
 
@@ -25,7 +25,7 @@ def jobs(result):
     ("arguments", "most"), [((), 100), (("--configfile", "config/smoke.yaml"), 40)]
 )
 def test_every_script_serves_the_paper_and_the_smoke_run(arguments, most, tmp_path):
-    """With few jobs, for each takes a second to start."""
+    """The number of jobs is limited, because each takes a second to start."""
     scripts = {path.stem for path in (ROOT / "workflow/scripts").glob("*.py")}
     planned = snakemake(ROOT, "everything", *arguments, "-n", "--directory", tmp_path / "elsewhere")
     found = jobs(planned)
@@ -98,7 +98,7 @@ def test_a_key_that_stands_twice_is_told(tmp_path):
 
 
 def test_each_hook_stands_once():
-    """Of two Snakemake would forget the first."""
+    """Snakemake ignores the first of two hooks of the same kind."""
     files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
     hooks = re.findall("^(on[a-z]+):", "".join(path.read_text() for path in files), re.MULTILINE)
     assert sorted(hooks) == ["onstart", "onsuccess"]
