@@ -1,4 +1,4 @@
-"""What becomes of the quiet motion with fixed steps, over stiffness and step."""
+"""The quiet motion by fixed-step methods, over stiffness and step."""
 
 from impact_damper.stages.stable_steps import stable_steps
 from impact_damper.workflow.job import Job
