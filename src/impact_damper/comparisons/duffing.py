@@ -1,0 +1,132 @@
+"""The oscillator alone: published basin shares, and the jumps of softening and hardening springs."""
+
+import numpy as np
+
+from impact_damper.comparisons.comparison import Comparison
+from impact_damper.data.datasets import is_settled
+from impact_damper.literature import basin_shares as published
+from impact_damper.literature.duffing_jumps import jumps
+from impact_damper.motions.ensemble import settle
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.system.families import family_of
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Oscillator
+
+# Largest distance of a settled state from the orbit that it has settled on.
+SAME = 1e-3
+# Frequencies between which responses are followed, over the natural frequency.
+SPAN = 0.6, 1.4
+
+
+def basin_shares(starts, seed, settling, workers=1):
+    """Compare the shares of random starts that lead to the five motions of bSTAB.
+
+    Parameters
+    ----------
+    starts : int
+        Number of starts, drawn uniformly from the published box.
+    seed : int
+    settling : Settling
+    workers : int
+        Threads.
+
+    Returns
+    -------
+    list of Comparison
+        With the standard error of the difference of two random counts.
+
+    Raises
+    ------
+    ArithmeticError
+        If a start has not settled on one of the five motions.
+    """
+    oscillator = Oscillator(published.DAMPING, 0.0, force=published.FORCE)
+    p = pack(oscillator, None, published.FREQUENCY)
+    generator = np.random.default_rng(seed)
+    drawn = np.column_stack([generator.uniform(*span, starts) for span in published.BOX])
+    given = np.array([motion.start for motion in published.MOTIONS])
+    states = np.tile(np.concatenate([given, drawn]), 2)
+    records = settle(np.tile(p, (len(states), 1)), states, settling, workers=workers)
+    if not is_settled(records).all():
+        raise ArithmeticError("basin shares: some starts have not settled")
+    count = len(given)
+    orbits = [
+        find_orbit(p, each["state"], int(each["period"])).strobe_states[:, :2]
+        for each in records[:count]
+    ]
+    ends = records["state"][count:, None, :2]
+    distance = np.array([np.abs(ends - orbit).max(axis=2).min(axis=1) for orbit in orbits])
+    if distance.min(axis=0).max() > SAME:
+        raise ArithmeticError("basin shares: some starts lead to none of the five motions")
+    shares = np.bincount(distance.argmin(axis=0), minlength=count) / starts
+    found = []
+    for motion, share in zip(published.MOTIONS, shares, strict=True):
+        variance = motion.share * (1 - motion.share) * (1 / starts + 1 / published.STARTS)
+        found.append(
+            Comparison(
+                "bstab",
+                f"basin share of the {motion.meaning} ({motion.name}), {starts} starts",
+                motion.share,
+                float(share),
+                "random_starts",
+                error=float(np.sqrt(variance)),
+            )
+        )
+    return found
+
+
+def jump_frequencies(springs, damping_ratios, peak):
+    """Compare closed-form jump frequencies with the folds of branches of exact orbits.
+
+    Parameters
+    ----------
+    springs : sequence of float
+        Cubic coefficients, negative for softening springs.
+    damping_ratios : sequence of float
+        Falling.
+    peak : float
+        Force over damping ratio: the amplitude at the peak is about half of it.
+
+    Returns
+    -------
+    list of Comparison
+
+    Raises
+    ------
+    ArithmeticError
+        If a branch has not two folds.
+    """
+    found = []
+    for cubic in springs:
+        for damping in damping_ratios:
+            force = peak * damping
+            closed, exact = jumps(damping, cubic, force), _folds(damping, cubic, force)
+            kind = "softening" if cubic < 0 else "hardening"
+            words = f"{kind} spring {cubic:g}, damping ratio {damping:g}, force {force:g}"
+            for name, published_value, ours in (
+                ("from the large motion", closed.down, exact[0]),
+                ("from the small motion", closed.up, exact[1]),
+            ):
+                found.append(
+                    Comparison(
+                        "brennan", f"jump {name}, {words}", published_value, ours, "one_harmonic"
+                    )
+                )
+    return found
+
+
+def _folds(damping_ratio, cubic, force):
+    """Return the frequencies of the folds of the response, that of the large motion first."""
+    oscillator = Oscillator(2 * damping_ratio, 1.0, cubic=cubic, force=force)
+    begin = SPAN[0]
+    # The response far below the natural frequency, at W T = pi/2.
+    speed = -begin * force / (1 - begin**2)
+    orbit = find_orbit(pack(oscillator, None, begin), [0.0, speed, 0.0, speed])
+    family, here, ends = family_of(oscillator, None, begin, "frequency", SPAN)
+    branch = follow_branch(family, orbit, here, ends)
+    folds = [event.point for _, event in branch.events if event.kind == "fold"]
+    if len(folds) != 2:
+        raise ArithmeticError(f"cubic = {cubic:g}: {len(folds)} folds in place of two")
+    folds.sort(key=lambda point: -point.orbit.record["maximum_displacement"])
+    return [float(point.value) for point in folds]

@@ -1,0 +1,98 @@
+"""The symmetric motion of Masri and Caughey against our orbits with ever stiffer contacts."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from impact_damper.comparisons.comparison import Comparison, observed_order
+from impact_damper.comparisons.symmetric_orbits import boundary_near, orbit_at_clearance
+from impact_damper.literature.masri_caughey import stability_boundaries, two_impact_motions
+from impact_damper.system.parameters import Damper
+
+# Exponent of the contact stiffness in the error of rigid walls, by which orbits are extrapolated.
+ORDER = -0.5
+EVENTS = {
+    "fold": "fold",
+    "symmetry_breaking": "loss of symmetry",
+    "neimark_sacker": "torus",
+}
+
+
+def rigid_walls(oscillator, restitutions, mass_ratios, gaps, frequencies, stiffnesses):
+    """Compare displacements, multipliers and boundaries of stability, in all combinations.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+        With the linear stiffness, the force and the natural frequency 1, so that lengths are given
+        in static deflections.
+    restitutions, mass_ratios, gaps, frequencies : sequence of float
+        e, rm, full gap 2 d0 in static deflections, and W.
+    stiffnesses : sequence of float
+        Contact stiffnesses r1 with a constant ratio, three or more.
+
+    Returns
+    -------
+    list of Comparison
+        Of the stable motion or, where none is stable, of the least unstable one. Where the closed
+        form has no motion there is nothing to compare.
+
+    Raises
+    ------
+    ArithmeticError
+        If our orbit is not found where the closed form has one.
+    """
+    found = []
+    for restitution, mass, frequency in product(restitutions, mass_ratios, frequencies):
+        words = f"e = {restitution:g}, rm = {mass:g}, W = {frequency:g}"
+        dampers = [Damper(mass, 1.0, restitution, stiffness) for stiffness in stiffnesses]
+        for gap in gaps:
+            found += _at_gap(oscillator, dampers, frequency, gap / 2, words)
+        for boundary in stability_boundaries(oscillator, dampers[0], frequency):
+            if boundary.event in EVENTS:
+                ours = [boundary_near(oscillator, each, frequency, boundary) for each in dampers]
+                found.append(
+                    _compared(
+                        f"gap at the {EVENTS[boundary.event]}, {words}",
+                        2 * boundary.motion.clearance,
+                        [2 * each.clearance for each in ours],
+                        stiffnesses,
+                    )
+                )
+    return found
+
+
+def _at_gap(oscillator, dampers, frequency, clearance, words):
+    """Return comparisons of displacement and, for a stable motion, of the largest multiplier."""
+    dampers = [replace(each, clearance=clearance) for each in dampers]
+    motions = [x for x in two_impact_motions(oscillator, dampers[0], frequency) if x.room > 0]
+    if not motions:
+        return []
+    motion = min(motions, key=lambda each: abs(each.multipliers[0]))
+    ours = [orbit_at_clearance(oscillator, each, frequency, motion) for each in dampers]
+    stiffnesses = [each.contact_stiffness for each in dampers]
+    kind = "stable" if motion.stable else "unstable"
+    words = f"gap {2 * clearance:g}, {words} ({kind})"
+    sizes = [each.displacement for each in ours]
+    found = [_compared(f"max |Z1|, {words}", motion.displacement, sizes, stiffnesses)]
+    if motion.stable:
+        values = [each.modulus for each in ours]
+        name, value = f"largest multiplier, {words}", abs(motion.multipliers[0])
+        found.append(_compared(name, value, values, stiffnesses))
+    return found
+
+
+def _compared(quantity, published, ours, stiffnesses):
+    """Return the comparison of a series over rising contact stiffness with its limit."""
+    ours = np.array(ours)
+    gain = (stiffnesses[-1] / stiffnesses[-2]) ** -ORDER - 1
+    return Comparison(
+        "masri_caughey",
+        quantity,
+        float(published),
+        float(ours[-1]),
+        "contact_stiffness",
+        order=observed_order(stiffnesses, ours - published),
+        limit=float(ours[-1] + (ours[-1] - ours[-2]) / gain),
+    )

@@ -1,0 +1,146 @@
+"""Symmetric orbits with two compliant contacts a period, in a family over the speed of the loose mass.
+
+With a linear spring, a force and a frequency given, the clearance of a symmetric orbit is a function
+of the ratio of the speed of the loose mass to the clearance. Along this ratio the orbits pass a fold
+in the clearance without turning.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from impact_damper.literature.masri_caughey import motion_with_speed
+from impact_damper.orbits.compliant_orbits import CONTACTS
+from impact_damper.orbits.shooting import Orbit, shoot
+from impact_damper.system.packed import pack
+
+# Newton's method: number of corrections, and residual relative to the state.
+ITERATIONS = 15
+RESIDUAL = 1e-9
+# Relative change of the clearance for the derivative of the map.
+NUDGE = 1e-6
+# Relative changes of the ratio between which a change of stability is looked for.
+WIDTHS = 0.005, 0.02, 0.08
+
+
+class SymmetricOrbit(NamedTuple):
+    """A symmetric orbit with two contacts.
+
+    Attributes
+    ----------
+    orbit : Orbit
+        Its phase is in the middle of the flight from Z2 = -d0.
+    clearance : float
+        d0.
+    ratio : float
+        Speed of the loose mass there over d0.
+    """
+
+    orbit: Orbit
+    clearance: float
+    ratio: float
+
+    @property
+    def modulus(self) -> float:
+        """Largest modulus of the multipliers of half a period."""
+        return float(np.max(np.abs(np.linalg.eigvals(self.orbit.root))))
+
+    @property
+    def displacement(self) -> float:
+        """max |Z1|."""
+        return float(self.orbit.record["maximum_displacement"])
+
+
+def orbit_at_clearance(oscillator, damper, frequency, motion) -> SymmetricOrbit:
+    """Return the orbit near a `masri_caughey.TwoImpactMotion`, with the clearance of the damper.
+
+    Raises
+    ------
+    ArithmeticError
+        If Newton's method does not converge to an orbit with two contacts.
+    """
+    p = pack(oscillator, damper, frequency)
+    state, phase = motion.flight.copy(), motion.phase + np.pi / 2
+    for _ in range(ITERATIONS):
+        orbit, end = shoot(p, state, 1, phase, symmetric=True)
+        if orbit.converged:
+            break
+        state = state + np.linalg.solve(np.eye(4) - orbit.root, end - state)
+    return _checked(orbit, damper.clearance)
+
+
+def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
+    """Return the orbit with a ratio of the speed of the loose mass to the clearance.
+
+    Newton's method for the state and the clearance, from the motion between rigid walls. The
+    clearance of the damper has no effect.
+
+    Raises
+    ------
+    ArithmeticError
+        If Newton's method does not converge to an orbit with two contacts.
+    """
+    motion = motion_with_speed(oscillator, damper, frequency, ratio)
+    phase = motion.phase + np.pi / 2
+    unknowns = np.append(motion.flight, motion.clearance)
+
+    def mapped(state, clearance):
+        p = pack(oscillator, replace(damper, clearance=clearance), frequency)
+        return shoot(p, state, 1, phase, symmetric=True)
+
+    for _ in range(ITERATIONS):
+        state, clearance = unknowns[:4], float(unknowns[4])
+        orbit, end = mapped(state, clearance)
+        off = state[1] - state[3] + ratio * clearance
+        if orbit.converged and abs(off) < RESIDUAL * clearance:
+            break
+        step = NUDGE * clearance
+        by_clearance = (mapped(state, clearance + step)[1] - mapped(state, clearance - step)[1]) / (
+            2 * step
+        )
+        matrix = np.zeros((5, 5))
+        matrix[:4, :4], matrix[:4, 4] = orbit.root - np.eye(4), by_clearance
+        matrix[4] = 0, 1, 0, -1, ratio
+        unknowns = unknowns - np.linalg.solve(matrix, np.append(end - state, off))
+    return _checked(orbit, clearance)
+
+
+def _checked(orbit, clearance):
+    size = np.max(np.abs(orbit.state))
+    if not orbit.residual < RESIDUAL * max(1.0, size) or orbit.record["contacts"] != CONTACTS:
+        raise ArithmeticError(
+            f"clearance = {clearance:g}: no symmetric orbit with two contacts, "
+            f"residual {orbit.residual:.1e}"
+        )
+    return SymmetricOrbit(orbit, clearance, (orbit.state[3] - orbit.state[1]) / clearance)
+
+
+def boundary_near(oscillator, damper, frequency, boundary) -> SymmetricOrbit:
+    """Return the orbit at which stability ends, near a `masri_caughey.Boundary`.
+
+    Raises
+    ------
+    ArithmeticError
+        If there is none near.
+    """
+    rigid = boundary.motion.speed / boundary.motion.clearance
+
+    def at(ratio):
+        return orbit_with_speed(oscillator, damper, frequency, ratio)
+
+    for width in WIDTHS:
+        ends = rigid * (1 - width), rigid * (1 + width)
+        if boundary.event == "fold":
+            found = minimize_scalar(
+                lambda ratio: -at(ratio).clearance,
+                bounds=ends,
+                method="bounded",
+                options={"xatol": 1e-8 * rigid},
+            ).x
+            if min(found - ends[0], ends[1] - found) > 0.01 * width * rigid:
+                return at(found)
+        elif np.prod([at(end).modulus - 1 for end in ends]) < 0:
+            return at(brentq(lambda ratio: at(ratio).modulus - 1, *ends, xtol=1e-13 * rigid))
+    raise ArithmeticError(f"no {boundary.event} near the clearance {boundary.motion.clearance:g}")

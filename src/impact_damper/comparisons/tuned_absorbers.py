@@ -1,0 +1,107 @@
+"""Tuned mass dampers and the nonlinear absorber: closed forms against their computed responses."""
+
+import numpy as np
+from scipy.optimize import minimize
+
+from impact_damper.comparisons.comparison import Comparison
+from impact_damper.literature.nonlinear_absorber import AbsorberOnDuffing, tuned_cubic
+from impact_damper.literature.tuned_mass_damper import (
+    Tuning,
+    den_hartog,
+    exact_optimum,
+    fixed_point,
+    least_maximum,
+    peaks,
+)
+
+# Direct search for the least maximum of the response: tolerance on tuning, damping and maximum.
+TOLERANCE = 1e-10
+MOST_STEPS = 1000
+
+
+def tuned_mass_dampers(mass_ratios):
+    """Compare peaks, tuning and damping with those of the computed response.
+
+    Parameters
+    ----------
+    mass_ratios : sequence of float
+
+    Returns
+    -------
+    list of Comparison
+        The highest peak of Den Hartog's absorber beside the height of its fixed points, and the
+        exact optimum beside that of a direct search.
+    """
+    found = []
+    for mass in mass_ratios:
+        highest = peaks(den_hartog(mass))[1].max()
+        quantity = f"highest peak over static deflection, rm = {mass:g}"
+        found.append(
+            Comparison("den_hartog", quantity, fixed_point(mass), float(highest), "fixed_points")
+        )
+        closed, direct = exact_optimum(mass), _least_maximum(mass)
+        pairs = {
+            "least maximum over static deflection": (
+                least_maximum(mass),
+                peaks(direct)[1].max(),
+            ),
+            "tuning of the least maximum": (closed.frequency, direct.frequency),
+            "damping ratio of the least maximum": (closed.damping_ratio, direct.damping_ratio),
+        }
+        for quantity, (published, ours) in pairs.items():
+            found.append(
+                Comparison(
+                    "nishihara_asami",
+                    f"{quantity}, rm = {mass:g}",
+                    float(published),
+                    float(ours),
+                    "direct_search",
+                )
+            )
+    return found
+
+
+def _least_maximum(mass) -> Tuning:
+    """Return the tuning with the least maximum, by a direct search from that of Den Hartog."""
+    best = minimize(
+        lambda values: peaks(Tuning(mass, *values))[1].max(),
+        den_hartog(mass)[1:],
+        method="Nelder-Mead",
+        options={"xatol": TOLERANCE, "fatol": TOLERANCE, "maxiter": MOST_STEPS},
+    )
+    return Tuning(mass, *best.x)
+
+
+def nonlinear_absorbers(mass_ratio, forces):
+    """Compare the ratio of the two peaks of the nonlinear absorber with 1.
+
+    Parameters
+    ----------
+    mass_ratio : float
+    forces : sequence of float
+        Forces on a primary mass with linear stiffness 1 and cubic coefficient 1.
+
+    Returns
+    -------
+    list of Comparison
+
+    Raises
+    ------
+    ArithmeticError
+        If the response has not two peaks, or is not found.
+    """
+    found = []
+    for force in forces:
+        system = AbsorberOnDuffing(mass_ratio, 1.0, tuned_cubic(mass_ratio, 1.0), force)
+        heights = system.peaks().displacements
+        if len(heights) != 2:
+            raise ArithmeticError(f"force = {force:g}: {len(heights)} peaks in place of two")
+        size = heights.max() * force
+        quantity = (
+            f"second peak over the first, rm = {mass_ratio:g}, "
+            f"cubic over linear force {np.round(size**2, 4):g} at the peak"
+        )
+        found.append(
+            Comparison("habib", quantity, 1.0, float(heights[1] / heights[0]), "first_order")
+        )
+    return found

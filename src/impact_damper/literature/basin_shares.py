@@ -1,0 +1,45 @@
+"""Printed basin shares of an oscillator with five coexisting motions.
+
+The oscillator x'' + 0.08 x' + x^3 = 0.2 cos t of Thompson and Stewart, Nonlinear Dynamics and
+Chaos, 1986, is a test case of bSTAB (Stender and Hoffmann, "bSTAB: an open-source software for
+computing the basin stability of multi-stable dynamical systems", Nonlinear Dyn. 107, 1451-1468,
+2022, doi 10.1007/s11071-021-06786-5) and of its successor pybasin. Starts (x, x') are drawn
+uniformly from a box. Here are the shares that pybasin (github.com/adrianwix/pybasin, commit
+206570f and later, tests and documentation) publishes for 10 000 starts, computed by bSTAB.
+"""
+
+from typing import NamedTuple
+
+DAMPING, FORCE, FREQUENCY = 0.08, 0.2, 1.0
+# Least and greatest x and x' of the starts.
+BOX = (-1.0, 1.0), (-0.5, 1.0)
+STARTS = 10_000
+
+
+class PublishedMotion(NamedTuple):
+    """One of the five motions.
+
+    Attributes
+    ----------
+    name : str
+        As in bSTAB.
+    meaning : str
+    start : tuple of float
+        A start (x, x') that leads to it.
+    share : float
+        Share of the starts.
+    """
+
+    name: str
+    meaning: str
+    start: tuple[float, float]
+    share: float
+
+
+MOTIONS = (
+    PublishedMotion("y1", "small motion of period 1", (-0.21, 0.02), 0.2027),
+    PublishedMotion("y2", "large motion of period 1", (1.05, 0.77), 0.4950),
+    PublishedMotion("y3", "first motion of period 2", (-0.67, 0.02), 0.0288),
+    PublishedMotion("y4", "second motion of period 2", (-0.46, 0.30), 0.0257),
+    PublishedMotion("y5", "motion of period 3", (-0.43, 0.12), 0.2478),
+)

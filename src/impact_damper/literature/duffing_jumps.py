@@ -1,0 +1,53 @@
+"""Frequencies at which the forced motion of a weakly damped Duffing oscillator jumps.
+
+Brennan, Kovacic, Carrella and Waters, "On the jump-up and jump-down frequencies of the Duffing
+oscillator", J. Sound Vib. 318(4-5), 1250-1261, 2008. Single-term harmonic balance of
+x'' + 2 z x' + x + a x^3 = F cos(r T), for a hardening or softening spring: the amplitude X solves
+
+    ((1 - r^2) X + (3/4) a X^3)^2 + (2 z r X)^2 = F^2.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.system.bounds import check_number, plain
+
+
+class Jumps(NamedTuple):
+    """Frequencies of the two folds of the response.
+
+    Attributes
+    ----------
+    down : float
+        From the large motion: the response is largest there, in quadrature with the force,
+        r^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2. The fold lies beside it, at a distance of second
+        order in z.
+    up : float
+        From the small motion, without damping: r^2 = 1 + (3/2)^(4/3) (a F^2)^(1/3).
+    """
+
+    down: float
+    up: float
+
+
+def jumps(damping_ratio, cubic, force) -> Jumps:
+    """Return the jump frequencies in closed form.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is out of range, or a softening spring is so weak that the response is not
+        bounded by damping: 3 |a| F^2 > 4 z^2.
+    """
+    check_number("damping_ratio", damping_ratio, above=0.0, most=1.0)
+    check_number("cubic", cubic)
+    check_number("force", force, above=0.0)
+    inner = 1 + 3 * cubic * force**2 / (4 * damping_ratio**2)
+    if inner < 0:
+        raise ValueError(
+            f"cubic = {plain(cubic)}: must be at least -4 z^2/(3 F^2) = "
+            f"{-4 * damping_ratio**2 / (3 * force**2):g} (the response has no maximum)"
+        )
+    down = np.sqrt((1 + np.sqrt(inner)) / 2)
+    return Jumps(down, np.sqrt(1 + 1.5 ** (4 / 3) * np.cbrt(cubic * force**2)))

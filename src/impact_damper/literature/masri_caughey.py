@@ -1,0 +1,304 @@
+"""The impact damper on a linear oscillator: the symmetric motion with two impacts a period.
+
+The closed form of Masri and Caughey, "On the stability of the impact damper", J. Appl. Mech. 33(3),
+586-592, 1966. Walls are rigid, and an impact takes no time. Half a forcing period after an impact
+at one wall the mirrored motion meets the other wall; in between the loose mass flies at constant
+velocity, w, -w, w, ...
+
+The loose mass meets the wall Z2 = -d0 with the velocity w and leaves it with -w. Momentum and
+restitution give the velocity of the primary mass before this impact, -k w with
+k = (1 - e + 2 rm)/(1 + e), and the flight gives its displacement, pi w/(2 W) - d0. The state of the
+primary mass after the impact is the sum of the forced response and of a free part w (a, b + 2 rm).
+Half a period later the free part is the mirror image of its value before the impact,
+
+    M (a, b + 2 rm) = -(a, b),
+
+where M is the map of the free oscillator over half a period. The state before the impact minus
+w (a, b) is the forced response, whose amplitude A is known:
+
+    (pi w/(2 W) - d0 - w a)^2 + (w (k + b)/W)^2 = A^2.
+
+With the ratio s = w/d0 this gives d0 for every s, and a quadratic equation in w for every d0.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from impact_damper.system.bounds import plain
+from impact_damper.system.checks import check_frequency
+from impact_damper.system.parameters import check_damper, check_oscillator
+
+# Points of a flight between which its turning points are looked for.
+SAMPLES = 200
+# Ratios pi w/(2 W d0), 1 where the primary mass is in its middle position at the impacts, between
+# which changes of stability are looked for. Beyond the last the motion is unstable for any damper.
+RATIOS = np.linspace(0.02, 2.5, 249)
+# Bisections of a change of stability.
+BISECTIONS = 48
+# A multiplier is complex if its imaginary part exceeds this.
+COMPLEX = 1e-6
+
+
+class TwoImpactMotion(NamedTuple):
+    """A symmetric motion with two impacts a forcing period, stable or not.
+
+    Attributes
+    ----------
+    clearance : float
+        d0.
+    speed : float
+        w, of the loose mass between impacts.
+    phase : float
+        W T of the impact at the wall Z2 = -d0, in (-pi, pi].
+    impact : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' before that impact.
+    flight : numpy.ndarray, shape (4,)
+        The same a quarter of a period later, in the middle of the flight.
+    displacement : float
+        max |Z1|.
+    multipliers : numpy.ndarray of complex, shape (4,)
+        Of the map over half a period with a change of sign, by falling modulus. A multiplier 1 is a
+        fold, -1 a loss of symmetry. The multipliers of a period are their squares.
+    room : float
+        Least distance of the loose mass from a wall at the turning points of Z2 during a flight,
+        over d0; infinite without such points. Where it is negative the equations have a solution
+        that is no motion, because the loose mass would pass a wall.
+    """
+
+    clearance: float
+    speed: float
+    phase: float
+    impact: np.ndarray
+    flight: np.ndarray
+    displacement: float
+    multipliers: np.ndarray
+    room: float
+
+    @property
+    def stable(self) -> bool:
+        """Whether it is a motion and all multipliers are less than 1 in modulus."""
+        return bool(self.room > 0 and abs(self.multipliers[0]) < 1)
+
+
+class Boundary(NamedTuple):
+    """End of a range of clearances in which a motion with two impacts is stable.
+
+    Attributes
+    ----------
+    motion : TwoImpactMotion
+        At the end.
+    event : str
+        "fold", "symmetry_breaking", "neimark_sacker", or "third_contact" where the loose mass
+        begins to touch a wall during a flight.
+    """
+
+    motion: TwoImpactMotion
+    event: str
+
+
+def two_impact_motions(oscillator, damper, frequency) -> list[TwoImpactMotion]:
+    """Return all symmetric motions with two impacts a period, by rising speed of the loose mass.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+        With a linear spring.
+    damper : Damper
+        Its contact stiffness has no effect: walls are rigid.
+    frequency : float
+        W.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range, or the spring is not linear.
+    """
+    flight = _Flight(oscillator, damper, frequency)
+    square, linear = flight.across**2 + flight.along**2, flight.across
+    share = linear**2 - square * (1 - (abs(flight.response) / damper.clearance) ** 2)
+    ratios = (linear + np.array([-1, 1]) * np.sqrt(share)) / square if share >= 0 else []
+    return [flight.motion(ratio) for ratio in ratios if ratio > 0]
+
+
+def motion_with_speed(oscillator, damper, frequency, ratio) -> TwoImpactMotion:
+    """Return the motion in which the speed of the loose mass is the clearance times a ratio.
+
+    Parameters
+    ----------
+    oscillator, damper, frequency
+        As of `two_impact_motions`; the clearance of the damper has no effect.
+    ratio : float
+        s = w/d0.
+    """
+    return _Flight(oscillator, damper, frequency).motion(ratio)
+
+
+def stability_boundaries(oscillator, damper, frequency) -> list[Boundary]:
+    """Return the clearances at which symmetric motions with two impacts gain or lose stability.
+
+    Parameters
+    ----------
+    oscillator, damper, frequency
+        As of `two_impact_motions`; the clearance of the damper has no effect.
+
+    Returns
+    -------
+    list of Boundary
+        By rising ratio of the speed of the loose mass to the clearance.
+    """
+    flight = _Flight(oscillator, damper, frequency)
+    ratios = RATIOS * 2 * flight.frequency / np.pi
+    stable = np.array([flight.is_stable(ratio) for ratio in ratios])
+    found = []
+    for k in np.flatnonzero(stable[:-1] != stable[1:]):
+        inner, outer = ratios[k : k + 2][:: 1 if stable[k] else -1]
+        for _ in range(BISECTIONS):
+            middle = (inner + outer) / 2
+            inner, outer = (middle, outer) if flight.is_stable(middle) else (inner, middle)
+        motion = flight.motion(inner)
+        found.append(Boundary(motion, _event(motion)))
+    return found
+
+
+def _event(motion):
+    """Return what ends the stability of a motion that is about to lose it."""
+    value = motion.multipliers[0]
+    if motion.room < 1 - abs(value):
+        return "third_contact"
+    if abs(value.imag) > COMPLEX:
+        return "neimark_sacker"
+    return "fold" if value.real > 0 else "symmetry_breaking"
+
+
+class _Flight:
+    """Half a period of the motions of one oscillator and damper, for any speed of the loose mass.
+
+    Attributes
+    ----------
+    frequency : float
+        W.
+    response : complex
+        Amplitude of the forced response without a damper.
+    free : numpy.ndarray, shape (2,)
+        a and b + 2 rm, free part of the state of the primary mass after an impact, over w.
+    across, along : float
+        Coefficients of (across s - 1)^2 + (along s)^2 = |response|^2/d0^2 for s = w/d0.
+    """
+
+    def __init__(self, oscillator, damper, frequency):
+        check_oscillator(oscillator)
+        if oscillator.cubic != 0:
+            raise ValueError(
+                f"cubic = {plain(oscillator.cubic)}: must be 0 (closed form of a linear spring)"
+            )
+        check_damper(damper)
+        self.oscillator, self.damper = oscillator, damper
+        self.frequency = check_frequency(frequency)
+        stiffness = oscillator.linear_frequency**2
+        force = oscillator.forcing_amplitude(self.frequency)
+        dynamic = stiffness - self.frequency**2 + 1j * oscillator.damping * self.frequency
+        self.response = force / dynamic
+        self.half = np.pi / self.frequency
+        mass, restitution = damper.mass_ratio, damper.restitution
+        self._whole_map = np.eye(4)
+        self._whole_map[:2, :2], self._whole_map[2, 3] = self.free_map(self.half), self.half
+        self.free = np.linalg.solve(self._whole_map[:2, :2] + np.eye(2), [0, 2 * mass])
+        self.before = (1 - restitution + 2 * mass) / (1 + restitution)
+        self.across = self.half / 2 - self.free[0]
+        self.along = (self.before + self.free[1] - 2 * mass) / self.frequency
+
+    def free_map(self, time):
+        """Return the map of (Z1, Z1') over a time without forcing, shape (..., 2, 2)."""
+        drag, stiffness = self.oscillator.damping / 2, self.oscillator.linear_frequency**2
+        turn = np.sqrt(complex(stiffness - drag**2)) * np.asarray(time)
+        cosine, sine = np.cos(turn).real, (np.sinc(turn / np.pi) * time).real
+        rows = [cosine + drag * sine, sine], [-stiffness * sine, cosine - drag * sine]
+        return np.exp(-drag * np.asarray(time))[..., None, None] * np.moveaxis(
+            np.array(rows), (0, 1), (-2, -1)
+        )
+
+    def motion(self, ratio) -> TwoImpactMotion:
+        """Return the motion for a ratio s = w/d0."""
+        clearance, phase, impact = self._impact(ratio)
+        primary, gap = self._motions(ratio, clearance, phase, impact)
+        turns = [abs(primary(time)[0]) for time in self._turns(primary)]
+        return TwoImpactMotion(
+            clearance,
+            ratio * clearance,
+            phase,
+            impact,
+            np.concatenate([primary(self.half / 2), gap(self.half / 2)]),
+            max([*turns, abs(impact[0])]),
+            self._multipliers(impact, phase),
+            self._room(gap, clearance),
+        )
+
+    def is_stable(self, ratio) -> bool:
+        """Return `TwoImpactMotion.stable` for a ratio, with less work for unstable motions."""
+        clearance, phase, impact = self._impact(ratio)
+        if abs(self._multipliers(impact, phase)[0]) >= 1:
+            return False
+        return self._room(self._motions(ratio, clearance, phase, impact)[1], clearance) > 0
+
+    def _impact(self, ratio):
+        """Return clearance, and phase and state before the impact at Z2 = -d0."""
+        position, lag = self.across * ratio - 1, self.along * ratio
+        clearance = abs(self.response) / np.hypot(position, lag)
+        phase = float(np.angle((position + 1j * lag) / self.response))
+        state = [self.half * ratio / 2 - 1, -self.before * ratio, -1, -(1 + self.before) * ratio]
+        return clearance, phase, clearance * np.array(state)
+
+    def _motions(self, ratio, clearance, phase, impact):
+        """Return (Z1, Z1') and (Z2, Z2') as functions of the time since the impact."""
+        speed = ratio * clearance
+
+        def primary(time):
+            turning = self.response * np.exp(1j * (phase + self.frequency * time))
+            forced = np.array([turning.real, -self.frequency * turning.imag])
+            return forced + np.moveaxis(self.free_map(time) @ (speed * self.free), -1, 0)
+
+        def gap(time):
+            loose = impact[0] + clearance - speed * np.asarray(time)
+            return primary(time) - np.array([loose, 0 * loose - speed])
+
+        return primary, gap
+
+    def _room(self, gap, clearance):
+        """Return the least distance from a wall at turning points of Z2, over the clearance."""
+        rooms = [clearance - abs(gap(time)[0]) for time in self._turns(gap)]
+        return min(rooms, default=np.inf) / clearance
+
+    def _turns(self, motion):
+        """Return the times of a flight at which the velocity of a motion changes its sign."""
+        times = np.linspace(0, self.half, SAMPLES)
+        speed = motion(times)[1]
+        changes = np.flatnonzero(speed[:-1] * speed[1:] < 0)
+        return [brentq(lambda t: motion(t)[1], times[k], times[k + 1]) for k in changes]
+
+    def _multipliers(self, impact, phase):
+        """Return the multipliers of the impact and the flight after it, mirrored.
+
+        In the coordinates (Z1, Z1', x2, x2') with the loose mass x2 = Z1 - Z2, an impact at the
+        surface n (Z1, Z1', x2, x2') = d0 is linear, y -> J y, and its derivative, corrected for the
+        change of its time, is J + (f_after - J f_before) n/(n f_before).
+        """
+        mass, restitution = self.damper.mass_ratio, self.damper.restitution
+        share = (1 + restitution) / (1 + mass)
+        jump = np.eye(4)
+        jump[1, [1, 3]] += np.array([-1, 1]) * mass * share
+        jump[3, [1, 3]] += np.array([1, -1]) * share
+        state = np.array([*impact[:2], *(impact[:2] - impact[2:])])
+        surface = np.array([-1, 0, 1, 0])
+        before, after = self._rate(state, phase), self._rate(jump @ state, phase)
+        impulse = jump + np.outer(after - jump @ before, surface) / (surface @ before)
+        values = np.linalg.eigvals(-self._whole_map @ impulse)
+        return values[np.argsort(-np.abs(values), kind="stable")]
+
+    def _rate(self, state, phase):
+        """Return the derivative of (Z1, Z1', x2, x2') in flight."""
+        oscillator = self.oscillator
+        force = oscillator.forcing_amplitude(self.frequency) * np.cos(phase)
+        drag = oscillator.damping * state[1] + oscillator.linear_frequency**2 * state[0]
+        return np.array([state[1], force - drag, state[3], 0])

@@ -1,0 +1,97 @@
+"""The tuned mass damper on an undamped linear oscillator under a harmonic force.
+
+Frequencies are given over the natural frequency of the oscillator, displacements over the static
+deflection. The absorber has the mass ratio m, the tuning f (its own natural frequency) and the
+damping ratio z.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from impact_damper.system.bounds import check_number
+
+# Frequencies among which peaks are looked for before they are refined.
+FREQUENCIES = np.linspace(0.3, 1.7, 1401)
+
+
+class Tuning(NamedTuple):
+    """A tuned mass damper.
+
+    Attributes
+    ----------
+    mass_ratio, frequency, damping_ratio : float
+        m, f and z.
+    """
+
+    mass_ratio: float
+    frequency: float
+    damping_ratio: float
+
+
+def response(tuning, frequency):
+    """Return the amplitude of the primary mass at frequencies r, over the static deflection."""
+    mass, tuned, damping = tuning
+    r = np.asarray(frequency)
+    coupling = tuned**2 + 2j * damping * tuned * r
+    absorber = coupling - r**2
+    return np.abs(absorber / ((1 - r**2) * absorber - mass * r**2 * coupling))
+
+
+def peaks(tuning):
+    """Return the frequencies and amplitudes of the maxima of the response, shape (count,) each."""
+    sizes = response(tuning, FREQUENCIES)
+    places = 1 + np.flatnonzero((sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:]))
+    found = [
+        minimize_scalar(
+            lambda r: -response(tuning, r),
+            bounds=(FREQUENCIES[k - 1], FREQUENCIES[k + 1]),
+            method="bounded",
+            options={"xatol": 1e-12},
+        ).x
+        for k in places
+    ]
+    return np.array(found), response(tuning, found)
+
+
+def den_hartog(mass_ratio) -> Tuning:
+    """Return the tuning with equal fixed points, and the damping of Brock.
+
+    Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.2 and 3.3: f = 1/(1 + m); Brock, "A
+    note on the damped vibration absorber", J. Appl. Mech. 13, A-284, 1946:
+    z^2 = 3 m/(8 (1 + m)).
+    """
+    mass = _checked(mass_ratio)
+    return Tuning(mass, 1 / (1 + mass), np.sqrt(3 * mass / (8 * (1 + mass))))
+
+
+def fixed_point(mass_ratio) -> float:
+    """Return the amplitude sqrt(1 + 2/m) of `den_hartog` at the fixed points."""
+    return np.sqrt(1 + 2 / _checked(mass_ratio))
+
+
+def exact_optimum(mass_ratio) -> Tuning:
+    """Return the tuning and damping of the least maximum of the response.
+
+    Nishihara and Asami, "Closed-form solutions to the exact optimizations of dynamic vibration
+    absorbers", J. Vib. Acoust. 124(4), 576-582, 2002, doi 10.1115/1.1500335.
+    """
+    mass = _checked(mass_ratio)
+    root = np.sqrt(4 + 3 * mass)
+    squared = 16 + 23 * mass + 9 * mass**2 + 2 * (2 + mass) * root
+    frequency = 2 / (1 + mass) * np.sqrt(2 * squared / (3 * (64 + 80 * mass + 27 * mass**2)))
+    damping = np.sqrt((8 + 9 * mass - 4 * root) / (1 + mass)) / 4
+    return Tuning(mass, frequency, damping)
+
+
+def least_maximum(mass_ratio) -> float:
+    """Return the amplitude of both peaks with `exact_optimum`, by the same authors."""
+    mass = _checked(mass_ratio)
+    root = np.sqrt(4 + 3 * mass)
+    difference = (8 + 9 * mass) ** 2 * (16 + 9 * mass) - 128 * root**3
+    return np.sqrt(difference / (3 * (32 + 27 * mass))) / (3 * mass)
+
+
+def _checked(mass_ratio):
+    return check_number("mass_ratio", mass_ratio, above=0.0, most=10.0)
