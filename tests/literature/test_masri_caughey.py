@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from helpers.rigid_events import TIGHT, events_of, flight_rate
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from helpers.rigid_events import TIGHT, events_of, flight_rate
 from impact_damper.literature.masri_caughey import stability_boundaries, two_impact_motions
 from impact_damper.system.parameters import Damper, Oscillator
 

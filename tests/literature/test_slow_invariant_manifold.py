@@ -3,10 +3,10 @@ against exact motions with rigid impacts, whose distance must fall with the mass
 
 import numpy as np
 import pytest
+from helpers.rigid_events import events_of
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq, minimize_scalar
 
-from helpers.rigid_events import events_of
 from impact_damper.literature.masri_caughey import (
     motion_with_speed,
     stability_boundaries,
@@ -61,7 +61,10 @@ def exact_force(absorber, ratio):
     oscillator = Oscillator(2 * absorber.damping_ratio, 1.0, cubic=0.0)
 
     damper = Damper(absorber.mass_ratio, 1.0, absorber.restitution)
-    return 1 / motion_with_speed(oscillator, damper, frequency, 2 * ratio * frequency / np.pi).clearance
+    return (
+        1
+        / motion_with_speed(oscillator, damper, frequency, 2 * ratio * frequency / np.pi).clearance
+    )
 
 
 @pytest.mark.parametrize("ratio", [1.1, 1.3, 1.6])

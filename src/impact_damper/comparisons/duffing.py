@@ -1,4 +1,4 @@
-"""The oscillator alone: published basin shares, and the jumps of softening and hardening springs."""
+"""The oscillator alone: published basin shares, and jumps of softening and hardening springs."""
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from impact_damper.literature.duffing_jumps import jumps
 from impact_damper.motions.ensemble import settle
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
+from impact_damper.system.bounds import MOST_RUNS, check_count
 from impact_damper.system.families import family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator
@@ -19,7 +20,7 @@ SAME = 1e-3
 SPAN = 0.6, 1.4
 
 
-def basin_shares(starts, seed, settling, workers=1):
+def basin_shares(starts, seed, settling):
     """Compare the shares of random starts that lead to the five motions of bSTAB.
 
     Parameters
@@ -28,8 +29,6 @@ def basin_shares(starts, seed, settling, workers=1):
         Number of starts, drawn uniformly from the published box.
     seed : int
     settling : Settling
-    workers : int
-        Threads.
 
     Returns
     -------
@@ -41,13 +40,14 @@ def basin_shares(starts, seed, settling, workers=1):
     ArithmeticError
         If a start has not settled on one of the five motions.
     """
+    check_count("starts", starts, most=MOST_RUNS)
     oscillator = Oscillator(published.DAMPING, 0.0, force=published.FORCE)
     p = pack(oscillator, None, published.FREQUENCY)
     generator = np.random.default_rng(seed)
     drawn = np.column_stack([generator.uniform(*span, starts) for span in published.BOX])
     given = np.array([motion.start for motion in published.MOTIONS])
     states = np.tile(np.concatenate([given, drawn]), 2)
-    records = settle(np.tile(p, (len(states), 1)), states, settling, workers=workers)
+    records = settle(np.tile(p, (len(states), 1)), states, settling)
     if not is_settled(records).all():
         raise ArithmeticError("basin shares: some starts have not settled")
     count = len(given)

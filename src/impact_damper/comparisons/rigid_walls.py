@@ -8,7 +8,7 @@ import numpy as np
 from impact_damper.comparisons.comparison import Comparison, observed_order
 from impact_damper.comparisons.symmetric_orbits import boundary_near, orbit_at_clearance
 from impact_damper.literature.masri_caughey import stability_boundaries, two_impact_motions
-from impact_damper.system.parameters import Damper
+from impact_damper.system.parameters import Damper, Oscillator
 
 # Exponent of the contact stiffness in the error of rigid walls, by which orbits are extrapolated.
 ORDER = -0.5
@@ -19,14 +19,14 @@ EVENTS = {
 }
 
 
-def rigid_walls(oscillator, restitutions, mass_ratios, gaps, frequencies, stiffnesses):
+def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, stiffnesses):
     """Compare displacements, multipliers and boundaries of stability, in all combinations.
 
     Parameters
     ----------
-    oscillator : Oscillator
-        With the linear stiffness, the force and the natural frequency 1, so that lengths are given
-        in static deflections.
+    damping_ratio : float
+        Of an oscillator with the linear stiffness, the force and the natural frequency 1, so that
+        lengths are given in static deflections.
     restitutions, mass_ratios, gaps, frequencies : sequence of float
         e, rm, full gap 2 d0 in static deflections, and W.
     stiffnesses : sequence of float
@@ -44,6 +44,7 @@ def rigid_walls(oscillator, restitutions, mass_ratios, gaps, frequencies, stiffn
         If our orbit is not found where the closed form has one.
     """
     found = []
+    oscillator = Oscillator(2 * damping_ratio, 1.0, cubic=0.0, force=1.0)
     for restitution, mass, frequency in product(restitutions, mass_ratios, frequencies):
         words = f"e = {restitution:g}, rm = {mass:g}, W = {frequency:g}"
         dampers = [Damper(mass, 1.0, restitution, stiffness) for stiffness in stiffnesses]

@@ -1,8 +1,8 @@
-"""Symmetric orbits with two compliant contacts a period, in a family over the speed of the loose mass.
+"""Symmetric orbits with two compliant contacts a period, over the speed of the loose mass.
 
-With a linear spring, a force and a frequency given, the clearance of a symmetric orbit is a function
-of the ratio of the speed of the loose mass to the clearance. Along this ratio the orbits pass a fold
-in the clearance without turning.
+With a linear spring, a force and a frequency given, the clearance of a symmetric orbit is a
+function of the ratio of the speed of the loose mass to the clearance. Along this ratio the orbits
+pass a fold in the clearance without turning.
 """
 
 from dataclasses import replace

@@ -21,7 +21,15 @@ import platformdirs
 from impact_damper.kernel.progress import show_progress
 
 # These rooms call kernels and hold none, and no room with kernels may import them.
-ROOMS_WITHOUT_KERNELS = ("stages", "claims", "tables", "figures", "workflow")
+ROOMS_WITHOUT_KERNELS = (
+    "literature",
+    "comparisons",
+    "stages",
+    "claims",
+    "tables",
+    "figures",
+    "workflow",
+)
 
 
 def source_digest() -> str:

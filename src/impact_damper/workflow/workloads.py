@@ -27,6 +27,9 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
+# Forcing frequency of a section without an oscillator of the configuration, whose frequencies are
+# given over the natural one.
+NATURAL = 1.0
 # Radius of the ball from which migration draws.
 MIGRATION_RADIUS = 2
 
@@ -128,7 +131,8 @@ def _cases(config):
             )
             _, frequency = _given(section, "frequencies", "frequency")
             if frequency is None:
-                frequency = config.oscillators[section.oscillator].frequencies
+                named = getattr(section, "oscillator", None)
+                frequency = config.oscillators[named].frequencies if named else NATURAL
             yield Case(
                 path,
                 key,

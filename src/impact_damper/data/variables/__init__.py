@@ -14,6 +14,7 @@ from impact_damper.data.variables import (
     migration,
     motions,
     orbits,
+    published,
     studies,
     subharmonic,
 )
@@ -32,6 +33,7 @@ MODULES = (
     balance_map,
     accuracy,
     studies,
+    published,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

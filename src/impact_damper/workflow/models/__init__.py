@@ -8,7 +8,15 @@ fields. A file lists its sections with named entries in `SECTIONS`.
 
 from pydantic import create_model
 
-from impact_damper.workflow.models import balance, contact, figures, methods, motions, studies
+from impact_damper.workflow.models import (
+    balance,
+    contact,
+    figures,
+    methods,
+    motions,
+    published,
+    studies,
+)
 from impact_damper.workflow.models.section import Section
 from impact_damper.workflow.models.settings import (
     RESULTS,
@@ -21,7 +29,7 @@ from impact_damper.workflow.models.settings import (
 from impact_damper.workflow.models.system import CONTACT_STIFFNESS, Oscillators
 from impact_damper.workflow.models.values import count, entries
 
-SUBJECTS = (motions, balance, contact, methods, studies, figures)
+SUBJECTS = (motions, balance, contact, methods, studies, published, figures)
 ENTRIES = {"oscillators": Oscillators} | {
     name: model for subject in SUBJECTS for name, model in subject.SECTIONS.items()
 }

@@ -10,6 +10,7 @@ from impact_damper.workflow.registry import (
     design,
     methods,
     migration,
+    published,
     responses,
     schematics,
 )
@@ -23,6 +24,7 @@ CHAPTERS = {
     "migration": migration,
     "methods": methods,
     "claims": claims,
+    "published": published,
 }
 # Those of the paper, which `snakemake` alone makes.
 PAPER = [name for name, chapter in CHAPTERS.items() if all(stage.paper for stage in chapter.STAGES)]

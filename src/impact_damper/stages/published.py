@@ -1,0 +1,75 @@
+"""Our numbers beside published ones, and closed forms beside our orbits and motions.
+
+Each group of numbers is compared by a function of the room `comparisons`; what is published stands
+in the room `literature`. All groups together take some ten seconds.
+"""
+
+from impact_damper.comparisons.duffing import basin_shares, jump_frequencies
+from impact_damper.comparisons.hertz import hertz_impacts
+from impact_damper.comparisons.rigid_walls import rigid_walls
+from impact_damper.comparisons.tuned_absorbers import nonlinear_absorbers, tuned_mass_dampers
+from impact_damper.comparisons.vibro_impact import ring_down, vibro_impact
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.system.bounds import shown
+from impact_damper.system.settling import check_settling
+
+GROUPS = {
+    "rigid_walls": rigid_walls,
+    "vibro_impact": vibro_impact,
+    "ring_down": ring_down,
+    "tuned_mass_dampers": tuned_mass_dampers,
+    "nonlinear_absorbers": nonlinear_absorbers,
+    "basin_shares": basin_shares,
+    "jump_frequencies": jump_frequencies,
+    "hertz_impacts": hertz_impacts,
+}
+
+
+def published(settings, *, seed=1995, settling=None):
+    """Compare our numbers with published ones.
+
+    Parameters
+    ----------
+    settings : dict
+        For each group, a key of GROUPS, the arguments of its function without seed and settling.
+    seed : int
+        Of the random starts.
+    settling : Settling, optional
+        How motions from random starts are run.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `comparison` the published value and ours, where it is published, why they differ, the
+        order with which the difference falls, our value extrapolated to the limit of the closed
+        form, and the standard error of a difference of random counts.
+
+    Raises
+    ------
+    ArithmeticError
+        If an orbit that a comparison needs is not found.
+    TypeError, ValueError
+        If a group is unknown, or an argument out of range.
+    """
+    settling = check_settling(settling)
+    unknown = settings.keys() - GROUPS.keys()
+    if unknown:
+        raise ValueError(
+            f"settings: unknown groups {shown(sorted(unknown))}; known: {', '.join(GROUPS)}"
+        )
+    found = []
+    for name, given in settings.items():
+        random = {"seed": seed, "settling": settling} if name == "basin_shares" else {}
+        found += GROUPS[name](**given, **random)
+    data = {
+        "publication": [flag("publication", each.publication) for each in found],
+        "published_value": [each.published for each in found],
+        "our_value": [each.ours for each in found],
+        "difference_reason": [flag("difference_reason", each.reason) for each in found],
+        "difference_order": [each.order for each in found],
+        "difference_error": [each.error for each in found],
+        "limit_value": [each.limit for each in found],
+    }
+    quantities = [each.quantity for each in found]
+    parameters = {"settings": settings, "seed": seed}
+    return dataset(data, {"comparison": quantities}, parameters, "Published numbers and ours")

@@ -1,0 +1,25 @@
+"""Chapter of the report: published numbers beside ours; not part of the paper."""
+
+from impact_damper.workflow.registry.records import Stage, Table
+from impact_damper.workflow.registry.values import settling
+
+
+def published(config, name):
+    return {
+        "settings": config["published"][name],
+        "seed": config["seed"],
+        "settling": settling(config),
+    }
+
+
+TITLE = "Published numbers beside ours"
+STAGES = (Stage("published", "published", published, paper=False),)
+KINDS = ()
+TABLES = (
+    Table(
+        "published",
+        "tables.published",
+        ("published",),
+        "Published numbers and closed forms beside ours, and why they differ.",
+    ),
+)
