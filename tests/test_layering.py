@@ -39,6 +39,7 @@ LARGE = {
     "data/variables": "one file for each subject of the datasets; none imports another",
     "figures": "one file for each kind of figure; they share only drawing and style",
     "stages": "one file for each stage of the workflow",
+    "workflow/models": "one file for each subject of the configuration, and what they share",
 }
 
 FILES = {

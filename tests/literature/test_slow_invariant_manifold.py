@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.literature.masri_caughey import (
-    motion_with_speed,
+    flight_with_speed,
     stability_boundaries,
     two_impact_motions,
 )
@@ -63,7 +63,7 @@ def exact_force(absorber, ratio):
     damper = Damper(absorber.mass_ratio, 1.0, absorber.restitution)
     return (
         1
-        / motion_with_speed(oscillator, damper, frequency, 2 * ratio * frequency / np.pi).clearance
+        / flight_with_speed(oscillator, damper, frequency, 2 * ratio * frequency / np.pi).clearance
     )
 
 

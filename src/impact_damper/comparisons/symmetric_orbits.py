@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from impact_damper.literature.masri_caughey import motion_with_speed
+from impact_damper.literature.masri_caughey import flight_with_speed
 from impact_damper.orbits.compliant_orbits import CONTACTS
 from impact_damper.orbits.shooting import Orbit, shoot
 from impact_damper.system.packed import pack
@@ -62,9 +62,10 @@ def orbit_at_clearance(oscillator, damper, frequency, motion) -> SymmetricOrbit:
         If Newton's method does not converge to an orbit with two contacts.
     """
     p = pack(oscillator, damper, frequency)
-    state, phase = motion.flight.copy(), motion.phase + np.pi / 2
+    rigid = flight_with_speed(oscillator, damper, frequency, motion.speed / motion.clearance)
+    state = rigid.state
     for _ in range(ITERATIONS):
-        orbit, end = shoot(p, state, 1, phase, symmetric=True)
+        orbit, end = shoot(p, state, 1, rigid.phase, symmetric=True)
         if orbit.converged:
             break
         state = state + np.linalg.solve(np.eye(4) - orbit.root, end - state)
@@ -82,27 +83,26 @@ def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
     ArithmeticError
         If Newton's method does not converge to an orbit with two contacts.
     """
-    motion = motion_with_speed(oscillator, damper, frequency, ratio)
-    phase = motion.phase + np.pi / 2
-    unknowns = np.append(motion.flight, motion.clearance)
+    rigid = flight_with_speed(oscillator, damper, frequency, ratio)
+    unknowns = np.append(rigid.state, rigid.clearance)
 
     def mapped(state, clearance):
         p = pack(oscillator, replace(damper, clearance=clearance), frequency)
-        return shoot(p, state, 1, phase, symmetric=True)
+        return shoot(p, state, 1, rigid.phase, symmetric=True)
 
+    # By the clearance the map is differentiated once: the walls are nearly rigid, and Newton's
+    # method starts close to the orbit.
+    step = NUDGE * rigid.clearance
+    ahead, behind = (mapped(rigid.state, rigid.clearance + h)[1] for h in (step, -step))
+    matrix = np.zeros((5, 5))
+    matrix[:4, 4], matrix[4] = (ahead - behind) / (2 * step), (0, 1, 0, -1, ratio)
     for _ in range(ITERATIONS):
         state, clearance = unknowns[:4], float(unknowns[4])
         orbit, end = mapped(state, clearance)
         off = state[1] - state[3] + ratio * clearance
         if orbit.converged and abs(off) < RESIDUAL * clearance:
             break
-        step = NUDGE * clearance
-        by_clearance = (mapped(state, clearance + step)[1] - mapped(state, clearance - step)[1]) / (
-            2 * step
-        )
-        matrix = np.zeros((5, 5))
-        matrix[:4, :4], matrix[:4, 4] = orbit.root - np.eye(4), by_clearance
-        matrix[4] = 0, 1, 0, -1, ratio
+        matrix[:4, :4] = orbit.root - np.eye(4)
         unknowns = unknowns - np.linalg.solve(matrix, np.append(end - state, off))
     return _checked(orbit, clearance)
 

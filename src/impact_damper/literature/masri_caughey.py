@@ -54,8 +54,6 @@ class TwoImpactMotion(NamedTuple):
         W T of the impact at the wall Z2 = -d0, in (-pi, pi].
     impact : numpy.ndarray, shape (4,)
         Z1, Z1', Z2, Z2' before that impact.
-    flight : numpy.ndarray, shape (4,)
-        The same a quarter of a period later, in the middle of the flight.
     displacement : float
         max |Z1|.
     multipliers : numpy.ndarray of complex, shape (4,)
@@ -71,7 +69,6 @@ class TwoImpactMotion(NamedTuple):
     speed: float
     phase: float
     impact: np.ndarray
-    flight: np.ndarray
     displacement: float
     multipliers: np.ndarray
     room: float
@@ -80,6 +77,24 @@ class TwoImpactMotion(NamedTuple):
     def stable(self) -> bool:
         """Whether it is a motion and all multipliers are less than 1 in modulus."""
         return bool(self.room > 0 and abs(self.multipliers[0]) < 1)
+
+
+class Flight(NamedTuple):
+    """The middle of the flight of the loose mass from the wall Z2 = -d0.
+
+    Attributes
+    ----------
+    clearance : float
+        d0.
+    phase : float
+        W T, a quarter of a period after the impact.
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' there.
+    """
+
+    clearance: float
+    phase: float
+    state: np.ndarray
 
 
 class Boundary(NamedTuple):
@@ -115,15 +130,15 @@ def two_impact_motions(oscillator, damper, frequency) -> list[TwoImpactMotion]:
     TypeError, ValueError
         If an argument is out of range, or the spring is not linear.
     """
-    flight = _Flight(oscillator, damper, frequency)
-    square, linear = flight.across**2 + flight.along**2, flight.across
-    share = linear**2 - square * (1 - (abs(flight.response) / damper.clearance) ** 2)
+    family = _Family(oscillator, damper, frequency)
+    square, linear = family.across**2 + family.along**2, family.across
+    share = linear**2 - square * (1 - (abs(family.response) / damper.clearance) ** 2)
     ratios = (linear + np.array([-1, 1]) * np.sqrt(share)) / square if share >= 0 else []
-    return [flight.motion(ratio) for ratio in ratios if ratio > 0]
+    return [family.motion(ratio) for ratio in ratios if ratio > 0]
 
 
-def motion_with_speed(oscillator, damper, frequency, ratio) -> TwoImpactMotion:
-    """Return the motion in which the speed of the loose mass is the clearance times a ratio.
+def flight_with_speed(oscillator, damper, frequency, ratio) -> Flight:
+    """Return the flight in which the speed of the loose mass is the clearance times a ratio.
 
     Parameters
     ----------
@@ -132,7 +147,11 @@ def motion_with_speed(oscillator, damper, frequency, ratio) -> TwoImpactMotion:
     ratio : float
         s = w/d0.
     """
-    return _Flight(oscillator, damper, frequency).motion(ratio)
+    family = _Family(oscillator, damper, frequency)
+    clearance, phase, impact = family.impact(ratio)
+    primary, gap = family.motions(ratio, clearance, phase, impact)
+    middle = family.half / 2
+    return Flight(clearance, phase + np.pi / 2, np.concatenate([primary(middle), gap(middle)]))
 
 
 def stability_boundaries(oscillator, damper, frequency) -> list[Boundary]:
@@ -148,16 +167,16 @@ def stability_boundaries(oscillator, damper, frequency) -> list[Boundary]:
     list of Boundary
         By rising ratio of the speed of the loose mass to the clearance.
     """
-    flight = _Flight(oscillator, damper, frequency)
-    ratios = RATIOS * 2 * flight.frequency / np.pi
-    stable = np.array([flight.is_stable(ratio) for ratio in ratios])
+    family = _Family(oscillator, damper, frequency)
+    ratios = RATIOS * 2 * family.frequency / np.pi
+    stable = np.array([family.is_stable(ratio) for ratio in ratios])
     found = []
     for k in np.flatnonzero(stable[:-1] != stable[1:]):
         inner, outer = ratios[k : k + 2][:: 1 if stable[k] else -1]
         for _ in range(BISECTIONS):
             middle = (inner + outer) / 2
-            inner, outer = (middle, outer) if flight.is_stable(middle) else (inner, middle)
-        motion = flight.motion(inner)
+            inner, outer = (middle, outer) if family.is_stable(middle) else (inner, middle)
+        motion = family.motion(inner)
         found.append(Boundary(motion, _event(motion)))
     return found
 
@@ -172,7 +191,7 @@ def _event(motion):
     return "fold" if value.real > 0 else "symmetry_breaking"
 
 
-class _Flight:
+class _Family:
     """Half a period of the motions of one oscillator and damper, for any speed of the loose mass.
 
     Attributes
@@ -221,15 +240,14 @@ class _Flight:
 
     def motion(self, ratio) -> TwoImpactMotion:
         """Return the motion for a ratio s = w/d0."""
-        clearance, phase, impact = self._impact(ratio)
-        primary, gap = self._motions(ratio, clearance, phase, impact)
+        clearance, phase, impact = self.impact(ratio)
+        primary, gap = self.motions(ratio, clearance, phase, impact)
         turns = [abs(primary(time)[0]) for time in self._turns(primary)]
         return TwoImpactMotion(
             clearance,
             ratio * clearance,
             phase,
             impact,
-            np.concatenate([primary(self.half / 2), gap(self.half / 2)]),
             max([*turns, abs(impact[0])]),
             self._multipliers(impact, phase),
             self._room(gap, clearance),
@@ -237,12 +255,12 @@ class _Flight:
 
     def is_stable(self, ratio) -> bool:
         """Return `TwoImpactMotion.stable` for a ratio, with less work for unstable motions."""
-        clearance, phase, impact = self._impact(ratio)
+        clearance, phase, impact = self.impact(ratio)
         if abs(self._multipliers(impact, phase)[0]) >= 1:
             return False
-        return self._room(self._motions(ratio, clearance, phase, impact)[1], clearance) > 0
+        return self._room(self.motions(ratio, clearance, phase, impact)[1], clearance) > 0
 
-    def _impact(self, ratio):
+    def impact(self, ratio):
         """Return clearance, and phase and state before the impact at Z2 = -d0."""
         position, lag = self.across * ratio - 1, self.along * ratio
         clearance = abs(self.response) / np.hypot(position, lag)
@@ -250,7 +268,7 @@ class _Flight:
         state = [self.half * ratio / 2 - 1, -self.before * ratio, -1, -(1 + self.before) * ratio]
         return clearance, phase, clearance * np.array(state)
 
-    def _motions(self, ratio, clearance, phase, impact):
+    def motions(self, ratio, clearance, phase, impact):
         """Return (Z1, Z1') and (Z2, Z2') as functions of the time since the impact."""
         speed = ratio * clearance
 
