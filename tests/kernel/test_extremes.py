@@ -11,7 +11,9 @@ from impact_damper.system.bounds import MOST_STIFF
 
 SHORT = idm.Settling(patience=100, limit=100, watched=2)
 OUTCOMES = [flag("outcome", name) for name in ("unresolved", "settled", "chaotic")]
-OUTCOMES += [flag("outcome", name) for name in ("diverged", "non_colliding")]
+OUTCOMES += [flag("outcome", name) for name in ("diverged", "non_colliding", "escaped", "at_rest")]
+OF_OSCILLATOR = {"damping": 0.215, "linear_frequency": 0.0, "cubic": 1.0, "force": 1.0}
+OF_OSCILLATOR |= {"unbalance": 0.0}
 USUAL = {"mass_ratio": 0.12, "clearance": 2.0, "restitution": 1.0, "contact_stiffness": 2000.0}
 EXTREMES = [
     {"contact_stiffness": 1e-6},
@@ -22,19 +24,34 @@ EXTREMES = [
     {"restitution": 0.3},
     {"restitution": 1 - 1e-15},
     {"mass_ratio": 1e-6},
+    {"mass_ratio": 1e-4},
+    {"mass_ratio": 1.0},
     {"mass_ratio": 10.0},
+    {"mass_ratio": 1e-4, "contact_stiffness": 1e6, "restitution": 0.05, "clearance": 1e3},
     {"frequency": 0.01},
     {"frequency": 1e3},
     {"damping": 1e-9},
+    {"damping": 1e-5},
     {"damping": 10.0},
     {"linear_frequency": 100.0},
+    {"cubic": 0.0},
+    {"cubic": 0.0, "linear_frequency": 1.0},
+    {"cubic": 0.0, "linear_frequency": 2.0, "damping": 1e-5},
+    {"cubic": 1e6},
+    {"cubic": -1e6},
+    {"cubic": -1e-3, "linear_frequency": 1.0},
+    {"cubic": -0.1, "linear_frequency": 1.0, "damping": 1e-5},
+    {"force": 0.0},
+    {"force": 0.0, "damping": 1e-5, "linear_frequency": 1.0},
+    {"force": 1e6},
+    {"force": 0.0, "unbalance": 1e6},
 ]
 
 
 def system(extreme):
     """Return oscillator, damper and frequency; parameters that are not given are usual ones."""
-    own = {"damping": 0.215, "linear_frequency": 0.0} | extreme
-    oscillator = idm.Oscillator(own["damping"], own["linear_frequency"])
+    own = {key: extreme.get(key, usual) for key, usual in OF_OSCILLATOR.items()}
+    oscillator = idm.Oscillator(**own)
     damper = idm.Damper(**USUAL | {key: extreme[key] for key in USUAL if key in extreme})
     return oscillator, damper, extreme.get("frequency", 2.0)
 
@@ -48,7 +65,8 @@ def test_a_motion_at_an_extreme_has_an_outcome(extreme):
     oscillator, damper, frequency = system(extreme)
     state = (1.0, 0.5, 0.0, 0.0)
     motion = idm.simulate(oscillator, damper, frequency, state, periods=2, samples=20)
-    assert np.isfinite(motion["displacement"]).all()
+    escapes = oscillator.cubic < 0 and np.isfinite(motion["escape_time"])
+    assert escapes or np.isfinite(motion["displacement"]).all()
     steady = idm.steady_motion(oscillator, damper, frequency, state, settling=SHORT)
     assert int(steady["outcome"]) in OUTCOMES
 

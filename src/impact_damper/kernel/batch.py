@@ -24,17 +24,9 @@ _MANY = instances.instance(LANES)
 flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_MANY)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # The numbers of a trajectory in a pool are the first rows of a step, in their order.
-STATE, SIDE, TIME, LONGEST, TOLERANCE, NO_RETURN, LENGTH = (
+STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
-    for row in (
-        _MANY.Y0,
-        _MANY.SIDE,
-        _MANY.TIME,
-        _MANY.LONGEST,
-        _MANY.TOLERANCE,
-        _MANY.NO_RETURN,
-        _MANY.LENGTH,
-    )
+    for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
 )
 
 
@@ -44,9 +36,11 @@ class Pool(NamedTuple):
     Attributes
     ----------
     numbers : array, shape (m, LENGTH)
-        Parameters, state, side, time, longest step, tolerance and the |Z1| of no return.
+        Parameters, state, side, time, longest step and tolerance.
     ends : array, shape (m,)
         Times to stop at.
+    farthest : array, shape (m,)
+        |Z1| from which they escape (`equation.no_return`).
     tangents : array, shape (m, 4)
     queues : array of int, shape (4, m)
         Places of the trajectories that wait for a step of each kind.
@@ -60,6 +54,7 @@ class Pool(NamedTuple):
 
     numbers: np.ndarray
     ends: np.ndarray
+    farthest: np.ndarray
     tangents: np.ndarray
     queues: np.ndarray
     waiting: np.ndarray
@@ -73,6 +68,7 @@ def make_pool(size):
     """A pool without trajectories."""
     return Pool(
         np.zeros((size, LENGTH)),
+        np.zeros(size),
         np.zeros(size),
         np.zeros((size, 4)),
         np.zeros((4, size), np.int64),
@@ -93,7 +89,7 @@ def enter(pool, m, p, y, side, tolerance):
         numbers[STATE + i] = y[i]
     numbers[SIDE] = side
     numbers[TOLERANCE] = tolerance
-    numbers[NO_RETURN] = no_return(p)
+    pool.farthest[m] = no_return(p)
 
 
 @kernel
@@ -144,7 +140,10 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Put the trajectories back. Returns how many are at their ends; `arrived` has their places."""
+    """Put the trajectories back. Returns how many are at their ends; `arrived` has their places.
+
+    One that has escaped (`equation.no_return`) is taken to its end, with its state at the escape.
+    """
     ended = 0
     for lane in range(count):
         m = chosen[lane]
@@ -158,7 +157,9 @@ def scatter(pool, chosen, count, kind, arrived):
         if touching and kind & 1 == FLIGHT:
             pool.contacts[m] += 1
         length = pool.a[LENGTH * LANES + lane]
-        if length >= numbers[LONGEST]:
+        x, v = numbers[STATE], numbers[STATE + 1]
+        gone = not (abs(x) <= pool.farthest[m] or x * v <= 0.0)
+        if length >= numbers[LONGEST] or gone:
             numbers[TIME] = pool.ends[m]
             arrived[ended] = m
             ended += 1

@@ -82,12 +82,12 @@ def no_return(p):
 
 
 @kernel_only
-def has_escaped(farthest, x, v):
-    """Return whether Z1 = x is beyond `farthest`, from `no_return`, and moves outward at v.
+def has_escaped(p, x, v):
+    """Return whether Z1 = x is beyond the point of `no_return`, and moves outward at Z1' = v.
 
-    Also for numbers that are not finite, so that every loop over steps ends.
+    With a softening spring also for numbers that are not finite.
     """
-    return not (abs(x) <= farthest or x * v <= 0.0)
+    return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
 @kernel_only

@@ -69,14 +69,13 @@ def squares(count):
 
 def _lower_squares(n):
     """Lines that take x[n] into the squares: s[2n], and before it pairs from s[n] or s[n-1] on."""
-    yield f"w{n} = cubic * x{n}"
-    yield f"y{n} = 2.0 * w{n}"
+    yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
         before = f"P{j}" if j < 2 * n - 2 else f"(s{j}, 0.0)"
         first = f"x{j - n}" if j >= n else "0.0"
         yield f"P{j} = {before} + y{n} * ({first}, x{j + 1 - n})"
         yield f"(s{j}, s{j + 1}) = P{j}"
-    yield f"s{2 * n} = w{n} * x{n}"
+    yield f"s{2 * n} = cubic * x{n} * x{n}"
 
 
 def _without_damping(k, drive):

@@ -17,7 +17,7 @@ from impact_damper.system import packed
 # still lack the cosine or sine of the phase, and h and D over the orders. Those of a tangent, in an
 # array of their own, are of the first two.
 STATE = "Y0 Y1 Y2 Y3".split()
-STEP = "SIDE TIME LONGEST TOLERANCE NO_RETURN LENGTH".split()
+STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
     "COSINE SINE KNOWN TURNS ANGLE T Z1 Z1_SLOPE Z1_CURVE Z1_JERK "
     "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
@@ -122,6 +122,7 @@ class Writer:
             # Not loaded together with x0: a pair of numbers stored one by one is waited for.
             f"x1 = {self.at('Y1')} + 0.0",
             f"cubic = {self.at('CUBIC')}",
+            "double = 2.0 * cubic",
             "s0 = cubic * x0 * x0",
             f"stiffness = {self.at('STIFFNESS')} + s0",
             "linear = stiffness + 2.0 * s0",

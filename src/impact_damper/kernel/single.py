@@ -8,7 +8,7 @@ import numpy as np
 
 from impact_damper.kernel import instances
 from impact_damper.kernel.compiling import kernel, kernel_only
-from impact_damper.kernel.equation import no_return
+from impact_damper.kernel.equation import has_escaped, no_return
 from impact_damper.kernel.memory import CACHE_LINE, aligned, pointer
 from impact_damper.system import packed
 from impact_damper.system.packed import CLEARANCE
@@ -19,22 +19,14 @@ flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_s
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 # Where the tangents' numbers begin in a workspace: at a cache line.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
-SIDE, TIME, LONGEST, TOLERANCE, NO_RETURN, LENGTH = (
+SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.SIDE,
     _ONE.TIME,
     _ONE.LONGEST,
     _ONE.TOLERANCE,
-    _ONE.NO_RETURN,
     _ONE.LENGTH,
 )
-PARAMETERS, STATE, KNOWN, T, X, Q = (
-    _ONE.FREQUENCY,
-    _ONE.Y0,
-    _ONE.KNOWN,
-    _ONE.T,
-    _ONE.X,
-    _ONE.Q,
-)
+PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
 
 
 @kernel
@@ -70,7 +62,6 @@ def place(p, y, side, tolerance, a):
         a[STATE + i] = y[i]
     a[SIDE] = side
     a[TOLERANCE] = tolerance
-    a[NO_RETURN] = no_return(p)
     a[KNOWN] = np.inf
 
 
@@ -97,7 +88,7 @@ def unload(y, tangents, a, d):
 
 @kernel_only
 def step_loaded(count, t, longest, a, d):
-    """`step` of a trajectory that stays in the workspace, and of so many tangents."""
+    """Make a `step` of a trajectory that stays in the workspace, and of `count` tangents."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -134,7 +125,9 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     Returns
     -------
     length : float
-        Time gone by.
+        Time gone by. It is `longest` once the motion has escaped (`equation.no_return`), since
+        steps to infinity would become ever shorter; the state is then that at the escape, after
+        the time `work[LENGTH]`.
     side : int
         Wall in contact after the step.
     """
@@ -142,7 +135,7 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     load(p, y, tangents, side, tolerance, a, d)
     length, side = step_loaded(len(tangents), t, longest, a, d)
     unload(y, tangents, a, d)
-    return length, side
+    return (longest if has_escaped(p, y[0], y[1]) else length), side
 
 
 @kernel
@@ -157,15 +150,20 @@ def side_of(p, y):
 
 @kernel
 def advance(p, y, tangents, side, t, end, tolerance, work):
-    """Integrate from t to end. Returns the side after it, contacts begun and time in contact."""
+    """Integrate from t to end. Returns the side after it, contacts begun and time in contact.
+
+    A motion that escapes (`equation.no_return`) is left in its state at the escape.
+    """
     contacts = 0
     touching = 0.0
+    farthest = no_return(p)
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, tangents, side, tolerance, a, d)
     while t < end:
         before = side
         length, side = step_loaded(len(tangents), t, end - t, a, d)
-        t = end if length >= end - t else t + length
+        escaped = not (abs(a[STATE]) <= farthest or a[STATE] * a[STATE + 1] <= 0.0)
+        t = end if escaped or length >= end - t else t + length
         if before == 0 and side != 0:
             contacts += 1
         if before != 0:

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel
-from impact_damper.kernel.equation import has_escaped, no_return
+from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.motions.records import ESCAPED, NEVER, UNRESOLVED, measure, trace
 from impact_damper.motions.settling import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
@@ -87,7 +87,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
         assign(path[k + 1, 1:], y)
         assign(ring[k % RING], y)
         out.periods_run = k
-        if has_escaped(no_return(p), y[0], y[1]):
+        if has_escaped(p, y[0], y[1]):
             out.outcome = ESCAPED
             break
         n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)

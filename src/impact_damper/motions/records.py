@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
-from impact_damper.kernel.equation import has_escaped, no_return
+from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.kernel.single import Q, T, X, assign, polynomial, side_of, step, workspace
+from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
@@ -112,7 +112,7 @@ def measure_one(p, y, periods, tolerance, out, stop):
         t = ahead if length >= ahead - t else t + length
         if t == half:
             out.asymmetry = distance(-state, y, speed_weight(p, side))
-    if has_escaped(no_return(p), state[0], state[1]):
+    if has_escaped(p, state[0], state[1]):
         measure_nothing(out)
         out.outcome = ESCAPED
         return
@@ -220,10 +220,10 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
         # the last sample is an end of a step, so that y is the state there
         left = times[-1] - t
         length, side = step(p, y, none, side, t, left, tolerance, work)
-        gone = has_escaped(no_return(p), y[0], y[1])
+        gone = has_escaped(p, y[0], y[1])
         while sample < len(times) and (times[sample] - t < length or length >= left):
             x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
-            if gone and times[sample] - t > work[T]:
+            if gone and times[sample] - t > work[LENGTH]:
                 x, v, z, w = np.nan, np.nan, np.nan, np.nan
             states[sample, 0], states[sample, 1] = x, v
             states[sample, 2] = z + (before * p[CLEARANCE] if before != 0 else 0.0)

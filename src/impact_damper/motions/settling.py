@@ -21,7 +21,7 @@ from impact_damper.kernel.batch import (
     send,
 )
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
-from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped, no_return
+from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped
 from impact_damper.kernel.single import assign, side_of
 from impact_damper.motions.records import (
     AT_REST,
@@ -40,7 +40,7 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
     strobe_time,
 )
-from impact_damper.system.packed import CLEARANCE, CUBIC, FREQUENCY
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Longest period looked for, in forcing periods, and number of strobe states kept for it.
 LONGEST_PERIOD = 12
@@ -215,8 +215,11 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     out.periods_run = k
     if k > 0:
         seen.quiet = seen.quiet + 1 if contacts == 0 and side == 0 else 0
-    if has_escaped(no_return(p), y[0], y[1]) or not abs(y[3]) < math.inf:
-        out.outcome = ESCAPED if p[CUBIC] < 0.0 else DIVERGED
+    if has_escaped(p, y[0], y[1]):
+        out.outcome = ESCAPED
+        return True
+    if not abs(y[0]) + abs(y[1]) + abs(y[3]) < math.inf:
+        out.outcome = DIVERGED
         return True
     if forcing_amplitude(p) == 0.0:
         return watch_free(p, y, seen, out)

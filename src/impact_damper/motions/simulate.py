@@ -129,7 +129,9 @@ def simulate(
     -------
     xarray.Dataset
         The state over `time`, and over `contact` the log of contacts: wall, beginning, end,
-        and Z2' at both (NaN for an end after the last sample).
+        and Z2' at both (NaN for an end after the last sample). With a softening spring also
+        `escape_time`, from which on the state is NaN, since the motion has gone over a barrier of
+        the spring and reaches infinity in a finite time; NaN if it has not.
 
     Raises
     ------
@@ -162,5 +164,8 @@ def simulate(
         "approach_velocity": log[:, 3],
         "departure_velocity": log[:, 4],
     }
+    if oscillator.cubic < 0:
+        escaped = np.isnan(states[:, 0])
+        data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
     made = describe(oscillator, damper) | {"frequency": float(frequency), "tolerance": tolerance}
     return dataset(data, {"time": times}, made, "Motion of the oscillator")

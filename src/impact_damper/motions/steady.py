@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, is_settled
+from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import tabulate
 from impact_damper.motions.simulate import COMPONENTS, check_state, simulate
@@ -63,10 +63,13 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
     Raises
     ------
     ArithmeticError
-        If the motion does not settle.
+        If the motion does not settle, escapes, or comes to rest.
     """
     settling = check_settling(settling)
     steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
+    for name in ("escaped", "at_rest"):
+        if steady["outcome"] == flag("outcome", name):
+            raise ArithmeticError(f"{name}: the motion leads to no orbit; simulate shows it")
     if not is_settled(steady):
         raise ArithmeticError(
             f"settling.limit = {settling.limit}: the motion has not settled by then; "

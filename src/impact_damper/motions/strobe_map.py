@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
-from impact_damper.kernel.equation import has_escaped, no_return
+from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
@@ -150,7 +150,7 @@ def polish(p, y, periods, reach, tolerance):
     orbit = y.copy()
     for _ in range(ITERATIONS):
         state, matrix, contacts = period_map(p, orbit, periods, tolerance)
-        if has_escaped(no_return(p), state[0], state[1]):
+        if has_escaped(p, state[0], state[1]):
             break
         active = 4 if contacts > 0 or side_of(p, orbit) != 0 else 2
         newton = matrix[:active, :active].copy()

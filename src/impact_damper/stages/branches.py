@@ -79,7 +79,8 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     span : tuple of float
         Least and greatest value of the parameter.
     parameter : str
-        frequency, damping, mass_ratio, clearance, restitution or contact_stiffness.
+        frequency, damping, cubic, force, unbalance, mass_ratio, clearance, restitution or
+        contact_stiffness.
 
     Returns
     -------

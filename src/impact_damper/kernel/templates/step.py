@@ -16,7 +16,6 @@ import math
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel_only
-from impact_damper.kernel.equation import has_escaped
 
 LANES: int
 TANGENTS: int
@@ -113,16 +112,6 @@ def end_flight(a):
 
 
 @kernel_only
-def length_taken(a, i):
-    """Time by which a step has advanced: to T, or to LONGEST once the primary mass has escaped.
-
-    On its way to infinity, which it reaches in a finite time, steps would become ever shorter.
-    """
-    gone = has_escaped(a[NO_RETURN + i], a[Y0 + i], a[Y1 + i])
-    return a[LONGEST + i] if gone else a[T + i]
-
-
-@kernel_only
 def flight_step(a):
     """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
     forcing(a)
@@ -150,7 +139,7 @@ def flight_step(a):
         a[Y2 + i] = a[WALL + i] * a[CLEARANCE + i] if met else free
         a[Y3 + i] = a[END_Z1_SLOPE + i] + drift
         a[SIDE + i] = a[WALL + i] if met else 0.0
-        a[LENGTH + i] = length_taken(a, i)
+        a[LENGTH + i] = t
 
 
 @kernel_only
@@ -163,7 +152,7 @@ def flight_tangents(a, d):
         d[3 * TANGENTS + i] -= d[TANGENTS + i]
     flight_tangent_value(a, d)
     for i in range(TANGENTS):
-        d[2 * TANGENTS + i] += d[i] + d[3 * TANGENTS + i] * a[T + i % LANES]
+        d[2 * TANGENTS + i] += d[i] + d[3 * TANGENTS + i] * a[LENGTH + i % LANES]
         d[3 * TANGENTS + i] += d[TANGENTS + i]
     dashpot_jump(a, d, -1.0)
 
@@ -221,4 +210,4 @@ def contact_step(a):
         a[Y2 + i] = wall if released else wall + a[END_DEPTH + i]
         a[Y3 + i] = a[END_DEPTH_SLOPE + i]
         a[SIDE + i] = 0.0 if released else a[SIDE + i]
-        a[LENGTH + i] = length_taken(a, i)
+        a[LENGTH + i] = a[T + i]

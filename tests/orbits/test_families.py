@@ -1,0 +1,70 @@
+"""Branches in the spring's coefficient and in the force, against closed forms and a scaling."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from impact_damper.stages.branches import orbit_branch
+from impact_damper.system.families import PARAMETERS, family_of
+from impact_damper.system.parameters import Damper, Oscillator
+
+FREQUENCY = 1.7
+
+
+def harmonic(oscillator, frequency=FREQUENCY):
+    """Complex amplitude of the steady motion of a linear oscillator."""
+    o, w = oscillator, frequency
+    return o.forcing_amplitude(w) / (o.linear_frequency**2 - w**2 + 1j * o.damping * w)
+
+
+def at_strobe(amplitude, frequency=FREQUENCY):
+    """State at W T = pi/2 of a motion Re(c exp(i W T))."""
+    return (1j * amplitude).real, (-frequency * amplitude).real
+
+
+@pytest.mark.parametrize(
+    ("parameter", "span"), [("force", (0.0, 2.0)), ("unbalance", (0.0, 0.6)), ("damping", (0.1, 1))]
+)
+def test_branch_of_a_linear_oscillator(parameter, span):
+    """From end to end, that without any force included."""
+    own = {"damping": 0.2, "linear_frequency": 1.1, "cubic": 0.0, "force": 0.5, "unbalance": 0.2}
+    own |= {"unbalance" if parameter == "force" else "force": 0.0}
+    oscillator = Oscillator(**own)
+    state = at_strobe(harmonic(oscillator))
+    found = orbit_branch(oscillator, None, FREQUENCY, state, span=span, parameter=parameter)
+    values = found["followed_value"].values
+    assert_allclose([values.min(), values.max()], span, rtol=1e-12, atol=1e-12)
+    expected = [abs(harmonic(Oscillator(**own | {parameter: value}))) for value in values]
+    assert_allclose(found["orbit_displacement"], expected, atol=1e-9)
+    assert len(found["event_kind"]) == 0
+
+
+def test_branches_in_force_and_cubic_are_one():
+    """Z1 times the root of k3 obeys the equation with k3 = 1 and the force times that root."""
+    oscillator = Oscillator(1.2, 1.0, 0.05, 1.0)
+    state = at_strobe(harmonic(oscillator))
+    cubic = orbit_branch(oscillator, None, FREQUENCY, state, span=(-0.02, 4.0), parameter="cubic")
+    values, size = cubic["followed_value"].values, cubic["orbit_displacement"].values
+    linear = abs(harmonic(Oscillator(1.2, 1.0, 0.0, 1.0)))
+    order = np.argsort(values)
+    assert np.interp(0.0, values[order], size[order]) == pytest.approx(linear, rel=1e-4)
+    root = np.sqrt(values[values > 0.01])
+    start = np.multiply(state, np.sqrt(0.05))
+    scaled = Oscillator(1.2, 1.0, 1.0, float(np.sqrt(0.05)))
+    force = orbit_branch(scaled, None, FREQUENCY, start, span=(0.0, 2.0), parameter="force")
+    assert abs(force["followed_value"].values.min()) < 1e-12
+    assert force["orbit_displacement"].values.min() < 1e-9
+    known, expected = force["followed_value"].values, force["orbit_displacement"].values
+    order = np.argsort(known)
+    found = np.interp(root, known[order], expected[order])
+    assert_allclose(size[values > 0.01] * root, found, rtol=3e-3)
+
+
+def test_spans_are_those_of_the_parameter():
+    oscillator, damper = Oscillator(0.2, 1.0, 0.5, 0.7), Damper(0.1, 2.0, 0.8)
+    for parameter in ("force", "unbalance", "clearance", "damping", "restitution"):
+        with pytest.raises(ValueError, match="span"):
+            family_of(oscillator, damper, 2.0, parameter, (-0.5, 2.5))
+    pack_at, here, ends = family_of(oscillator, damper, 2.0, "cubic", (-0.5, 2.5))
+    assert here == 0.5 and ends == (-0.5, 2.5)
+    assert set(PARAMETERS) >= {"cubic", "force", "unbalance"}
