@@ -223,6 +223,7 @@ def test_recurrence_without_rounding(phase, order):
     given = {name: draw() for name in GIVEN}
     given |= {"cosine": Fraction(1), "sine": Fraction(1), "Fraction": Fraction}
     s0 = given["cubic"] * given["x0"] ** 2
+    given |= {"double": 2 * given["cubic"]}
     given |= {"s0": s0, "stiffness": given["omega"] + s0, "linear": given["omega"] + 3 * s0}
     for k, numbers in enumerate(kept):
         given |= {f"{name}{k}": number for name, number in numbers.items()}
