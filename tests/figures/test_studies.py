@@ -18,7 +18,7 @@ def made_up(frequencies, restitutions):
     shape = 3, 4, len(frequencies), len(restitutions)
     counts = np.zeros((*shape, len(OUTCOMES)), int)
     counts[..., OUTCOMES.index("settled")] = 5
-    counts[0, 1:] -= np.eye(5, dtype=int)[OUTCOMES.index("settled")]
+    counts[0, 1:] -= np.eye(len(OUTCOMES), dtype=int)[OUTCOMES.index("settled")]
     counts[0, 1:, ..., OUTCOMES.index("chaotic")] = 1
     data = {
         "largest_displacement": (AXES, np.linspace(0.1, 1, np.prod(shape)).reshape(shape)),

@@ -1,4 +1,4 @@
-"""Error against counted work, a panel for each scene."""
+"""Error against counted work of methods on scenes (kind accuracy)."""
 
 from itertools import cycle
 
@@ -60,12 +60,12 @@ FINEST = 1e-16
 
 @style()
 def draw_accuracy(*, accuracy):
-    """Panels of error over work, methods by colour and marker.
+    """Draw error over counted work, one panel for each scene, methods by colour and marker.
 
     Parameters
     ----------
     accuracy : list of xarray.Dataset
-        Of `accuracy.error_against_work`.
+        Datasets of the stage accuracy.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Return errors and standard errors of a chaotic scene, and shade the reference's."""
+    """Return errors and standard errors of a chaotic scene, and shade those of its reference."""
     truth = float(data["reference_average"].sel(statistic=quantity))
     average = data["average"].sel(statistic=quantity).values
     doubt = float(data["reference_average_error"].sel(statistic=quantity)) / truth
@@ -133,7 +133,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method that ended, with right and with wrong contacts."""
+    """Draw the complete runs of one method; those with wrong contacts look different."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     axes.plot(work[ended], error[ended], color=color, linestyle=line, linewidth=0.7)

@@ -1,4 +1,4 @@
-"""Verdicts of each method against the truth, by tolerance."""
+"""Verdicts of integrators by tolerance (kind method_verdicts)."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -46,12 +46,12 @@ ROLES = {
 
 @style()
 def draw_method_verdicts(*, method_verdicts):
-    """Map of verdicts, a panel for each method: scenes by tolerance or steps.
+    """Draw the verdicts over tolerance or steps and scene, one panel for each method.
 
     Parameters
     ----------
     method_verdicts : list of xarray.Dataset
-        One, of `method_verdicts`.
+        One dataset of the stage method_verdicts.
 
     Returns
     -------

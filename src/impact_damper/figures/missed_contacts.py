@@ -1,4 +1,4 @@
-"""Share of contacts near grazing that each method misses, over depth and tolerance."""
+"""Contacts near grazing that integrators miss (kind missed_contacts)."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -35,12 +35,12 @@ COLUMNS = 4
 
 @style()
 def draw_missed_contacts(*, missed_contacts):
-    """Map of the share missed, a panel for each method; the last one has the colour bar.
+    """Draw the share of contacts missed, one panel for each method, and a colour bar.
 
     Parameters
     ----------
     missed_contacts : list of xarray.Dataset
-        One, of `missed_contacts.missed_contacts`.
+        One dataset of the stage missed_contacts.
 
     Returns
     -------

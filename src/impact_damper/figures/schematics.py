@@ -32,7 +32,7 @@ from impact_damper.figures.style import (
     style,
 )
 
-CAPTION = ""  # the title and the remark of a schematic say all
+CAPTION = ""  # the caption of a schematic is its title and its remark
 
 
 def carriage(axes):

@@ -1,4 +1,4 @@
-"""The quiet motion by fixed-step methods, over stiffness and step."""
+"""The quiet motion by fixed-step methods, over stiffness and step (kind stable_steps)."""
 
 import math
 
@@ -47,12 +47,12 @@ ROLES = {
 
 @style()
 def draw_stable_steps(*, stable_steps):
-    """Map of verdicts, a row of panels for each damper and a panel for each method.
+    """Draw the verdicts over stiffness and step, a row of panels for each damper.
 
     Parameters
     ----------
     stable_steps : list of xarray.Dataset
-        Of `stable_steps.stable_steps`.
+        Datasets of the stage stable_steps.
 
     Returns
     -------

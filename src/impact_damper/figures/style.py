@@ -235,7 +235,7 @@ def legend(figure, columns) -> None:
 
 
 def draw_first() -> None:
-    """Draw something to nowhere, for matplotlib imports and prepares much when it first draws."""
+    """Draw an empty figure in memory, because the first drawing takes matplotlib much longer."""
     with style():
         drawn = figure("single", 2.0)
         drawn.subplots().set_title(r"$\Omega$")

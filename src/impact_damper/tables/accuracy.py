@@ -1,4 +1,4 @@
-"""Methods and models on each scene with error, work and the cheapest; and errors of readings."""
+"""Tables of methods and models on each scene, and of the errors of quantities read off models."""
 
 import numpy as np
 import pandas as pd
@@ -22,7 +22,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return each method on each scene, at the setting with the least work that meets the accuracy.
+    """Return each method on each scene, at the setting of least work that meets the accuracy.
 
     Without such a setting, the one with the least error. The column `choice` marks the method with
     the least work; if that is a model of orbits, also the integrator with the least work. Taylor
@@ -111,7 +111,7 @@ def _averages(data, of):
 
 
 def readings(datasets) -> pd.DataFrame:
-    """Return optimum clearances and edges of suppression bands, by models and by the true motions.
+    """Return optimum clearances and edges of suppression bands by models and by the exact motions.
 
     Simulation brackets an edge by two frequencies; the error is the distance from that interval.
     """

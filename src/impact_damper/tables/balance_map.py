@@ -22,7 +22,7 @@ AMPLITUDES = {
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Number of cells of each map by verdict, share of chaos, and share of accurate amplitudes.
+    """Return numbers of cells of each map by verdict, and shares of chaos and accurate amplitudes.
 
     Shares come with the 95 % interval of a binomial share, as if the cells were drawn at random.
     """

@@ -1,4 +1,4 @@
-"""Where results come from: versions, commit, configuration and machine."""
+"""Provenance of results: versions, commit, configuration and machine."""
 
 import hashlib
 import json
@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """What results depend on, and what they were made with.
+    """Return what results depend on: configuration, code, packages and machine.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def provenance(configuration, root) -> dict:
 
 
 def processor() -> str:
-    """The processor's name, with family and model where the system tells."""
+    """Return the name of the processor, with family and model if the system provides them."""
     info = Path("/proc/cpuinfo")
     if not info.exists():
         return platform.processor() or platform.machine()
@@ -69,7 +69,7 @@ def _versions(lock):
 
 
 def _git(root, *arguments):
-    """What git says, or None where there is no git or no repository."""
+    """Return the output of git, or None without git or outside of a repository."""
     command = ["git", "-C", str(root), *arguments]
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()

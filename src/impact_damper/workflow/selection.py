@@ -4,7 +4,7 @@ from impact_damper.workflow.captions import in_words
 from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES, section_of
 from impact_damper.workflow.registry.values import oscillator
 
-# Parameters of which an entry holds several values, by the key that has them.
+# Keys under which an entry holds several values of a parameter, with the name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",
     "clearances": "clearance",

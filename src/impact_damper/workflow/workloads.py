@@ -1,6 +1,6 @@
-"""Problems with the amount of work: no job may run without end, or out of memory.
+"""Check of the amount of work, so that no job runs for ever or out of memory.
 
-Values that are each allowed can be too much together.
+Values that are allowed one by one can be too large together.
 """
 
 import math
@@ -35,7 +35,7 @@ MIGRATION_RADIUS = 2
 
 
 class Case(NamedTuple):
-    """Entry with a damper: its path, and what decides how long its contacts and starts take.
+    """Entry with a damper: its path, and values that determine the work for contacts and starts.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Case(NamedTuple):
     mass_ratio, stiffness, frequency : float
         Least mass ratio, greatest contact stiffness and lowest forcing frequency.
     clearances : list of (str, float)
-        Clearances that decide, each after its key.
+        Smallest clearances, each after its key.
     """
 
     path: tuple
@@ -72,7 +72,7 @@ def workloads(config):
 
 
 def _at(section, key):
-    """Number at a key with dots; for a list its length."""
+    """Return the number at a key with dots, or the length of a list."""
     for name in key.split("."):
         section = getattr(section, name)
     return len(section) if isinstance(section, list) else section
@@ -167,7 +167,7 @@ def _case_of_map(path, section, config):
 
 
 def _given(section, *keys):
-    """First of some keys that a section has a value for, and the value; or two times None."""
+    """Return the first of some keys with a value in a section, and the value; or None, None."""
     found = ((key, getattr(section, key, None)) for key in keys)
     return next(((key, value) for key, value in found if value is not None), (None, None))
 

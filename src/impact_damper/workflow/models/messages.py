@@ -20,7 +20,7 @@ def dotted(path) -> str:
 
 
 def one_of(name, known) -> str:
-    """Return what a name must be: one of those known, and which of them is nearest."""
+    """Return as text that a name must be one of those known, and the nearest of these."""
     return f"must be one of {', '.join(known)}{nearest(name, known)}"
 
 
@@ -31,6 +31,6 @@ def nearest(name, known) -> str:
 
 
 def _word(key):
-    """A key as it stands, or quoted if it would break the line."""
+    """Return a key as it is, or quoted if it contains a line break or is long."""
     plain = isinstance(key, str) and key.isprintable() and len(key) <= 80
     return key if plain else reprlib.repr(key)

@@ -48,7 +48,7 @@ def state(meaning):
 
 
 class FreeVerdict(Section):
-    """A motion without a damper near an orbit about which everything is known."""
+    """A motion without a damper near an orbit whose stability is known."""
 
     frequency: FREQUENCY
     orbit_frequency: number("W at which the orbit is found", **BOUNDS["frequency"])
@@ -69,11 +69,11 @@ class FreeVerdict(Section):
 
 
 class DampedVerdict(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), FreeVerdict):
-    """A motion with a damper near an orbit about which everything is known."""
+    """A motion with a damper near an orbit whose stability is known."""
 
 
 class Verdicts(WithOscillator):
-    """Verdicts of integrators, by tolerance, on motions near orbits that are known."""
+    """Verdicts of integrators, by tolerance, on motions near orbits whose stability is known."""
 
     tolerances: TOLERANCES
     steps: STEPS

@@ -61,7 +61,7 @@ class Motion(WithDamper):
 
 
 class Collision(WithDamper):
-    """Starts in the whole ball of the search, beyond the walls too: do they lead to collisions?"""
+    """Shares of random starts that lead to a collision; starts beyond the walls count too."""
 
     frequency: FREQUENCY
 
@@ -84,7 +84,7 @@ class Migration(WithDamper):
 
 
 class ReleaseScan(WithDamper):
-    """Scans over frequency of where releases of the damper lead."""
+    """Motions to which releases of the damper lead, over frequency."""
 
     frequencies: FREQUENCIES
     lifetime: count(

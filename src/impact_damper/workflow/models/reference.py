@@ -1,4 +1,4 @@
-"""Reference of the configuration, made from the models: every key and what it may hold."""
+"""Reference of the configuration, made from the models: every key with its allowed values."""
 
 from typing import get_args, get_origin
 
@@ -59,13 +59,13 @@ def _inner(prefix, model):
 
 
 def _item(kind):
-    """What an entry of a list must be."""
+    """Return the allowed values of an entry of a list."""
     words, inner = _allowed(kind.__metadata__).words, get_args(kind)[0]
     return f"{words}, each {_item(get_args(inner)[0])}" if get_origin(inner) is list else words
 
 
 def _ranges(kind):
-    """Keys of the ranges that a value may be in place of a number."""
+    """Return the keys of the range that may replace a number."""
     parts = [get_args(part)[0] for part in get_args(kind) if hasattr(part, "__metadata__")]
     return [part.model_fields for part in parts if _is_section(part)]
 

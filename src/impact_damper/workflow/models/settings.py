@@ -51,7 +51,7 @@ class Search(Section):
 
 
 class Settling(Section):
-    """How long motions are run, and how closely."""
+    """Length and tolerance of runs."""
 
     scene: text("name of an entry of `scenes` that has a tolerance")
     patience: count(

@@ -1,8 +1,9 @@
-"""Types of values that keys of the configuration hold; each says in words what it allows.
+"""Types of values in the configuration; each states in words which values it allows.
 
 The functions return types for fields of pydantic models. They are strict: 3.0 is no whole number,
-and neither NaN, infinity nor text is a number. `meaning` says what the value is, `why` why its
-bounds stand; both are shown when a value is rejected, and in the reference of the configuration.
+and neither NaN, infinity nor text is a number. `meaning` says what the value is, `why` gives the
+reason for its bounds; both are shown when a value is rejected, and in the reference of the
+configuration.
 """
 
 from typing import Annotated, Literal
@@ -12,12 +13,12 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from impact_damper.system.bounds import plain
 
-# Tags that pydantic adds to the path of a value that may be one or the other; no key is like them.
+# Tags that pydantic adds to the path of a value of several possible types; no key has such a name.
 NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """What a value may be, in words that replace pydantic's own message.
+    """The allowed values in words, which replace the message of pydantic.
 
     Parameters
     ----------
@@ -26,8 +27,8 @@ class Allowed:
     meaning, why : str
         What the value is, and the reason for its bounds.
     test : callable, optional
-        For a list or mapping: whether it is one and has the right length. Only this test is
-        answered by the words; values inside have messages of their own.
+        For a list or mapping: checks its type and length. The words are the message of this test
+        only; values inside have other messages.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -52,7 +53,7 @@ class Allowed:
             handler(value)
         except ValidationError:
             raise self._error() from None
-        # as the user wrote it: pydantic would make a float of 2
+        # the value as the user wrote it: pydantic would turn 2 into a float
         return value
 
     def _error(self):
@@ -108,7 +109,7 @@ def choice(meaning, *words):
 
 
 def several(item, meaning="", *, least=0, most=None, distinct=False):
-    """Type of a list whose entries are of the type `item`."""
+    """Type of a list with entries of the type `item`."""
     words = ["a list"]
     if least == most:
         words += [f"with {least} entries"]

@@ -1,4 +1,4 @@
-"""What the registry says of a stage, a table and a kind of figure."""
+"""Records of the registry: a stage, a table and a kind of figure."""
 
 from collections.abc import Callable
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Values that the parameters of many jobs have in common, from the configuration."""
+"""Values from the configuration that are parameters of many jobs."""
 
 from impact_damper.system.parameters import Damper, Oscillator, pick
 
