@@ -1,4 +1,4 @@
-"""Results that no run has left like this: told, or mended, before anything is planned."""
+"""Checks of the folder of results before anything is planned: damage, dates, permissions."""
 
 import time
 from contextlib import suppress
@@ -7,21 +7,21 @@ from impact_damper.data.whole_files import check_length
 
 # Seconds by which clocks of machines that share a disk may differ.
 SKEW = 10
-# The first second of 1970; Snakemake takes a date of 0 for none.
+# The first second of 1970; to Snakemake a date of 0 means that there is none.
 OLDEST = 1
 
 
 def check_results(folder):
-    """Refuse data that are cut off, and see to it that an edit cannot be older than a result.
+    """Raise if a dataset is truncated, and set dates in the future to OLDEST.
 
-    Snakemake looks at the contents of a file only where it is newer than what was made of it. A
-    result with a date in the future, from before the clock was set back, would hide every edit
-    since: it gets the oldest date, so that contents decide.
+    Snakemake compares the contents of an input only if the input is newer than the output. If the
+    clock was set back, outputs have dates in the future and would hide every edit since. With the
+    oldest date contents decide.
     """
     ahead = []
     try:
         for path in sorted(folder.rglob("*")):
-            with suppress(FileNotFoundError):  # another run may take files away
+            with suppress(FileNotFoundError):  # another run may remove files
                 if path.suffix == ".nc":
                     check_length(path)
                 if path.is_file() and path.stat().st_mtime > time.time() + SKEW:
@@ -31,13 +31,13 @@ def check_results(folder):
         raise WorkflowError(str(error)) from None
     if ahead:
         logger.warning(
-            f"{len(ahead)} files in {folder} had dates in the future, as {ahead[0]}, for the clock "
-            "was set back. They are now dated 1970, and contents decide what runs again."
+            f"{len(ahead)} files in {folder} have dates in the future, such as {ahead[0]}: the "
+            "clock was set back. They are now dated 1970, so that contents decide which jobs run."
         )
 
 
 def unwritable(folder):
-    """What to do about a folder that cannot be written to; nothing if it can."""
+    """Return what to do about a folder without write permission, or an empty text with it."""
     there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
     if os.access(there, os.W_OK):
         return ""
@@ -48,14 +48,14 @@ def unwritable(folder):
 
 
 def check_writable(folder):
-    """Refuse to start jobs where nothing can be written."""
+    """Raise if the folder cannot be written to."""
     if words := unwritable(folder):
         raise WorkflowError(words)
 
 
-# Not once more in each job.
+# Jobs are processes of their own, in which the check is not repeated.
 if workflow.is_main_process:
     check_results(Path(config["results"]))
-# What is there can still be looked at; Snakemake's own words for a run that would write come later.
+# A warning only, because a dry run or a finished run writes nothing; `check_writable` raises later.
 if words := unwritable(Path(config["results"])):
     logger.warning(words)
