@@ -48,7 +48,7 @@ def made_up(shape, cells, made=7):
     numbers = np.arange(*cells)
     data = {
         "quiet_count": numbers.astype(np.int32),
-        "outcome_count": np.outer(numbers, range(1, 6)).astype(np.int32),
+        "outcome_count": np.outer(numbers, range(1, len(OUTCOMES) + 1)).astype(np.int32),
         "largest_displacement": (("cell",), np.cos(numbers)),
     }
     return dataset(data, axes | {"cell": numbers, "counted_outcome": list(OUTCOMES)}, made, "")
@@ -162,7 +162,7 @@ def test_a_cell_holds_what_its_starts_come_to(entire):
     cell = entire.sel(cell=number)
     assert cell["largest_displacement"] == max(float(m["maximum_displacement"]) for m in motions)
     values = [int(motion["outcome"]) for motion in motions]
-    assert_array_equal(cell["outcome_count"], [values.count(k) for k in range(5)])
+    assert_array_equal(cell["outcome_count"], [values.count(k) for k in range(len(OUTCOMES))])
 
 
 def test_every_start_is_counted_once(entire):
