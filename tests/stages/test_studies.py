@@ -41,7 +41,7 @@ def entire():
     return chunk((0, 8))
 
 
-def made_up(shape, cells, made=7):
+def made_up(shape, cells, seed=7):
     """Return a chunk whose values are functions of the number of the cell."""
     names = ("mass_ratio", "clearance", "frequency", "restitution")
     axes = {name: np.linspace(0.1, 1, n) for name, n in zip(names, shape, strict=True)}
@@ -51,15 +51,16 @@ def made_up(shape, cells, made=7):
         "outcome_count": np.outer(numbers, range(1, len(OUTCOMES) + 1)).astype(np.int32),
         "largest_displacement": (("cell",), np.cos(numbers)),
     }
+    made = {"damping": 0.215, "seed": seed}
     return dataset(data, axes | {"cell": numbers, "counted_outcome": list(OUTCOMES)}, made, "")
 
 
-def saved(folder, shape, bounds, made=7):
+def saved(folder, shape, bounds, seed=7):
     """Files of made-up chunks between bounds."""
     paths = []
     for first, last in zip(bounds, bounds[1:], strict=False):
         paths.append(folder / f"{first}-{last}.nc")
-        save(made_up(shape, (first, last), made), paths[-1])
+        save(made_up(shape, (first, last), seed), paths[-1])
     return paths
 
 
@@ -123,7 +124,7 @@ def test_gathering_takes_the_memory_of_a_chunk(tmp_path):
         lambda paths, folder: [paths[0], paths[2]],
         lambda paths, folder: paths[:2],
         lambda paths, folder: [*paths, paths[2]],
-        lambda paths, folder: [*paths[:2], saved(folder / "b", (2, 3, 2, 1), [8, 12], made=8)[0]],
+        lambda paths, folder: [*paths[:2], saved(folder / "b", (2, 3, 2, 1), [8, 12], seed=8)[0]],
         lambda paths, folder: [*paths[:2], saved(folder / "b", (2, 3, 1, 2), [8, 12])[0]],
     ],
     ids=["out of order", "one lost", "last lost", "one twice", "other parameters", "other grid"],

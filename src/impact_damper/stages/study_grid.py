@@ -6,10 +6,9 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import dataset, load, seal, variable, write
+from impact_damper.data.datasets import dataset, load, oscillator_of, seal, variable, write
 from impact_damper.data.variables.studies import AXES
 from impact_damper.data.whole_files import DELETE, BrokenFileError, whole_netcdf
-from impact_damper.system.parameters import Oscillator, pick
 
 
 def gather_chunks(paths, path) -> None:
@@ -50,7 +49,7 @@ def gather_chunks(paths, path) -> None:
             if done != math.prod(shape):
                 found = f"ends at cell {done} of {math.prod(shape)}"
                 raise BrokenFileError(f"{paths[-1]} {found}: {DELETE}.")
-            _write_clearances(file, axes, Oscillator(**pick(Oscillator, head.attrs)))
+            _write_clearances(file, axes, oscillator_of(head))
         with xr.open_dataset(part, engine="netcdf4", cache=False) as data:
             sealed = seal(data.variables, path)
         with netCDF4.Dataset(part, "a") as file:
