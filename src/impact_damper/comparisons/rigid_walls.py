@@ -8,6 +8,7 @@ import numpy as np
 from impact_damper.comparisons.comparison import Comparison, observed_order
 from impact_damper.comparisons.symmetric_orbits import boundary_near, orbit_at_clearance
 from impact_damper.literature.masri_caughey import stability_boundaries, two_impact_motions
+from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
 # Exponent of the contact stiffness in the error of rigid walls, by which orbits are extrapolated.
@@ -30,7 +31,7 @@ def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, sti
     restitutions, mass_ratios, gaps, frequencies : sequence of float
         e, rm, full gap 2 d0 in static deflections, and W.
     stiffnesses : sequence of float
-        Contact stiffnesses r1 with a constant ratio, three or more.
+        Increasing contact stiffnesses r1, two or more, the last two for orders and limits.
 
     Returns
     -------
@@ -42,7 +43,10 @@ def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, sti
     ------
     ArithmeticError
         If our orbit is not found where the closed form has one.
+    TypeError, ValueError
+        If a value is out of range, or stiffnesses do not increase.
     """
+    stiffnesses = check_increasing("stiffnesses", stiffnesses, "two").tolist()
     found = []
     oscillator = Oscillator(2 * damping_ratio, 1.0, cubic=0.0, force=1.0)
     for restitution, mass, frequency in product(restitutions, mass_ratios, frequencies):

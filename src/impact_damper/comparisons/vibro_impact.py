@@ -8,6 +8,7 @@ from impact_damper.comparisons.symmetric_orbits import boundary_near, orbit_with
 from impact_damper.literature.masri_caughey import stability_boundaries
 from impact_damper.literature.slow_invariant_manifold import VibroImpactAbsorber
 from impact_damper.motions.simulate import simulate
+from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
 # Ratios of the speed of the loose mass at the start of a free decay, and between which it is timed.
@@ -72,7 +73,14 @@ def ring_down(restitution, mass_ratios, contact_stiffness):
 
 
 def _series(rows, mass_ratios, words):
-    """Return comparisons of quantities over falling mass ratio, with the order observed."""
+    """Return comparisons of quantities over falling mass ratio, with the order observed.
+
+    Raises
+    ------
+    ValueError
+        If the mass ratios do not fall, or are fewer than two.
+    """
+    check_increasing("mass_ratios, from the last on", mass_ratios[::-1], "two")
     found = []
     for quantity in rows[0]:
         values = np.array([row[quantity] for row in rows])

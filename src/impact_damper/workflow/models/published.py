@@ -14,6 +14,10 @@ from impact_damper.workflow.models.system import (
 from impact_damper.workflow.models.values import count, number, several
 
 DAMPING_RATIO = number("damping ratio", least=1e-5, most=0.5)
+GAP = number("full gap in static deflections", above=0, most=1000)
+FORCE = number("force, with unit stiffnesses", above=0, most=0.05)
+SPRING = number("cubic coefficient, negative for softening", least=-1, most=1)
+SPEED = number("speed before the impact, m/s", above=0, most=10)
 FALLING = "falling; orders are observed between neighbours"
 
 
@@ -21,11 +25,13 @@ class RigidWalls(Section):
     """The symmetric motion with two impacts, in all combinations of the lists."""
 
     damping_ratio: DAMPING_RATIO
-    restitutions: several(RESTITUTION, least=1)
-    mass_ratios: several(MASS_RATIO, least=1)
-    gaps: several(number("full gap in static deflections", above=0, most=1000), least=1)
-    frequencies: several(FREQUENCY, least=1)
-    stiffnesses: several(CONTACT_STIFFNESS, "r1 of ours, with a constant ratio", least=2)
+    restitutions: several(RESTITUTION, least=1, distinct=True)
+    mass_ratios: several(MASS_RATIO, least=1, distinct=True)
+    gaps: several(
+        number("full gap in static deflections", above=0, most=1000), least=1, distinct=True
+    )
+    frequencies: several(FREQUENCY, least=1, distinct=True)
+    stiffnesses: several(CONTACT_STIFFNESS, "r1 of ours, increasing", least=2)
 
     counts: ClassVar = ("restitutions", "mass_ratios", "gaps", "frequencies", "stiffnesses")
 
@@ -62,14 +68,16 @@ class RingDown(Falling):
 class TunedMassDampers(Section):
     """Tuned mass dampers."""
 
-    mass_ratios: several(MASS_RATIO, least=1)
+    mass_ratios: several(MASS_RATIO, least=1, distinct=True)
 
 
 class NonlinearAbsorbers(Section):
     """Nonlinear absorbers."""
 
     mass_ratio: MASS_RATIO
-    forces: several(number("force, with unit stiffnesses", above=0, most=0.05), least=1)
+    forces: several(
+        number("force, with unit stiffnesses", above=0, most=0.05), least=1, distinct=True
+    )
 
 
 class BasinShares(Section):
@@ -81,15 +89,17 @@ class BasinShares(Section):
 class JumpFrequencies(Section):
     """Jumps of the oscillator without a damper."""
 
-    springs: several(number("cubic coefficient, negative for softening", least=-1, most=1), least=1)
-    damping_ratios: several(DAMPING_RATIO, least=1)
+    springs: several(SPRING, least=1, distinct=True)
+    damping_ratios: several(DAMPING_RATIO, least=1, distinct=True)
     peak: number("force over damping ratio", above=0, most=1)
 
 
 class HertzImpacts(Section):
     """Impacts of a steel ball."""
 
-    speeds: several(number("speed before the impact, m/s", above=0, most=10), least=1)
+    speeds: several(
+        number("speed before the impact, m/s", above=0, most=10), least=1, distinct=True
+    )
 
 
 class Published(Section):
