@@ -82,25 +82,25 @@ def balance_map(
     parameters = np.array(
         [[pack(row.oscillator, row.damper, w) for w in row.frequencies] for row in rows]
     )
-    said = balance_cells(rows)
+    balance = balance_cells(rows)
     quiet_runs, high_runs = (
         _run(parameters, starts, settling, workers, progress)
-        for starts in (said.quiet_start, said.high_start)
+        for starts in (balance.quiet_start, balance.high_start)
     )
-    quiet_kind, high_kind = (_kinds(runs, said.resonance) for runs in (quiet_runs, high_runs))
+    quiet_kind, high_kind = (_kinds(runs, balance.resonance) for runs in (quiet_runs, high_runs))
     landed = quiet_kind == flag("quiet_run_motion", "quiet")
     known = np.where(landed[..., None], quiet_runs["state"], np.nan)
     orbits = follow_quiet_orbits(parameters, known)
     data = {
         "map_frequency": parameters[..., FREQUENCY],
         "map_clearance": [row.damper.clearance for row in rows],
-        "resonance_amplitude": said.resonance,
+        "resonance_amplitude": balance.resonance,
         "straight_flight_end": [_rigid_end(row) for row in rows],
-        "high_long_outcome": _long(parameters, said.high_start, high_kind, settling, workers),
+        "high_long_outcome": _long(parameters, balance.high_start, high_kind, settling, workers),
     }
-    data |= _quiet_data(said, quiet_kind, quiet_runs)
-    data |= _orbit_data(said, orbits, parameters[..., FREQUENCY], frequency_ratios)
-    data |= _high_data(said, high_kind, high_runs)
+    data |= _quiet_data(balance, quiet_kind, quiet_runs)
+    data |= _orbit_data(balance, orbits, parameters[..., FREQUENCY], frequency_ratios)
+    data |= _high_data(balance, high_kind, high_runs)
     coordinates = {
         "map_value": np.asarray(values, float),
         "frequency_ratio": np.asarray(frequency_ratios, float),
@@ -110,34 +110,34 @@ def balance_map(
     return dataset(data, coordinates, made, "Harmonic balance against the true motions")
 
 
-def _quiet_data(said, kinds, runs):
+def _quiet_data(balance, kinds, runs):
     return {
-        "balance_quiet": said.quiet,
-        "balance_quiet_amplitude": said.quiet_amplitude,
-        "balance_quiet_growth": said.quiet_growth,
+        "balance_quiet": balance.quiet,
+        "balance_quiet_amplitude": balance.quiet_amplitude,
+        "balance_quiet_growth": balance.quiet_growth,
         "quiet_run_motion": kinds,
         "quiet_run_exponent": runs["lyapunov_exponent"],
         "quiet_run_error": runs["lyapunov_error"],
     }
 
 
-def _orbit_data(said, orbits, frequency, ratios):
+def _orbit_data(balance, orbits, frequency, ratios):
     truth = _truth(orbits)
     return {
         "quiet_orbit": truth,
         "quiet_orbit_growth": np.log(np.abs(orbits.multiplier)) * frequency / np.pi,
         "quiet_orbit_displacement": orbits.displacement,
         "quiet_orbit_harmonic": orbits.harmonic,
-        "quiet_verdict": _quiet_verdict(said.quiet, truth),
+        "quiet_verdict": _quiet_verdict(balance.quiet, truth),
         "quiet_end": np.interp(orbits.end, np.arange(len(ratios)), ratios),
         "quiet_end_event": orbits.end_event,
     }
 
 
-def _high_data(said, kinds, runs):
+def _high_data(balance, kinds, runs):
     return {
-        "balance_high": said.high,
-        "balance_high_amplitude": said.high_amplitude,
+        "balance_high": balance.high,
+        "balance_high_amplitude": balance.high_amplitude,
         "high_run_motion": kinds,
         "high_run_outcome": runs["outcome"],
         "high_run_period": runs["period"],
@@ -145,7 +145,7 @@ def _high_data(said, kinds, runs):
         "high_run_displacement": runs["maximum_displacement"],
         "high_run_exponent": runs["lyapunov_exponent"],
         "high_run_error": runs["lyapunov_error"],
-        "high_verdict": _high_verdict(said, kinds, runs["maximum_displacement"]),
+        "high_verdict": _high_verdict(balance, kinds, runs["maximum_displacement"]),
     }
 
 
@@ -235,9 +235,9 @@ def _truth(orbits):
     return np.select(list(cases.values()), kinds, flag("quiet_orbit", "unresolved"))
 
 
-def _quiet_verdict(said, truth):
+def _quiet_verdict(balance, truth):
     """Return the flag `quiet_verdict`."""
-    verdict = np.full(said.shape, flag("quiet_verdict", "unresolved"))
+    verdict = np.full(balance.shape, flag("quiet_verdict", "unresolved"))
     cases = {
         "stable": truth == flag("quiet_orbit", "stable"),
         "unstable": truth > flag("quiet_orbit", "stable"),
@@ -245,20 +245,20 @@ def _quiet_verdict(said, truth):
     }
     for name in ("stable", "unstable", "none"):
         for true, holds in cases.items():
-            here = (said == flag("balance_quiet", name)) & holds
+            here = (balance == flag("balance_quiet", name)) & holds
             verdict[here] = flag("quiet_verdict", f"{name}_{true}")
     return verdict
 
 
-def _high_verdict(said, kinds, displacement):
+def _high_verdict(balance, kinds, displacement):
     """Return the flag `high_verdict`."""
-    near = np.abs(displacement / said.high_amplitude - 1) <= NEAR
+    near = np.abs(displacement / balance.high_amplitude - 1) <= NEAR
     low = np.isin(
         kinds, [flag("high_run_motion", n) for n in ("quiet", "other_low", "low_chaotic")]
     )
     settled = kinds == flag("high_run_motion", "high")
-    stable = said.high == flag("balance_high", "stable")
-    none = said.high == flag("balance_high", "none")
+    stable = balance.high == flag("balance_high", "stable")
+    none = balance.high == flag("balance_high", "none")
     chaotic = kinds == flag("high_run_motion", "high_chaotic")
     silent = kinds == flag("high_run_motion", "no_contact")
     cases = {

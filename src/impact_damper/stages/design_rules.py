@@ -29,10 +29,10 @@ SAME = 1e-4
 STEP = 0.02
 MOST_STEPS = 40
 PRECISION = 1e-8
-# Steps from a minimum by which its kind is told; as they are halved the rise falls fourfold or
-# twofold.
+# Step from a minimum that decides on its kind: as the step is halved, the rise of the displacement
+# falls to a quarter at a smooth minimum and to half at a kink. KINK lies in between.
 CLOSE, KINK = 1e-3, 0.36
-# Size of a motion that does not exist, for a search that needs a number.
+# Displacement where the motion does not exist, because the search needs a number.
 ABSENT = 1e3
 IMPULSES = 400
 

@@ -14,7 +14,8 @@ from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6  # six impacting ones seen at most
+# Rows of the dataset; no more than six impacting solutions have been found at a frequency.
+MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6
 SEARCH_STEP = 0.005
 SEARCHED = (0.2, 2.0)
 EDGE_TOLERANCE = 1e-10
@@ -267,7 +268,7 @@ def _no_band():
 
 
 class _Look(NamedTuple):
-    """The motions at one frequency: solutions of (7), |a| of the stable ones, free amplitudes."""
+    """Number of solutions of (7) at a frequency, |a| of the stable ones, and free amplitudes."""
 
     count: int
     stable: np.ndarray
@@ -293,7 +294,11 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Last frequency inside and first one outside, from the peak to limit * peak, or None."""
+    """Return neighbouring frequencies inside and outside the band, or None.
+
+    The search goes from the peak to limit * peak. `inside` returns whether a frequency belongs
+    to the band; both frequencies differ by EDGE_TOLERANCE at most.
+    """
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):
@@ -309,7 +314,7 @@ def _edge(inside, peak, limit):
 
 
 def _event(inner, outer):
-    """What ends the band between a look inside and a look outside it."""
+    """Return the event that ends the band, by the motions on both sides of its edge."""
     if np.isnan(outer.resonance):
         return "resonance_branch_ends"
     same = inner.count == outer.count
