@@ -36,6 +36,8 @@ state = st.sampled_from(
 no_si = no_numbers.filter(lambda value: value is not None)
 si = no_si | not_finite | negative
 STEEL = idm.Material(2.1e11, 0.3)
+MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
+BALL = MACHINE.damper(mass=0.6, gap=0.008, contact=idm.HertzContact(0.01, STEEL))
 no_oscillator = st.sampled_from([None, 0.215, "h215", {}, DAMPER, idm.Oscillator])
 no_damper = st.sampled_from([0.12, "rm", {}, (0.12, 2.0), OSCILLATOR, idm.Damper, False, 0])
 no_settling = st.sampled_from([0, 300, "", "long", {}, False, idm.Settling, (1e-9, 300)])
@@ -82,6 +84,15 @@ FUNCTIONS = {
     "HertzContact": (
         {"radius": 0.01, "loose": STEEL},
         {"radius": si | st.just(0), "loose": st.sampled_from([None, "steel", 2.1e11, {}])},
+    ),
+    "hertz_stiffness": (
+        {"machine": MACHINE, "damper": BALL, "frequency": 20.0},
+        {
+            "machine": no_oscillator,
+            "damper": no_damper | st.sampled_from([None, DAMPER]),
+            "frequency": si | st.just(0),
+            "settling": no_settling,
+        },
     ),
     "simulate": (
         MOVING,

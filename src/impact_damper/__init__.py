@@ -14,6 +14,7 @@ _HOMES = {
     "Machine": "machine.machine",
     "HertzContact": "machine.hertz",
     "Material": "machine.hertz",
+    "hertz_stiffness": "stages.machines",
     "simulate": "motions.simulate",
     "steady_motion": "motions.steady",
     "frequency_response": "stages.response",

@@ -100,7 +100,13 @@ FIXED = [path for path in MAPPINGS if not is_named(path)]
 NAMED = [path for path in MAPPINGS if is_named(path)]
 # Keys that take a number or a range.
 AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXES]
-NUMBERS = [path for path, value in places(SMALL) if is_number(value)]
+# Physical quantities, which may be texts with units too.
+QUANTITIES = [
+    path
+    for path, value in places(SMALL)
+    if path[:1] == ("machines",) and is_number(value) and path[-1] not in ("points", "starts")
+]
+NUMBERS = [path for path, value in places(SMALL) if is_number(value) and path not in QUANTITIES]
 TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]
 # This list may be empty.
 LISTS = [
@@ -153,6 +159,13 @@ def unknown_key(draw):
 def text_for_a_number(draw):
     path = draw(st.sampled_from(NUMBERS))
     form = draw(st.sampled_from(["{}", "{} ", "+{}", "{}e0", "{} Hz", "{!r}", "0x{}"]))
+    return changed(path, form.format(at(path)))
+
+
+@st.composite
+def wrong_unit(draw):
+    path = draw(st.sampled_from(QUANTITIES))
+    form = draw(st.sampled_from(["{} cd", "{} kg^2", "{} units", "{}; 1", "-{} s^9", "nan"]))
     return changed(path, form.format(at(path)))
 
 
@@ -228,6 +241,7 @@ def unknown_reference(draw):
 broken = st.one_of(
     unknown_key(),
     text_for_a_number(),
+    wrong_unit(),
     negative_or_zero(),
     too_large(),
     endless_grid(),

@@ -108,12 +108,23 @@ def runs(data, chosen):
     (array, array, bool)
         Frequency, largest displacement, and whether stable.
     """
-    stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
-    number, value = data["orbit_branch"].values, data["followed_value"].values
-    size = data["orbit_displacement"].values
-    for branch, period in enumerate(data["branch_period"].values):
-        if not chosen(period):
-            continue
+    names = ("orbit_branch", "followed_value", "orbit_displacement", "orbit_stability")
+    periods = data["branch_period"].values
+    branches = [branch for branch, period in enumerate(periods) if chosen(period)]
+    yield from runs_of(branches, *(data[name].values for name in names))
+
+
+def runs_of(branches, number, value, size, stability):
+    """Yield what `runs` does, of some branches.
+
+    Parameters
+    ----------
+    branches : iterable of int
+    number, value, size, stability : array, shape (n,)
+        Branch, frequency, largest displacement and stability of each orbit.
+    """
+    stable = stability == flag("orbit_stability", "stable")
+    for branch in branches:
         at = np.flatnonzero(number == branch)
         edges = [0, *(np.flatnonzero(np.diff(stable[at])) + 1), len(at)]
         for first, last in zip(edges, edges[1:], strict=False):

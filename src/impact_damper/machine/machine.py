@@ -246,12 +246,22 @@ class Machine:
         return damper
 
 
-def describe_si(*parts) -> dict:
-    """Return the fields of machines and dampers that are given, in SI units, as one dictionary."""
-    return {
-        each.name: getattr(part, each.name)
-        for part in parts
-        if part is not None
-        for each in fields(part)
-        if isinstance(getattr(part, each.name), float)
+def describe_si(machine, damper=None) -> dict:
+    """Return the values of a machine and its damper that are given, by name, in SI units.
+
+    The mass of the damper is called `damper_mass`, its gap is the full play.
+    """
+    found = {
+        each.name: getattr(machine, each.name)
+        for each in fields(machine)
+        if getattr(machine, each.name) is not None
     }
+    if damper is not None:
+        found |= {
+            "damper_mass": damper.mass,
+            "gap": damper.gap,
+            "restitution": damper.restitution,
+        }
+        if damper.contact_stiffness is not None:
+            found["contact_stiffness"] = damper.contact_stiffness
+    return found

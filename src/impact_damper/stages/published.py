@@ -58,9 +58,9 @@ def published(settings, *, seed=1995, settling=None):
             f"settings: unknown groups {shown(sorted(unknown))}; known: {', '.join(GROUPS)}"
         )
     found = []
-    for name in filter(settings.get, GROUPS):
+    for name, given in settings.items():
         random = {"seed": seed, "settling": settling} if name == "basin_shares" else {}
-        found += GROUPS[name](**settings[name], **random)
+        found += GROUPS[name](**given, **random)
     data = {
         "publication": [flag("publication", each.publication) for each in found],
         "published_value": [each.published for each in found],

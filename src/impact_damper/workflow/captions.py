@@ -1,5 +1,9 @@
 """Captions of figures, with the parameters in words; imports no NumPy."""
 
+from dataclasses import fields
+
+from impact_damper.machine.machine import Machine
+from impact_damper.machine.units import QUANTITIES
 from impact_damper.system.parameters import SYMBOLS
 
 
@@ -29,6 +33,23 @@ def in_words(values) -> str:
     words = [
         f"{symbol} {_value(values[name])}" for name, symbol in SYMBOLS.items() if name in values
     ]
+    return ", ".join(words)
+
+
+def machine_in_words(values) -> str:
+    """Return the values of a machine with their units, such as "mass 12 kg, force 40 N".
+
+    Parameters
+    ----------
+    values : dict
+        Arguments of `Machine`; what is text has its unit already.
+    """
+    words = []
+    for each in fields(Machine):
+        if each.name in values:
+            value, unit = values[each.name], QUANTITIES[each.metadata["quantity"]].unit
+            text = value if isinstance(value, str) else f"{value:g} {unit}".rstrip()
+            words.append(f"{each.name.replace('_', ' ')} {text}")
     return ", ".join(words)
 
 

@@ -1,6 +1,6 @@
 """Entries of a configuration that each stage, figure, table and chapter takes, by the registry."""
 
-from impact_damper.workflow.captions import in_words
+from impact_damper.workflow.captions import in_words, machine_in_words
 from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES, section_of
 from impact_damper.workflow.registry.values import oscillator
 
@@ -79,7 +79,7 @@ def _case(config, kind, name):
     entry = config[section][name]
     values = oscillator(config, entry["oscillator"]) if "oscillator" in entry else {}
     values |= entry | {swept: entry[key] for key, swept in SWEPT.items() if key in entry}
-    words = in_words(values)
+    words = machine_in_words(entry["machine"]) if section == "machines" else in_words(values)
     return f"{name.replace('_', ' ')}: {words}" if KINDS[kind].named else words
 
 

@@ -11,6 +11,7 @@ from impact_damper.data.variables import (
     harmonic_balance,
     harmonics,
     integrators,
+    machines,
     migration,
     motions,
     orbits,
@@ -34,6 +35,7 @@ MODULES = (
     accuracy,
     studies,
     published,
+    machines,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

@@ -12,6 +12,7 @@ from impact_damper.workflow.models import (
     balance,
     contact,
     figures,
+    machines,
     methods,
     motions,
     published,
@@ -29,7 +30,7 @@ from impact_damper.workflow.models.settings import (
 from impact_damper.workflow.models.system import CONTACT_STIFFNESS, Oscillators
 from impact_damper.workflow.models.values import count, entries
 
-SUBJECTS = (motions, balance, contact, methods, studies, published, figures)
+SUBJECTS = (motions, balance, contact, methods, studies, published, machines, figures)
 ENTRIES = {"oscillators": Oscillators} | {
     name: model for subject in SUBJECTS for name, model in subject.SECTIONS.items()
 }

@@ -8,6 +8,7 @@ from impact_damper.workflow.registry import (
     claims,
     clearance,
     design,
+    machines,
     methods,
     migration,
     published,
@@ -25,6 +26,7 @@ CHAPTERS = {
     "methods": methods,
     "claims": claims,
     "published": published,
+    "machines": machines,
 }
 # Those of the paper, which `snakemake` alone makes.
 PAPER = [name for name, chapter in CHAPTERS.items() if all(stage.paper for stage in chapter.STAGES)]

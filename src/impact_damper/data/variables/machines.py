@@ -1,0 +1,49 @@
+"""Machines in SI units: without a damper, over the gap of a damper, and contacts after Hertz."""
+
+from impact_damper.data.variables.variable import STABILITY, Variable
+
+VARIABLES = {
+    # without the damper
+    "bare_frequency": Variable(
+        ("bare_point",), "frequency of an orbit without the damper", quantity="frequency"
+    ),
+    "bare_displacement": Variable(
+        ("bare_point",), "largest displacement without the damper", quantity="displacement"
+    ),
+    "bare_stability": Variable(
+        ("bare_point",), "stability of an orbit without the damper", flags=STABILITY
+    ),
+    "bare_branch": Variable(("bare_point",), "branch of an orbit without the damper"),
+    # over the gap
+    "swept_frequency": Variable(
+        (), "forcing frequency at which the gap is varied", quantity="frequency"
+    ),
+    "gap": Variable(("clearance",), "gap, the full play", quantity="displacement"),
+    "optimum_gap": Variable(
+        (), "gap, the full play, at which the quiet motion is smallest", quantity="displacement"
+    ),
+    "quiet_share": Variable(
+        ("clearance",), "share of starts that lead to the quiet motion, 0 where there is none"
+    ),
+    # contacts after Hertz
+    "hertz_status": Variable(
+        (),
+        "whether the stiffness of the contact agrees with the motion that has this stiffness",
+        flags={"consistent": 0, "not_consistent": 1, "no_contact": 2, "not_settled": 3},
+    ),
+    "hertz_iterations": Variable((), "number of motions computed"),
+    "hertz_stiffness": Variable(
+        (), "stiffness of the spring that stands for the contact", quantity="stiffness"
+    ),
+    "hertz_displacement": Variable(
+        (), "largest displacement with this stiffness", quantity="displacement"
+    ),
+    "impact_speed": Variable(
+        (), "largest relative speed at the beginning of a contact", quantity="velocity"
+    ),
+    "impact_compression": Variable(
+        (), "largest compression of the contact", quantity="displacement"
+    ),
+    "impact_force": Variable((), "largest force of the contact", quantity="force"),
+    "impact_duration": Variable((), "time in contact", quantity="time"),
+}
