@@ -93,7 +93,7 @@ def test_arguments_of_collisions(wrong):
 def test_collisions():
     """The share beyond a wall is that of the ball; other starts collide when a simulation does."""
     damper, starts = Damper(0.25, 1.0), 1500
-    data = collisions(PAPER, damper, 1.8, starts=starts, periods=60)
+    data = collisions(PAPER, damper, 1.8, starts=starts, radius=2.0, periods=60)
     literal, within = data.isel(ball=0), data.isel(ball=1)
     expected = 2 * stats.beta(2.5, 2.5).cdf((1 - damper.clearance / 2) / 2)
     error = math.sqrt(expected * (1 - expected) / starts)

@@ -7,7 +7,7 @@ import numpy as np
 from impact_damper.data.datasets import flag
 from impact_damper.motions import records, strobe_map
 from impact_damper.motions.following import record_at
-from impact_damper.motions.simulate import random_states
+from impact_damper.motions.start_states import search_starts
 from impact_damper.motions.sweep import SAME, sweep
 from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
@@ -50,7 +50,7 @@ class FreeSubharmonic(NamedTuple):
 
 
 def free_subharmonic(
-    oscillator, first, last, *, starts=96, radius=2.0, seed=1995, settling=None, workers=1
+    oscillator, first, last, *, starts=96, radius=None, seed=1995, settling=None, workers=1
 ) -> FreeSubharmonic:
     """Find the symmetric motion of period 3 of the free oscillator between two frequencies.
 
@@ -69,11 +69,18 @@ def free_subharmonic(
     """
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
-    states = np.array(
-        [random_states(starts, radius, None, [seed, i]) for i in range(len(frequencies))]
-    )
+    settling = check_settling(settling)
+    systems = [(None, value) for value in frequencies]
+    seeds = [[seed, i] for i in range(len(systems))]
+    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
     data = sweep(
-        parameters, FREQUENCY, "frequency", states, check_settling(settling), workers=workers
+        parameters,
+        FREQUENCY,
+        "frequency",
+        search.random,
+        settling,
+        placed=search.placed,
+        workers=workers,
     )
     chosen = is_subharmonic(data) & (data["period"][1] == 3) & (data["asymmetry"][1] < SAME)
     branches, counts = np.unique(data["branch"][1][chosen], return_counts=True)

@@ -1,8 +1,8 @@
-"""All motions along a sweep of one parameter that random starts and following reach.
+"""All motions along a sweep of one parameter that starts and following reach.
 
-At each value motions are run from random starts. Each settled motion is then followed by Newton's
-method to the next value, upward and downward, so that motions with small basins of attraction are
-found too. A branch ends where its motion cannot be followed.
+At each value motions are run from the starts of a search. Each settled motion is then followed by
+Newton's method to the next value, upward and downward, so that motions with small basins of
+attraction are found too. A branch ends where its motion cannot be followed.
 """
 
 from itertools import count
@@ -28,6 +28,7 @@ ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest
 CRITICAL = 0.98
 COMPLEX = 1e-3
 CLOSE = 0.05
+NO_STARTS = np.empty((0, 4))
 
 
 class Catalogue:
@@ -46,7 +47,8 @@ class Catalogue:
     numbers : list of int
         Numbers of the motions, unique over the sweep.
     origins : list of int
-        Flags of `origin`: reached from a random start, or by following only.
+        Flags of `origin`: reached from a random start, else from a placed one, or by following
+        only.
     shares : list of int
         Numbers of random starts that lead to the motions.
     """
@@ -201,7 +203,7 @@ def _tables(catalogues, branches, dimension):
     }
 
 
-def sweep(parameters, index, dimension, states, settling, *, workers=1, progress=None):
+def sweep(parameters, index, dimension, states, settling, *, placed=None, workers=1, progress=None):
     """Find all motions along a sweep of one parameter.
 
     Parameters
@@ -215,6 +217,8 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
     states : array, shape (n, m, 4)
         Random starts at T = 0.
     settling : Settling
+    placed : list of array, shape (k, 4), optional
+        Further starts at each value, which do not count as random ones.
     workers, progress
         As in `ensemble.settle`.
 
@@ -225,6 +229,7 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
         motions, over (dimension, start) the outcomes of the runs, over `end` the ends of branches.
     """
     size, starts = states.shape[:2]
+    placed = placed or [NO_STARTS] * size
     runs = ensemble.settle(
         np.repeat(parameters, starts, axis=0),
         states.reshape(-1, 4),
@@ -232,12 +237,23 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
         workers=workers,
         progress=progress,
     ).reshape(size, starts)
+    counts = [len(each) for each in placed]
+    others = ensemble.settle(
+        np.repeat(parameters, counts, axis=0),
+        np.concatenate(placed),
+        settling,
+        workers=workers,
+        progress=progress if any(counts) else None,
+    )
     numbering = count()
     catalogues = [Catalogue(p, numbering) for p in parameters]
     reached = [
         [catalogue.add(record, "random_start") for record in row]
         for catalogue, row in zip(catalogues, runs, strict=True)
     ]
+    for catalogue, part in zip(catalogues, np.split(others, np.cumsum(counts)[:-1]), strict=True):
+        for record in part:
+            catalogue.add(record, "placed_start")
     links, ends = [], {}
     # the second sweep upward also follows motions that the sweep downward found
     for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
@@ -267,3 +283,8 @@ def sweep(parameters, index, dimension, states, settling, *, workers=1, progress
         data[name] = np.array([end[name] for end in ends])
     data["end_branch"] = np.array([branches[end["end_motion"]] for end in ends], int)
     return data
+
+
+def reached(data):
+    """Return where the motions of a `sweep` are reached from a random or a placed start."""
+    return (data["share"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))

@@ -11,31 +11,30 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.motions import ensemble
-from impact_damper.motions.simulate import random_states
+from impact_damper.motions.start_states import search_starts
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.stages.branches import branches_dataset
+from impact_damper.system.bounds import SEED_RANGE, check_count
 from impact_damper.system.families import family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 
-# Heavy damping h; twice that of the oscillator if this is more.
-HEAVY = 2.0
+# Heavy damping h, or if this is more twice that of the oscillator, or this share of Wp.
+HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
-def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settling=None):
+def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling=None):
     """Find the quiet orbit at the peak frequency Wp of rule (19), and follow it in the damping h.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
-    starts : int
-        Number of random starts with heavy damping.
-    radius : float
-        Radius of the ball from which starts are drawn, within the gap.
+    starts, radius
+        Starts as of `response.frequency_response`.
     seed : int
     settling : Settling, optional
 
@@ -53,13 +52,16 @@ def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settli
         If there is no damper, or an argument is out of range.
     """
     check_damper(damper)
+    check_count("seed", seed, **SEED_RANGE)
     settling = check_settling(settling)
     peak = peak_frequency(oscillator)
-    heavy = replace(oscillator, damping=min(max(HEAVY, 2 * oscillator.damping), 10.0))
-    states = random_states(starts, radius, damper, seed)
+    damping = max(HEAVY, 2 * oscillator.damping, HEAVY_SHARE * peak)
+    heavy = replace(oscillator, damping=min(damping, 10.0))
+    search = search_starts(oscillator, [(damper, peak)], starts, radius, [seed], settling)
+    states = np.concatenate([search.random[0], search.placed[0]])
     branches, status = [], "no_start"
     p = pack(heavy, damper, peak)
-    records = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
+    records = ensemble.settle(np.tile(p, (len(states), 1)), states, settling)
     quiet = records[is_settled(records) & (records["period"] == 1) & (records["contacts"] == 2)]
     if len(quiet):
         orbit = find_orbit(p, quiet[np.argmin(quiet["maximum_displacement"])]["state"])
@@ -68,7 +70,8 @@ def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settli
         branches = [follow_branch(family, orbit, value, span)] if orbit.converged else []
         reached = branches and np.isclose(branches[0].points[0].value, span[0], rtol=1e-9)
         status = "found" if reached else "not_followed"
-    runs = ensemble.settle(np.tile(pack(oscillator, damper, peak), (starts, 1)), states, settling)
+    p = pack(oscillator, damper, peak)
+    runs = ensemble.settle(np.tile(p, (len(states), 1)), states, settling)
     made = describe(oscillator, damper) | {"parameter": "damping", "frequency": peak}
     title = "Quiet orbit at the design point over damping"
     others = {
@@ -76,6 +79,6 @@ def design_orbit(oscillator, damper, *, starts=24, radius=2.0, seed=1995, settli
         "design_orbit_status": flag("design_orbit_status", status),
         "design_run_outcome": runs["outcome"],
         "design_run_displacement": runs["maximum_displacement"],
-    }
+    } | search.variables()
     data = branches_dataset(branches, np.exp, made, title)
     return data.assign(dataset(others, {}, made, title).variables)

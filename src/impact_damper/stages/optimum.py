@@ -12,9 +12,10 @@ from scipy.optimize import brentq, minimize_scalar
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.following import RESOLUTION, follow_stable
 from impact_damper.motions.records import measured
-from impact_damper.motions.simulate import COMPONENTS, random_states
+from impact_damper.motions.simulate import COMPONENTS
+from impact_damper.motions.start_states import describe_search, search_starts
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
-from impact_damper.motions.sweep import SAME, sweep
+from impact_damper.motions.sweep import SAME, reached, sweep
 from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count, shown
 from impact_damper.system.checks import (
@@ -39,7 +40,7 @@ def clearance_sweep(
     clearances,
     *,
     starts=24,
-    radius=2.0,
+    radius=None,
     seed=1995,
     settling=None,
     workers=1,
@@ -63,7 +64,7 @@ def clearance_sweep(
     -------
     xarray.Dataset
         Over (clearance, motion) all motions found, as in a frequency response. Over `clearance`
-        the largest displacement of the quiet motion, of all motions that random starts reach,
+        the largest displacement of the quiet motion, of all motions that starts reach,
         and |a| of the quietest stable solution of (7). Scalars: the optimum and what kind of
         minimum it is, both for the motion and for (7); rules (18) and (19), the latter NaN if
         the free response has no peak; rm W^2 d0/f, with the forcing amplitude f, at the
@@ -92,12 +93,20 @@ def clearance_sweep(
     check_starts(starts, len(clearances))
     dampers = [Damper(clearance=float(value), **damper) for value in clearances]
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
-    states = np.array(
-        [random_states(starts, radius, each, [seed, i]) for i, each in enumerate(dampers)]
-    )
+    systems = [(each, frequency) for each in dampers]
+    seeds = [[seed, i] for i in range(len(systems))]
+    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
     data = sweep(
-        parameters, CLEARANCE, "clearance", states, settling, workers=workers, progress=progress
+        parameters,
+        CLEARANCE,
+        "clearance",
+        search.random,
+        settling,
+        placed=search.placed,
+        workers=workers,
+        progress=progress,
     )
+    data |= search.variables("clearance")
     forcing = oscillator.forcing_amplitude(frequency)
     inertia = dampers[0].mass_ratio * frequency**2
     branch = _quiet_branch(data, parameters, forcing / inertia)
@@ -115,7 +124,8 @@ def clearance_sweep(
     made = (
         describe(oscillator, settling)
         | damper
-        | {"frequency": frequency, "starts": starts, "radius": radius, "seed": seed}
+        | {"frequency": frequency}
+        | describe_search(starts, radius, seed)
     )
     coordinates = {
         "clearance": clearances,
@@ -229,8 +239,8 @@ def _quiet_table(branch):
 
 
 def _largest(data):
-    """Return the largest max |Z1| of the motions that random starts reach, over the clearance."""
-    sizes = np.where(data["share"][1] > 0, data["maximum_displacement"][1], -np.inf)
+    """Return the largest max |Z1| of the motions that starts reach, over the clearance."""
+    sizes = np.where(reached(data), data["maximum_displacement"][1], -np.inf)
     return np.max(sizes, axis=1)
 
 

@@ -12,6 +12,7 @@ from impact_damper.migration.damper_release import (
     watch_runs,
 )
 from impact_damper.motions import records
+from impact_damper.motions.start_states import describe_search
 from impact_damper.stages.response import frequency_response
 from impact_damper.system.bounds import RUNS_RANGE, SCAN_LIFETIME_RANGE, check_count
 from impact_damper.system.parameters import describe
@@ -46,7 +47,7 @@ def release_scan(
     frequencies,
     *,
     starts=24,
-    radius=2.0,
+    radius=None,
     releases=100,
     lifetime=200,
     seed=1995,
@@ -64,8 +65,8 @@ def release_scan(
         Increasing forcing frequencies at which both free period-1 motions exist.
     starts : int
         Random starts a frequency; the motions found are followed in frequency as well.
-    radius : float
-        Radius of the ball around rest from which starts are drawn.
+    radius : float, optional
+        As of `response.frequency_response`.
     releases : int
         Releases of each motion.
     lifetime : int
@@ -120,13 +121,8 @@ def release_scan(
     )
     data = {name: np.array([_padded(row[name], width) for row in rows]) for name in names}
     data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
-    made = describe(oscillator, damper, settling) | {
-        "starts": starts,
-        "radius": radius,
-        "releases": releases,
-        "lifetime": lifetime,
-        "seed": seed,
-    }
+    made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
+    made |= {"releases": releases, "lifetime": lifetime}
     coordinates = {
         "frequency": response["frequency"].values,
         "free_motion": DESTINATIONS,

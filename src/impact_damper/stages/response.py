@@ -4,13 +4,15 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset
 from impact_damper.motions import ensemble
+from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.simulate import COMPONENTS, random_states
+from impact_damper.motions.start_states import describe_search, search_starts
 from impact_damper.motions.sweep import sweep
 from impact_damper.system.bounds import PERIODS_RANGE, SEED_RANGE, check_count, check_number
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
-from impact_damper.system.settling import check_settling
+from impact_damper.system.settling import Settling, check_settling
 
 
 def frequency_response(
@@ -19,13 +21,13 @@ def frequency_response(
     frequencies,
     *,
     starts=96,
-    radius=2.0,
+    radius=None,
     seed=1995,
     settling=None,
     workers=1,
     progress=None,
 ):
-    """Find all motions at each frequency, from random starts and by following (section 3).
+    """Find all motions at each frequency, from many starts and by following (section 3).
 
     Parameters
     ----------
@@ -34,9 +36,12 @@ def frequency_response(
     frequencies : sequence of float
         Increasing forcing frequencies, dimensionless.
     starts : int
-        Random starts at each frequency, uniform in a ball within the gap (`random_states`).
-    radius : float
-        Radius of that ball; 2 in the paper (section 3, iii).
+        Random starts at each frequency.
+    radius : float, optional
+        Radius of a ball in which they are uniform, within the gap (`random_states`); 2 in the paper
+        (section 3, iii). Without it the search is as wide as the machine: the random starts are
+        scaled by its free motions, and further starts are placed on them
+        (`motions.start_states`).
     seed : int
     settling : Settling, optional
     workers : int
@@ -50,29 +55,39 @@ def frequency_response(
         Over (frequency, motion) the distinct motions with outcome, period, contacts, extremum of
         |Z1|, phases, multiplier, Lyapunov exponent, branch, and number of the random starts that
         lead there; over (frequency, start) outcome and length of each run; over `end` the ends
-        of branches.
+        of branches; over `frequency` how wide the starts and the free motions are; and the bound
+        on the share of a motion that no random start reached.
 
     Raises
     ------
     ValueError
         If frequencies are not increasing, or a parameter is out of range.
+
+    Warns
+    -----
+    UserWarning
+        If a free motion is larger or faster than the radius.
     """
     settling = check_settling(settling)
     frequencies = check_frequencies(frequencies)
     check_starts(starts, len(frequencies))
     check_count("seed", seed, **SEED_RANGE)
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
-    states = np.array(
-        [random_states(starts, radius, damper, [seed, i]) for i in range(len(frequencies))]
-    )
+    systems = [(damper, value) for value in frequencies]
+    seeds = [[seed, i] for i in range(len(systems))]
+    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
     data = sweep(
-        parameters, FREQUENCY, "frequency", states, settling, workers=workers, progress=progress
+        parameters,
+        FREQUENCY,
+        "frequency",
+        search.random,
+        settling,
+        placed=search.placed,
+        workers=workers,
+        progress=progress,
     )
-    made = describe(oscillator, damper, settling) | {
-        "starts": starts,
-        "radius": radius,
-        "seed": seed,
-    }
+    data |= search.variables("frequency")
+    made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
     coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
     return dataset(data, coordinates, made, "Frequency response")
 
@@ -83,7 +98,7 @@ def collisions(
     frequency,
     *,
     starts=2000,
-    radius=2.0,
+    radius=None,
     seed=1995,
     periods=200,
     tolerance=1e-9,
@@ -99,8 +114,9 @@ def collisions(
         Forcing frequency W, dimensionless.
     starts : int
         Starts in each ball, at T = 0.
-    radius : float
-        Radius of the ball; 2 in the paper (section 3, iii).
+    radius : float, optional
+        Radius of the ball; 2 in the paper (section 3, iii). Without it the largest displacement or
+        speed of the free motions, whichever is larger.
     seed : int
     periods : int
         Forcing periods within which a collision counts.
@@ -122,6 +138,9 @@ def collisions(
     check_count("starts", starts, most=10**7)
     check_count("periods", periods, **PERIODS_RANGE)
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)
+    if radius is None:
+        free = free_motions(oscillator, frequency, Settling())
+        radius = max(free.displacement, free.speed) or 1.0
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):
         states = random_states(starts, radius, damper, [seed, row], within_gap=within_gap)

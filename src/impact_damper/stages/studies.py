@@ -14,10 +14,16 @@ from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.variables.studies import AXES, OUTCOMES
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
+from impact_damper.motions.start_states import (
+    NO_STARTS,
+    describe_search,
+    warn_if_narrow,
+    wide_starts,
+)
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
-from impact_damper.system.bounds import RUNS_RANGE, check_count
+from impact_damper.system.bounds import RUNS_RANGE, SEED_RANGE, check_count
 from impact_damper.system.checks import check_increasing
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import Settling
 
@@ -38,7 +44,7 @@ def study_chunk(
     *,
     contact_stiffness=2000.0,
     starts=8,
-    radius=2.0,
+    radius=None,
     seed=1995,
     settling=None,
     workers=1,
@@ -62,8 +68,8 @@ def study_chunk(
     -------
     xarray.Dataset
         Over `cell`: largest displacement of all motions that the starts lead to, displacement of
-        the quiet motion (period 1, two symmetric contacts), numbers of starts that lead to the
-        quiet motion and to each outcome. The coordinates include the axes of the whole grid.
+        the quiet motion (period 1, two symmetric contacts), numbers of random starts that lead to
+        the quiet motion and to each outcome. The coordinates include the axes of the whole grid.
 
     Raises
     ------
@@ -83,21 +89,31 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
+    def starts_of(damper, frequency, cell):
+        if radius is None:
+            return wide_starts(oscillator, damper, frequency, starts, [seed, cell], settling)[:2]
+        return random_states(starts, radius, damper, [seed, cell]), NO_STARTS
+
+    check_count("seed", seed, **SEED_RANGE)
     # values out of range are so at an end of an axis: raise before hours of work
     for end in (0, -1):
         _, damper = system([end] * len(AXES))
-        random_states(0, radius, damper, seed)
+        if radius is not None:
+            random_states(0, radius, damper, seed)
+    if radius is not None:
+        warn_if_narrow(oscillator, axes["frequency"], radius)
     found, stop = np.empty(last - first, CELL), np.zeros(1, bool)
 
     def work(part):
         rows, states = [], []
         for cell in range(first + part.start, first + part.stop):
             p, damper = system(np.unravel_index(cell, shape))
-            rows.append(np.tile(p, (starts, 1)))
-            states.append(random_states(starts, radius, damper, [seed, cell]))
+            states.append(np.concatenate(starts_of(damper, p[FREQUENCY], cell)))
+            rows.append(np.tile(p, (len(states[-1]), 1)))
         runs = ensemble.settle(np.concatenate(rows), np.concatenate(states), settling, stop=stop)
-        for k, of_cell in enumerate(np.split(runs, len(rows)), part.start):
-            found[k] = _condensed(of_cell)
+        ends = np.cumsum([len(row) for row in rows])
+        for k, of_cell in enumerate(np.split(runs, ends[:-1]), part.start):
+            found[k] = _condensed(of_cell, starts)
 
     # enough cells at a time to fill the lanes; the memory does not depend on the chunk
     together = max(1, ensemble.CHUNK // starts)
@@ -105,23 +121,22 @@ def study_chunk(
     data = {
         name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names
     }
-    made = describe(oscillator, settling) | {
-        "contact_stiffness": contact_stiffness,
-        "starts": starts,
-        "radius": radius,
-        "seed": seed,
-    }
+    made = describe(oscillator, settling) | describe_search(starts, radius, seed)
+    made["contact_stiffness"] = contact_stiffness
     coordinates = axes | {"cell": np.arange(first, last), "counted_outcome": list(OUTCOMES)}
     return dataset(data, coordinates, made, "What random starts come to over a grid")
 
 
-def _condensed(runs):
-    """Return the results of the runs in a cell as a row of `CELL`."""
+def _condensed(runs, starts):
+    """Return the results of the runs in a cell, random starts first, as a row of `CELL`.
+
+    Only random starts are counted.
+    """
     sizes = runs["maximum_displacement"]
     quiet = is_settled(runs) & is_symmetric_pair(runs)
     return (
-        [np.sum(runs["outcome"] == flag("outcome", name)) for name in OUTCOMES],
-        np.sum(quiet),
+        [np.sum(runs["outcome"][:starts] == flag("outcome", name)) for name in OUTCOMES],
+        np.sum(quiet[:starts]),
         np.max(sizes),
         np.min(sizes[quiet]) if quiet.any() else np.nan,
     )

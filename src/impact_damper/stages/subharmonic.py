@@ -14,8 +14,9 @@ from impact_damper.motions.free_subharmonic import (
     is_subharmonic,
     switched_on,
 )
-from impact_damper.motions.simulate import COMPONENTS, random_states
-from impact_damper.motions.sweep import SAME, sweep
+from impact_damper.motions.simulate import COMPONENTS
+from impact_damper.motions.start_states import describe_search, search_starts
+from impact_damper.motions.sweep import SAME, reached, sweep
 from impact_damper.system.bounds import SEED_RANGE, check_count
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
@@ -41,7 +42,7 @@ def subharmonic_suppression(
     frequencies,
     *,
     starts=96,
-    radius=2.0,
+    radius=None,
     seed=1995,
     settling=None,
     workers=1,
@@ -102,21 +103,28 @@ def subharmonic_suppression(
         margin = BEYOND * (free.ends[1] - free.ends[0])
         frequencies = np.linspace(free.ends[0] - margin, free.ends[1] + margin, len(frequencies))
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
-    states, size = _starts(oscillator, damper, parameters, free, starts, radius, seed)
+    systems = [(damper, value) for value in frequencies]
+    seeds = [[seed, i] for i in range(len(systems))]
+    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
+    size = _switch_half(oscillator, parameters, free, search.random, seed)
     data = sweep(
-        parameters, FREQUENCY, "frequency", states, settling, workers=workers, progress=progress
+        parameters,
+        FREQUENCY,
+        "frequency",
+        search.random,
+        settling,
+        placed=search.placed,
+        workers=workers,
+        progress=progress,
     )
+    data |= search.variables("frequency")
     data |= _subharmonic_table(data, size) | _branch_table(data, frequencies)
     data |= {
         "switched_share": _shares(data, np.isfinite(size), starts // 2),
         "free_subharmonic_frequency": free.ends,
         "free_subharmonic_event": free.events,
     }
-    made = describe(oscillator, damper, settling) | {
-        "starts": starts,
-        "radius": radius,
-        "seed": seed,
-    }
+    made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
     coordinates = {
         "frequency": frequencies,
         "component": list(COMPONENTS),
@@ -126,13 +134,13 @@ def subharmonic_suppression(
     return dataset(data, coordinates, made, "One-third subharmonic without and with the damper")
 
 
-def _starts(oscillator, damper, parameters, free, starts, radius, seed):
-    """Return starts, shape (n, starts, 4), and max |Z1| of the free subharmonic or NaN, (n,)."""
-    states = np.array(
-        [random_states(starts, radius, damper, [seed, i]) for i in range(len(parameters))]
-    )
+def _switch_half(oscillator, parameters, free, states, seed):
+    """Replace half of the starts (n, m, 4) where the free subharmonic exists, by `switched_on`.
+
+    Return max |Z1| of the free subharmonic, shape (n,), NaN where it does not exist.
+    """
     size = np.full(len(parameters), np.nan)
-    half = starts // 2
+    half = states.shape[1] // 2
     for i, p in enumerate(parameters):
         record = free.at(p[FREQUENCY])
         if record is not None:
@@ -141,7 +149,7 @@ def _starts(oscillator, damper, parameters, free, starts, radius, seed):
             states[i, :half] = switched_on(
                 oscillator, p, record["state"], states[i, :half], generator
             )
-    return states, size
+    return size
 
 
 def _subharmonic_table(data, free):
@@ -151,11 +159,11 @@ def _subharmonic_table(data, free):
     row = np.arange(len(size))
     damped = size[row, place]
     exists = damped > 0
-    reached = np.max(np.where(data["share"][1] > 0, size, -np.inf), axis=1)
+    found = np.max(np.where(reached(data), size, -np.inf), axis=1)
     table = {"free_subharmonic": free, "subharmonic_ratio": np.where(exists, damped, 0) / free}
-    for name, values in (("damped_subharmonic", damped), ("reached_subharmonic", reached)):
+    for name, values in (("damped_subharmonic", damped), ("reached_subharmonic", found)):
         table[name] = np.where(values > 0, values, np.nan)
-    for name, values in (("suppression", damped), ("reached_suppression", reached)):
+    for name, values in (("suppression", damped), ("reached_suppression", found)):
         table[name] = _suppression(values, free)
     table["damped_subharmonic_period"] = np.where(exists, data["period"][1][row, place], 0)
     table["damped_subharmonic_contacts"] = np.where(exists, data["contacts"][1][row, place], np.nan)

@@ -123,7 +123,7 @@ VARIABLES = {
     ),
     "largest_displacement": Variable(
         ("clearance",),
-        "largest displacement over all motions that random starts reach",
+        "largest displacement over all motions that starts reach",
         quantity="displacement",
     ),
     "analytical_amplitude": Variable(

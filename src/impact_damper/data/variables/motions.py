@@ -83,7 +83,7 @@ VARIABLES = {
     "origin": Variable(
         ("frequency", "motion"),
         "how the motion was found first",
-        flags={"absent": 0, "random_start": 1, "followed": 2},
+        flags={"absent": 0, "random_start": 1, "followed": 2, "placed_start": 3},
     ),
     "run_outcome": Variable(("frequency", "start"), "outcome of a random start", flags=OUTCOME),
     "run_motion": Variable(
@@ -106,6 +106,31 @@ VARIABLES = {
     "end_multiplier_real": Variable(("end",), "dominant Floquet multiplier at the end, real part"),
     "end_multiplier_imaginary": Variable(
         ("end",), "dominant Floquet multiplier at the end, imaginary part"
+    ),
+    # how wide a search was
+    "start_displacement": Variable(
+        ("frequency",),
+        "largest displacement of a random start",
+        "|Z1|",
+        quantity="displacement",
+    ),
+    "start_speed": Variable(
+        ("frequency",), "largest speed of a random start", "|Z1'|", quantity="velocity"
+    ),
+    "free_displacement": Variable(
+        ("frequency",),
+        "largest displacement of the free motions; by harmonic balance if a radius was given",
+        "max |Z1|",
+        quantity="displacement",
+    ),
+    "free_speed": Variable(
+        ("frequency",),
+        "largest speed of the free motions; by harmonic balance if a radius was given",
+        "max |Z1'|",
+        quantity="velocity",
+    ),
+    "missed_share": Variable(
+        (), "bound, at 95 %, on the share of random starts of a motion that no start reached"
     ),
     # first collisions
     "ball": Variable(("ball",), "ball from which random starts are drawn"),

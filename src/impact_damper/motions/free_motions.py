@@ -1,0 +1,98 @@
+"""The free motions at one frequency, without the damper: what a search must at least cover."""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.motions import ensemble, records, strobe_map
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.theory.free_oscillator import free_solutions, main_solutions, maximum_response
+
+# Phases at which free motions are started with the amplitudes of harmonic balance.
+PHASES = 6
+# Samples a forcing period from which the largest speed of a motion is taken, and most states of one
+# motion, which may be chaotic.
+SAMPLES = 256
+MOST_STATES = 5
+
+
+class FreeMotions(NamedTuple):
+    """What the free oscillator does at one frequency.
+
+    Attributes
+    ----------
+    states : numpy.ndarray, shape (k, 2)
+        Z1, Z1' at T = 0 of each distinct motion, for each forcing period of its period.
+    displacement, speed : float
+        Largest |Z1| and |Z1'| of all of them.
+    """
+
+    states: np.ndarray
+    displacement: float
+    speed: float
+
+
+@lru_cache(1024)
+def free_motions(oscillator, frequency, settling) -> FreeMotions:
+    """Find the free motions at one frequency: the resonance, the other ones, and the rest.
+
+    They are settled from the amplitudes of harmonic balance and of the peak, each at PHASES phases,
+    so that also those near a fold are found that harmonic balance does not predict there.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    frequency : float
+        W.
+    settling : Settling
+    """
+    p = pack(oscillator, None, frequency)
+    angles = 2 * np.pi * np.arange(PHASES) / PHASES
+    sizes = np.append(balance_amplitudes(oscillator, frequency), _peak_amplitude(oscillator))
+    turns = np.stack([np.cos(angles), -frequency * np.sin(angles)], axis=1)
+    starts = np.concatenate([[(0.0, 0.0)], *(size * turns for size in sizes)])
+    found = ensemble.settle(np.tile(p, (len(starts), 1)), np.tile(starts, 2), settling)
+    states, largest, fastest = [], 0.0, 0.0
+    known = set()
+    for record in found[np.isfinite(found["maximum_displacement"])]:
+        key = record["outcome"], record["period"], f"{record['maximum_displacement']:.5e}"
+        if key in known:
+            continue
+        known.add(key)
+        course = _course(p, record["state"], int(record["period"]) or settling.watched)
+        largest = max(largest, record["maximum_displacement"])
+        fastest = max(fastest, np.max(np.abs(course[:, 1])))
+        # T = 0 comes three quarters of a period after the strobe
+        states.append(course[3 * SAMPLES // 4 :: SAMPLES, :2][:MOST_STATES])
+    return FreeMotions(np.concatenate(states or [[(0.0, 0.0)]]), float(largest), float(fastest))
+
+
+def balance_amplitudes(oscillator, frequency):
+    """Return the amplitudes of free motions by harmonic balance, ascending.
+
+    Those of a softening spring without a peak are left out but for the smallest.
+    """
+    try:
+        return main_solutions(oscillator, frequency).amplitude
+    except ValueError:
+        return free_solutions(oscillator, frequency).amplitude[:1]
+
+
+def _peak_amplitude(oscillator):
+    """Return the amplitude of the peak of the free response, no number if there is none."""
+    try:
+        return [maximum_response(oscillator).amplitude]
+    except ValueError:
+        return []
+
+
+def _course(p, state, periods):
+    """Return samples of a free motion over forcing periods from a state at the strobe."""
+    begin = strobe_map.strobe_time(p)
+    period = 2 * np.pi / p[FREQUENCY]
+    times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES
+    states = np.empty((len(times), 4))
+    none = np.empty((0, 5))
+    records.trace(p, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, none)
+    return states

@@ -1,0 +1,240 @@
+"""Start states from which motions are searched for: random ones, and on known free motions.
+
+Without a radius a search is as wide as the machine. Its scales are the largest displacement and
+speed of the free motions at the frequency (`free_motions`). They are those of settled motions, not
+of harmonic balance, which only provides the states from which the free motions are settled. The
+starts are of two kinds:
+
+- random: the primary mass anywhere up to SPREAD times these scales, with sizes spread evenly over
+  their logarithm, so that small and large motions are tried alike;
+- placed: the primary mass on each free motion and at rest, the loose mass in several places with
+  several velocities; the solutions of harmonic balance with contacts; and the ends of slow ramps of
+  the frequency, upward and downward, and of the force, downward, to the values of the system. On a
+  ramp a motion stays on its branch, so that ramps reach the violent motions of weakly damped
+  machines, whose basins are so small that hardly a random start lies in them.
+
+With a radius all starts are random, uniform in a ball as in the paper (section 3, iii).
+"""
+
+import math
+import warnings
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.motions import records, strobe_map
+from impact_damper.motions.free_motions import balance_amplitudes, free_motions
+from impact_damper.motions.simulate import random_states
+from impact_damper.system.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
+from impact_damper.system.packed import FORCE, FREQUENCY, UNBALANCE, pack
+from impact_damper.theory.free_oscillator import free_folds
+from impact_damper.theory.single_harmonic import impacting_solutions
+
+# Largest random start over the largest free motion, and smallest over largest random start.
+SPREAD = 3.0
+SMALLEST = 0.01
+# Places of the loose mass over the clearance, and its velocities relative to the primary mass over
+# the speed of the free motion or, if that is faster, of one crossing of the gap in half a period.
+PLACES = (-2 / 3, 0.0, 2 / 3)
+VELOCITIES = (-1.0, 0.0, 1.0)
+NO_STARTS = np.empty((0, 4))
+# Ramps: relative change of a parameter in one step, forcing periods of a step, beginning over the
+# outermost fold, and beginning of the force over its value.
+STEP = 0.0125
+PERIODS = 20
+BELOW = 0.9
+RAISED = 5.0
+# Random starts that all miss a motion leave, at 95 %, a share of at most RULE_OF_THREE/n for it.
+RULE_OF_THREE = 3.0
+
+
+class Search(NamedTuple):
+    """Start states of a search at several systems.
+
+    Attributes
+    ----------
+    random : numpy.ndarray, shape (n, m, 4)
+        Random starts at T = 0.
+    placed : list of numpy.ndarray, shape (k, 4)
+        Placed starts at T = 0 of each system; none with a radius.
+    displacement, speed : numpy.ndarray, shape (n,)
+        Largest |Z1| and |Z1'| of a random start.
+    free_displacement, free_speed : numpy.ndarray, shape (n,)
+        Largest |Z1| and |Z1'| of the free motions; with a radius by harmonic balance.
+    """
+
+    random: np.ndarray
+    placed: list
+    displacement: np.ndarray
+    speed: np.ndarray
+    free_displacement: np.ndarray
+    free_speed: np.ndarray
+
+    def variables(self, dimension=None) -> dict:
+        """Return the registered variables of how wide the search was, over a dimension or not."""
+        names = "start_displacement", "start_speed", "free_displacement", "free_speed"
+        data = {
+            name: ((), values[0]) if dimension is None else (dimension, values)
+            for name, values in zip(names, self[2:], strict=True)
+        }
+        return data | {"missed_share": missed_share(self.random.shape[1])}
+
+
+def describe_search(starts, radius, seed) -> dict:
+    """Return the parameters of a search for a dataset; the radius only if there is one."""
+    made = {"starts": starts, "seed": seed}
+    return made if radius is None else made | {"radius": radius}
+
+
+def missed_share(starts) -> float:
+    """Return the bound, at 95 %, on the share of random starts that lead to a motion never seen."""
+    return min(1.0, RULE_OF_THREE / starts) if starts else 1.0
+
+
+def search_starts(oscillator, systems, count, radius, seeds, settling) -> Search:
+    """Return the starts of a search, and warn as `warn_if_narrow` if there is a radius.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    systems : list of tuple
+        Damper or None, and frequency W, of each system.
+    count : int
+        Random starts of each system.
+    radius : float or None
+        Radius of the ball of random starts; None for a search as wide as the machine.
+    seeds : sequence
+        Seed of each system, an integer or several.
+    settling : Settling
+        How free motions are settled.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If count, radius or a seed is out of range.
+    """
+    if radius is None:
+        rows = [
+            wide_starts(oscillator, *system, count, seed, settling)
+            for system, seed in zip(systems, seeds, strict=True)
+        ]
+    else:
+        frequencies = [frequency for _, frequency in systems]
+        free = warn_if_narrow(oscillator, frequencies, radius)
+        rows = [
+            (random_states(count, radius, damper, seed), NO_STARTS, radius, radius, *free[w])
+            for (damper, w), seed in zip(systems, seeds, strict=True)
+        ]
+    random, placed, *scales = zip(*rows, strict=True)
+    return Search(np.array(random), list(placed), *np.array(scales))
+
+
+def warn_if_narrow(oscillator, frequencies, radius) -> dict:
+    """Return displacement and speed of the largest free motion by frequency, and warn.
+
+    They are those of harmonic balance, in which the speed is W times the displacement.
+
+    Warns
+    -----
+    UserWarning
+        If a free motion is larger or faster than the radius of the ball of starts.
+    """
+    check_number("radius", radius, **RADIUS_RANGE)
+    sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
+    worst = max(sizes, key=lambda w: sizes[w] * max(1.0, w))
+    most, fastest = sizes[worst], sizes[worst] * worst
+    if max(most, fastest) > radius:
+        warnings.warn(
+            f"radius = {radius:g}: smaller than the free motion at frequency = {worst:g}, with a "
+            f"displacement of {most:.3g} and a speed of {fastest:.3g} by harmonic balance; motions "
+            "may be missed, without a radius a search is as wide as the machine",
+            stacklevel=4,
+        )
+    return {w: (size, size * w) for w, size in sizes.items()}
+
+
+def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
+    """Return what `Search` has of one system, for a search as wide as the machine."""
+    generator = np.random.default_rng(seed)
+    free = free_motions(oscillator, frequency, settling)
+    crossing = 0.0 if damper is None else 2 * damper.clearance * frequency / math.pi
+    length = free.displacement or (1.0 if damper is None else damper.clearance)
+    most = np.array([length, free.speed or max(length * frequency, crossing)]) * SPREAD
+    if oscillator.cubic < 0:
+        most = np.minimum(most, _barrier(oscillator))
+    size = 2 if damper is None else 3
+    direction = generator.standard_normal((count, size))
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    direction *= SMALLEST ** generator.random((count, 1))
+    states = np.empty((count, 4))
+    states[:, :2] = most * direction[:, :2]
+    if damper is None:
+        states[:, 2:] = states[:, :2]
+        placed = np.hstack([free.states, free.states])
+    else:
+        states[:, 2] = damper.clearance * generator.uniform(-1, 1, count)
+        states[:, 3] = (most[1] + crossing) * direction[:, 2]
+        placed = _placed(oscillator, damper, frequency, free, crossing, settling.tolerance)
+    return states, placed, *most, free.displacement, free.speed
+
+
+def _placed(oscillator, damper, frequency, free, crossing, tolerance):
+    """Return starts on free motions, at rest, after ramps, and on the solutions of (7)."""
+    rows = ramped(oscillator, damper, frequency, tolerance) + [
+        (x, v, place * damper.clearance, velocity * speed)
+        for primary, speed in [(free.states, max(free.speed, crossing)), ([(0.0, 0.0)], crossing)]
+        for x, v in primary
+        for place in PLACES
+        for velocity in VELOCITIES
+    ]
+    try:
+        # they are starts only, so that those for elastic contact serve all dampers
+        found = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
+    except ArithmeticError:
+        return np.array(rows)
+    turn = np.array([np.cos(found.phase), -frequency * np.sin(found.phase)])
+    sizes = found.amplitude, found.relative_amplitude
+    return np.concatenate([rows, np.vstack([size * turn for size in sizes]).T])
+
+
+def ramped(oscillator, damper, frequency, tolerance) -> list:
+    """Return states at T = 0 at the ends of slow ramps; none where a motion has escaped.
+
+    The frequency rises from below the lowest fold of the free response and falls from above its
+    highest one, from half and twice the frequency at least; the force falls from RAISED times its
+    value.
+    """
+    folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
+    lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
+    highest = min(max(2 * frequency, *folds) / BELOW, FREQUENCY_RANGE["most"])
+    target = pack(oscillator, damper, frequency)
+    ramps = [
+        _ramp(target, [FREQUENCY], lowest / frequency, tolerance),
+        _ramp(target, [FREQUENCY], highest / frequency, tolerance),
+        _ramp(target, [FORCE, UNBALANCE], RAISED, tolerance),
+    ]
+    return [state for state in ramps if np.isfinite(state).all()]
+
+
+def _ramp(target, indices, factor, tolerance):
+    """Return the state at T = 0 after a ramp from rest.
+
+    The packed parameters with some indices go from `factor` times their values to these values.
+    """
+    p, state = target.copy(), np.zeros(4)
+    for share in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
+        p[indices] = target[indices] * factor**share
+        state, _, _ = strobe_map.period_map(p, state, PERIODS, tolerance)
+        if not np.isfinite(state).all():
+            return state
+    begin, end = strobe_map.strobe_time(target), 2 * np.pi / target[FREQUENCY]
+    at_zero, none = np.empty((1, 4)), np.empty((0, 5))
+    records.trace(target, state, begin, np.array([end]), tolerance, at_zero, none)
+    return at_zero[0]
+
+
+def _barrier(oscillator):
+    """Return |Z1| at the barrier of a softening spring, and the speed at Z1 = 0 that reaches it."""
+    stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
+    return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
