@@ -179,7 +179,7 @@ class Line(_Branch):
 
 def test_optimum_at_the_end_of_the_branch():
     parameters = np.zeros((3, packed.COUNT))
-    parameters[:, 3] = 1, 2, 3
+    parameters[:, packed.CLEARANCE] = 1, 2, 3
     branch = Line(parameters, np.zeros((3, 4)), np.array([np.nan, 2.0, 3.0]))
     table = _optimum_table(branch)
     assert table["optimum_kind"] == flag("optimum_kind", "jump")

@@ -32,7 +32,7 @@ AXES = {
 
 
 def chunk(cells, **others):
-    given = {"starts": 3, "settling": QUICK} | others
+    given = {"starts": 3, "radius": 2.0, "settling": QUICK} | others
     return studies.study_chunk(PAPER, AXES, cells, **given)
 
 
@@ -171,11 +171,19 @@ def test_every_start_is_counted_once(entire):
     assert (entire["quiet_count"] <= entire["outcome_count"].sel(counted_outcome="settled")).all()
 
 
+def test_without_a_radius_placed_starts_count_in_the_sizes_alone(entire):
+    wide = chunk((0, 2), radius=None)
+    assert_array_equal(wide["outcome_count"].sum("counted_outcome"), 3)
+    assert np.all(wide["largest_displacement"] > 0)
+    assert_array_equal(chunk((1, 2), radius=None)["outcome_count"], wide["outcome_count"][1:])
+
+
 def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator():
     axes = AXES | {"mass_ratio": [0.12], "clearance": [1000], "restitution": [1]}
     # shorter than a flight of the loose mass
     settling = Settling(patience=100, limit=100, watched=20)
-    wide = studies.study_chunk(PAPER, axes, (0, 1), starts=20, settling=settling).isel(cell=0)
+    given = {"starts": 20, "radius": 2.0, "settling": settling}
+    wide = studies.study_chunk(PAPER, axes, (0, 1), **given).isel(cell=0)
     starts = random_states(20, 2.0, Damper(0.12, 1000), [1995, 0])[:, :2]
     free = [steady_motion(PAPER, None, 2.0, state) for state in starts]
     assert wide["outcome_count"].sel(counted_outcome="unresolved") == 20
@@ -196,7 +204,10 @@ def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator()
         ({"starts": 0}, "starts = 0"),
         # raised by the first chunk, although only the last cell is out of range
         ({"axes": AXES | {"mass_ratio": [1, 20]}}, "mass_ratio = 20: must be .*at most 10"),
-        ({"axes": AXES | {"clearance": [1e-3, 1]}}, "radius = 2: must be .*at most 1"),
+        (
+            {"axes": AXES | {"clearance": [1e-3, 1]}, "radius": 2.0},
+            "radius = 2: must be .*at most 1",
+        ),
         ({"oscillator": None}, "oscillator = None: must be an Oscillator"),
     ],
 )
