@@ -222,15 +222,16 @@ def _ramp(target, indices, factor, tolerance):
 
     The packed parameters with some indices go from `factor` times their values to these values.
     """
-    p, state = target.copy(), np.zeros(4)
+    p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for share in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**share
-        state, _, _ = strobe_map.period_map(p, state, PERIODS, tolerance)
+        begin = strobe_map.strobe_time(p)
+        strobe_map.flow(p, state, none, begin, PERIODS, np.bool_(False), tolerance)
         if not np.isfinite(state).all():
             return state
-    begin, end = strobe_map.strobe_time(target), 2 * np.pi / target[FREQUENCY]
-    at_zero, none = np.empty((1, 4)), np.empty((0, 5))
-    records.trace(target, state, begin, np.array([end]), tolerance, at_zero, none)
+    end, at_zero = np.array([2 * np.pi / target[FREQUENCY]]), np.empty((1, 4))
+    begin = strobe_map.strobe_time(target)
+    records.trace(target, state, begin, end, tolerance, at_zero, np.empty((0, 5)))
     return at_zero[0]
 
 
