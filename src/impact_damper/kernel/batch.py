@@ -1,8 +1,8 @@
-"""The event-driven flow of many trajectories, several side by side in one step.
+"""The event-driven flow of many trajectories, LANES of which are stepped side by side.
 
-A step is of trajectories in the same phase. The pool holds more of them than are stepped at
-once, and each step takes those of the phase that most of them wait in. What a trajectory
-comes to does not depend on the others.
+All trajectories of a step must be in the same phase, in flight or in contact. So a pool holds more
+trajectories than there are lanes, with a queue for each kind of step, and each step takes those of
+the longest queue. The result for a trajectory does not depend on the others.
 """
 
 from typing import NamedTuple
@@ -16,14 +16,14 @@ from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.system import packed
 
 LANES = 16
-# Trajectories in a pool: enough for a full step to be found nearly always.
+# Trajectories in a pool: so many that the longest queue nearly always fills all lanes.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = instances.instance(LANES)
 flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_MANY)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# The numbers of a trajectory in a pool are the first rows of a step, in their order.
+# Indices of the numbers of a trajectory in a pool, which stand in the order of the rows of a step.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -31,7 +31,7 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 
 
 class Pool(NamedTuple):
-    """Trajectories on their way, each to its own end.
+    """Trajectories that are being integrated, each to its own end.
 
     Attributes
     ----------
@@ -43,13 +43,14 @@ class Pool(NamedTuple):
         |Z1| from which they escape (`equation.no_return`).
     tangents : array, shape (m, 4)
     queues : array of int, shape (4, m)
-        Places of the trajectories that wait for a step of each kind.
+        Indices of the trajectories that wait for a step of each kind: in flight, in contact, and
+        both with a tangent.
     waiting : array of int, shape (4,)
-        How many these are.
+        Lengths of the queues.
     contacts : array of int, shape (m,)
-        Contacts begun since the trajectory was last sent on.
+        Contacts begun since the trajectory was last sent.
     a, d : array
-        Numbers of the step and of its tangents.
+        Rows of the step and of its tangents (`series.rows`).
     """
 
     numbers: np.ndarray
@@ -65,7 +66,7 @@ class Pool(NamedTuple):
 
 @kernel
 def make_pool(size):
-    """A pool without trajectories."""
+    """Return an empty pool."""
     return Pool(
         np.zeros((size, LENGTH)),
         np.zeros(size),
@@ -81,7 +82,7 @@ def make_pool(size):
 
 @kernel
 def enter(pool, m, p, y, side, tolerance):
-    """Put a trajectory into a place of the pool; `send` lets it go."""
+    """Write a trajectory into a pool, at index m. It is integrated once `send` is called."""
     numbers = pool.numbers[m]
     for i in range(packed.COUNT):
         numbers[i] = p[i]
@@ -94,7 +95,7 @@ def enter(pool, m, p, y, side, tolerance):
 
 @kernel
 def send(pool, m, t, end, with_tangent):
-    """Let a trajectory go on from t to its next end."""
+    """Let a trajectory be integrated from t to its next end."""
     pool.numbers[m, TIME] = t
     pool.ends[m] = end
     pool.contacts[m] = 0
@@ -104,14 +105,14 @@ def send(pool, m, t, end, with_tangent):
 
 @kernel_only
 def enqueue(queues, waiting, m, kind):
-    """Let a trajectory wait for a step."""
+    """Append a trajectory to the queue for a kind of step."""
     queues[kind, waiting[kind]] = m
     waiting[kind] += 1
 
 
 @kernel
 def choose(pool, chosen):
-    """Take up to LANES trajectories off the longest queue. Returns how many, and their kind."""
+    """Take up to LANES trajectories from the longest queue. Return their number and their kind."""
     waiting = pool.waiting
     kind = FLIGHT
     for other in range(1, 4):
@@ -126,7 +127,10 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Fill the lanes; where fewer wait, the last trajectory stands in several."""
+    """Copy the chosen trajectories into the lanes.
+
+    If there are fewer than LANES, `choose` has put one of them into several lanes.
+    """
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -140,9 +144,10 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Put the trajectories back. Returns how many are at their ends; `arrived` has their places.
+    """Copy the trajectories back, and append those that are not at their ends to the queues.
 
-    One that has escaped (`equation.no_return`) is taken to its end, with its state at the escape.
+    A trajectory that has escaped (`equation.no_return`) counts as at its end, with the state at
+    the escape. Return how many are at their ends; `arrived` gets their indices.
     """
     ended = 0
     for lane in range(count):
@@ -177,14 +182,14 @@ def advance_some(pool, chosen, arrived):
     Parameters
     ----------
     pool : Pool
-        At least one trajectory waits in it.
+        Must not be empty.
     chosen, arrived : array of int, shape (LANES,)
-        Scratch, and the places of those that have arrived.
+        `chosen` is scratch; `arrived` gets the indices of the trajectories at their ends.
 
     Returns
     -------
     int
-        How many have arrived.
+        Number of trajectories at their ends.
     """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)

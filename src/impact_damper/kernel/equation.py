@@ -8,6 +8,7 @@ the cube is a product of series.
 """
 
 import math
+from functools import partial
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.system.packed import (
@@ -39,9 +40,12 @@ def forcing_amplitude(p, lane=0, lanes=1):
     return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
 
 
-@kernel_only
+@partial(kernel_only, fastmath=False)
 def external_force(p, t):
-    """Return the forcing at a time, over the primary mass."""
+    """Return the forcing at a time, over the primary mass.
+
+    The product is rounded before it enters a sum, so that an amplitude of 1 changes no digit.
+    """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
 

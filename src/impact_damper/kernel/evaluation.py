@@ -1,20 +1,20 @@
-"""Values of the series of a step at a time in it, and bounds on them."""
+"""Writes the source of kernels that evaluate and bound the series of a step."""
 
 import math
 
 from impact_damper.kernel.series import Writer
 from impact_damper.kernel.straight_lines import straight
 
-# Series of cosine and sine, without their first terms.
+# Coefficients of cos and sin in powers of the squared angle, without the first terms 1 and angle.
 COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
 SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 class Source(Writer):
-    """Writes what `events` and `step` call: the series, and what is read off them."""
+    """Writes the kernels that the templates call: series, their sums, bounds on their values."""
 
     def text(self):
-        """The module."""
+        """Return the source of the module of these kernels."""
         slope = {"Z1": "X", "Z1_SLOPE": "X'"}
         curve = {"Z1_CURVE": "G"}
         jerk = curve | {"Z1_JERK": "G'"}
@@ -33,10 +33,10 @@ class Source(Writer):
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
-            # On |g|, which in flight is |Z1''|.
+            # Upper bounds on |g|, which in flight is |Z1''|.
             self.sums("flight_bound", "flight", "LENGTH", bound),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # What the terms of Z1' but the first come to, at most.
+            # An upper bound on the change of Z1': its terms after the first, without their signs.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         imports = [
@@ -46,11 +46,26 @@ class Source(Writer):
         return "\n".join(imports) + "\n\n" + "\n\n".join(functions)
 
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
-        """Sums of series at the time in a row, and what follows; `results` gives each its series.
+        """Return a kernel that sums series at a time.
 
-        The slope of a series is written with a prime, terms without their signs between bars.
-        Of each series only so many terms are taken, from `begin` on. With one lane, the four parts
-        of a sum stand side by side in a register.
+        Parameters
+        ----------
+        name : str
+            Name of the kernel.
+        phase : str
+            "flight" or "contact".
+        time : str
+            Row of the time.
+        results : dict of str
+            The series by the row of its result: "X" for a sum, "X'" for its derivative, "|X|" for
+            the sum of the moduli of its terms.
+        then : iterable of str
+            Lines to be executed after the sums.
+        begin, terms : int
+            First order of a sum, and the largest number of its terms.
+
+        Each sum is divided into four parts, of every fourth term, which do not wait for each other.
+        With one lane, the four parts stand in one register.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -68,7 +83,7 @@ class Source(Writer):
         return self.function(name, [*lines, *then], first=first)
 
     def _parts(self, series, orders, parts):
-        """Lines that add up the four parts of a sum side by side."""
+        """Yield lines that compute the four parts of a sum in one register."""
         for k in orders[::4]:
             four = self._coefficient(series, *range(k, k + 4))
             power = k - orders[0]
@@ -76,9 +91,9 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """COSINE and SINE become the series of ANGLE without their first terms.
+        """Return a kernel that sums the series of cosine and sine of ANGLE (COSINES, SINES).
 
-        With one lane they stand side by side in a register.
+        The results are stored in COSINE and SINE. With one lane both sums stand in one register.
         """
         cosine, sine = self.at("COSINE"), self.at("SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
@@ -90,7 +105,7 @@ class Source(Writer):
         return self.function("circular_series", lines)
 
     def _coefficient(self, series, *orders):
-        """A coefficient of a series, or four of them side by side."""
+        """Return the expression for a coefficient of a series, or for four in one register."""
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
             number = _widened(number)
@@ -99,20 +114,23 @@ class Source(Writer):
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
-        """What the wall adds: to G and its slope, for those of Z1 and of the penetration."""
+        """Yield lines that subtract the force of the wall from g, and its rate from the slope of g.
+
+        The results are curve and jerk, the second and third derivative, of Z1 and the penetration.
+        """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
-        for force, place, rate, given in (
+        for force, depth_row, rate, given in (
             ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),
             ("rise", "DEPTH_SLOPE", "DEPTH_CURVE", "JERK"),
         ):
             stiff, lossy = self.at("CONTACT_STIFFNESS"), self.at("DASHPOT")
             z1, depth = self.at(f"Z1_{given}"), self.at(f"DEPTH_{given}")
-            yield f"{force} = {stiff} * {self.at(place)} + {lossy} * {self.at(rate)}"
+            yield f"{force} = {stiff} * {self.at(depth_row)} + {lossy} * {self.at(rate)}"
             yield f"{depth} = {z1} - {mobility} * {force}"
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """TAIL becomes the largest of the last two terms of the series of speeds at t."""
+        """Yield lines that store in TAIL the largest of the last two terms of the speeds at t."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -124,17 +142,17 @@ class Source(Writer):
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
 
     def tangent_value(self, phase):
-        """The tangent at T."""
+        """Return a kernel that evaluates a tangent at T."""
         lines = [*self._time("T", phase)]
-        for place, name in enumerate(self.moving(phase)):
+        for number, name in enumerate(self.moving(phase)):
             terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
             slopes = [f"{float(k)} * {term}" for k, term in enumerate(terms)][1:]
-            lines += _sum(terms, self.at_tangent("", 2 * place), terms[:4], 4)
-            lines += _sum(slopes, self.at_tangent("", 2 * place + 1), slopes[:4], 4)
+            lines += _sum(terms, self.at_tangent("", 2 * number), terms[:4], 4)
+            lines += _sum(slopes, self.at_tangent("", 2 * number + 1), slopes[:4], 4)
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def _time(self, row, phase):
-        """The t of a row, and its powers for `_sum`."""
+        """Yield lines for the time t in a row, and for the powers of t that `_sum` needs."""
         yield f"t = {self.at(row)}"
         yield "t2 = t * t"
         yield "t4 = t2 * t2"
@@ -144,26 +162,26 @@ class Source(Writer):
 
 
 def _widened(number):
-    """A number and those behind it, side by side."""
+    """Return the expression for a number and those that follow it, as one vector."""
     return number.replace("]", " + i]")
 
 
 def _constants(*numbers):
-    """A constant, or one for each place side by side."""
+    """Return the expression for a constant, or for a vector of constants."""
     return f"{numbers}[i]" if len(numbers) > 1 else repr(numbers[0])
 
 
 def _paired(c, result):
-    """A line that adds up eight terms in u, whose square is v, pair by pair."""
+    """Return a line that sums eight terms c[k] u^k by Estrin's scheme, with v = u^2."""
     low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
     return f"{result} = ({low}) + ({high}) * (v * v)"
 
 
 def _sum(c, result, parts, done):
-    """Lines that add up a series at t: every fourth power apart, side by side, then together.
+    """Yield lines that sum a series at t in four parts, of every fourth term, and add the parts.
 
-    From the first terms on: the last coefficients of a step are the last to be known. The first
-    `done` terms are in the four parts already.
+    Terms are added in rising order, since the last coefficients of a step are known last. The
+    first `done` terms are in the four parts already.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

@@ -16,10 +16,10 @@ CONTACT_ORDER = 23
 
 
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """The functions of the templates for a number of lanes and the orders of the series.
+    """Return the module of a step for a number of lanes and the orders of the series.
 
-    Their source is written to a module beside the compiled kernels, whose directory is named
-    by the digest of all sources.
+    Its source is written to a file beside the compiled kernels, in the folder that is named by the
+    digest of all sources.
     """
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
@@ -42,7 +42,7 @@ def bound_steps(module):
     Returns
     -------
     list of numba.types.ExternalFunction
-        A step in flight, one in contact, and those that carry tangents through either.
+        A step in flight and one in contact, and the kernels that carry tangents through each.
     """
     steps = (
         module.flight_step,
@@ -54,7 +54,7 @@ def bound_steps(module):
 
 
 def _source(writer):
-    """Constants, the series, and the templates."""
+    """Return the source of the module: constants, kernels of the series, and the templates."""
     constants = {
         "LANES": writer.lanes,
         "TANGENTS": writer.tangents,

@@ -1,37 +1,44 @@
-"""The recurrence of the Taylor series, as lines of arithmetic.
+"""The recurrence of the Taylor series, written out as lines of arithmetic.
 
-Between events the motion is analytic, and the coefficients of its Taylor series
-follow from those before them. With the forcing e = (F + U W^2) cos(W T), a = Z1'' and b = q'',
+Between events the motion is analytic, and each coefficient of its Taylor series follows from those
+before it. Let x be the series of Z1, q that of the signed penetration Z2 -+ d0 during contact,
+e = (F + U W^2) cos(W T) the forcing, a = Z1'' and b = q''. Then by equations (3), (4) and (20) to
+(24)
 
     g[k] = e[k] - omega_l^2 x[k] - k3 (x^3)[k] - h/k a[k-1]
     f[k] = r1 q[k] + D/k b[k-1]
     a[k] = g[k] - f[k]                   x[k+2] = a[k] / ((k+1) (k+2))
     b[k] = g[k] - (1 + 1/rm) f[k]        q[k+2] = b[k] / ((k+1) (k+2))
 
-(for k = 0 with h x[1] and D q[1] at the ends) for Z1 = x and the signed penetration q = Z2 -+ d0
-during contact, equations (3), (4) and (20) to (24); g is what of the acceleration does not come
-from the wall. In flight there is no q, and Z2 differs from x by its offset and drift only. The
-variational equations are the same with e = 0 and 3 k3 (x^2 dx)[k] for the cube.
+where for k = 0 the last terms are h x[1] and D q[1]. f is the force of the wall, and g the part of
+the acceleration that does not come from the wall. In flight there are no q and f, and Z2 differs
+from Z1 by an offset and a uniform drift. The variational equations are the same with e = 0 and
+3 k3 (x^2 dx)[k] in place of k3 (x^3)[k].
 
-In (x^3)[k] no product of three coefficients has two of them beyond the half of k. With l for x
-up to there, n = k // 2,
+The coefficients of x^3 are computed as follows. A product of three coefficients x[i] x[j] x[m] with
+i + j + m = k has at most one factor of an order above n = k // 2. With l the polynomial of the
+terms of x up to order n,
 
     (x^3)[k] = (l^3)[k] + 3 sum over j > n of (x^2)[k-j] x[j].
 
-Each of the newest coefficients so stands in one product, which comes last. The squares s of l,
-times k3, grow with it. They stand in pairs of neighbours, P, as do those taken three times, Z, and
-the products of the sums: with one trajectory, a pair is one register.
+So each of the newest coefficients stands in one product only, and that product is computed last.
+The lines use these names:
+
+    s0, s1, ...   coefficients of k3 l^2; each new order n of l adds to those from n on
+    z0, z1, ...   three times these
+    P0, P2, ...   pairs of neighbours (s0, s1), (s2, s3), ..., each in one register with one lane
+    Z0, Z2, ...   three times these pairs
 """
 
 
 def motion(order, phase, kept):
-    """Lines for all orders of a step's series.
+    """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
 
-    They need x0, x1 and s0 = k3 x0^2, in contact q0 and q1, and the factors `cosine` and `sine`,
-    which are those of the phase times the amplitude of the forcing, `cubic` = k3, `stiffness` =
-    omega_l^2 + s0, `linear` = omega_l^2 + 3 s0, `r1` and `mobility` = 1 + 1/rm. `kept(k)` gives
-    lines for h/k, D/k and e[k] but for its cosine or sine, which stay the same while a trajectory
-    does.
+    Before them these names must have values: x0, x1 and s0 = k3 x0^2; in contact q0 and q1; the
+    factors `cosine` and `sine` of the phase, times the amplitude of the forcing; `cubic` = k3,
+    `double` = 2 k3, `stiffness` = omega_l^2 + s0, `linear` = omega_l^2 + 3 s0; and in contact `r1`
+    and `mobility` = 1 + 1/rm. The function `kept` of k returns the lines for coefficients that are
+    the same in all steps of a trajectory: h/k, D/k, and e[k] without its cosine or sine.
     """
     for k in range(order - 1):
         yield from kept(k)
@@ -46,10 +53,13 @@ def motion(order, phase, kept):
 
 
 def tangent(order, phase, kept):
-    """The same of a tangent, x and q, from `u0`, `u1` and so on, the coefficients of 3 k3 Z1^2."""
+    """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
+
+    Before them also u0, u1, ..., the coefficients of 3 k3 Z1^2 from `squares`, must have values.
+    """
     for k in range(order - 1):
         yield from kept(k)
-        # Last what waits for the longest series of factors.
+        # Terms are in the order in which their factors become known.
         terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
         terms += [f"u{k} * x0"] if k > 0 else []
         yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"
@@ -57,7 +67,10 @@ def tangent(order, phase, kept):
 
 
 def squares(count):
-    """Lines for so many coefficients u of 3 k3 x^2, each product taken once; they need `cubic`."""
+    """Yield the lines for the first `count` coefficients u of 3 k3 x^2; they need `cubic` = k3.
+
+    The product of x[i] and x[j] is computed once for both orders of its factors.
+    """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"
     for k in range(count):
@@ -68,7 +81,11 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Lines that take x[n] into the squares: s[2n], and before it pairs from s[n] or s[n-1] on."""
+    """Yield the lines that add the coefficient x[n] to l, and its products to s[n] to s[2n].
+
+    With y = 2 k3 x[n] these are y x[j] in s[n+j] for j < n, in pairs from an even order on, and
+    k3 x[n]^2 in s[2n].
+    """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
         before = f"P{j}" if j < 2 * n - 2 else f"(s{j}, 0.0)"
@@ -79,7 +96,10 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Lines for c[k], which is g[k] without h/k a[k-1]; k > 1."""
+    """Yield the lines for c[k] = g[k] + h/k a[k-1], k > 1; `drive` is the expression for e[k].
+
+    The products with the newest coefficients are added last, since they are known last.
+    """
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -104,7 +124,7 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase):
-    """Lines for g[k] and x[k+2], and in contact q[k+2]."""
+    """Yield the lines for g[k] and x[k+2], and in contact q[k+2], from c[k]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     share = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

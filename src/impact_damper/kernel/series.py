@@ -1,9 +1,10 @@
-"""Taylor series of the motion, unrolled from one description of the recurrence.
+"""Writes the source of kernels that compute the Taylor series of a step.
 
-The lines of `recurrence` stand in a loop over lanes, which are trajectories side by side;
-`straight` compiles them. With one lane that gives code for single numbers and pairs of them, about
-three times as fast as loops over arrays; with several, vector instructions, three times as fast
-again. All numbers of a step stand in one flat array, `lanes` to a row; `rows` says in which row.
+The kernels consist of the lines of `recurrence` in a loop over lanes, which are trajectories side
+by side, and are compiled by `straight`. With one lane the code works on single numbers and pairs of
+them, about three times as fast as loops over arrays. With several lanes it consists of vector
+instructions, three times as fast again. All numbers of a step stand in one flat array of rows, each
+with one number for every lane; `rows` gives the number of each row.
 """
 
 from itertools import chain
@@ -11,11 +12,16 @@ from itertools import chain
 from impact_damper.kernel import recurrence
 from impact_damper.system import packed
 
-# Rows of a step: the packed parameters, what else the step is given, what it finds, and what it
-# needs on its way. Then the series: of Z1, of the penetration, of g and, for tangents, of
-# 3 k3 Z1^2; and what stays the same while a trajectory does, the series of cos W t, whose terms
-# still lack the cosine or sine of the phase, and h and D over the orders. Those of a tangent, in an
-# array of their own, are of the first two.
+# Rows of a step, in this order:
+# packed.NAMES    the packed parameters
+# STATE           the state Z1, Z1', Z2, Z2' at the beginning, and afterwards at the end
+# STEP            what else the step is given (LENGTH is its result)
+# SCRATCH         intermediate results
+# SERIES          coefficients of Z1 (X), of the penetration (Q), of the acceleration that does not
+#                 come from a wall (G), of 3 k3 Z1^2 for tangents (U); then the series that are the
+#                 same in all steps of a trajectory: of cos W t, whose terms still lack the cosine
+#                 or sine of the phase (E), and h and D over the orders (H, D)
+# The array of a tangent has its STATE, then TANGENT_SERIES: the coefficients of its Z1 and Z2.
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
@@ -26,14 +32,15 @@ SCRATCH = (
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH
 SERIES = "X Q G U E H D".split()
 TANGENT_SERIES = "DX DQ".split()
-# Most sums that are made at once.
+# Largest number of sums that one kernel computes.
 SUMS = 6
 
 
 def rows(flight_order, contact_order):
-    """Numbers of the rows by name; `ROWS` and `TANGENT_ROWS` are how many there are.
+    """Return the number of each row by its name, for series of these orders.
 
-    From `PARTS` on stand the parts of sums.
+    Beside the rows above, `PARTS` is the first row for partial sums, and `ROWS` and `TANGENT_ROWS`
+    are the numbers of rows of the two arrays.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -48,10 +55,10 @@ def rows(flight_order, contact_order):
 
 
 class Writer:
-    """Writes the series for a number of lanes and the orders of the two phases.
+    """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane up to four tangents stand side by side and share its series; with several
-    lanes each has one tangent.
+    With one lane, up to four tangents of the trajectory stand side by side and share its series.
+    With several lanes each trajectory has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -61,16 +68,19 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """A number of the trajectory."""
-        place = (self.rows[row] + k) * self.lanes
-        return f"a[{place} + i]" if self.lanes > 1 else f"a[{place}]"
+        """Return the expression for a number of the trajectory: a row, or the k-th after it."""
+        index = (self.rows[row] + k) * self.lanes
+        return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """A number of a tangent; rows 0 to 3 are the tangent itself."""
+        """Return the expression for a number of a tangent; rows 0 to 3 are the tangent itself."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
-        """A kernel that does lines for each lane, and before them others, side by side."""
+        """Return the source of a kernel that executes `lines` for each lane.
+
+        Before these it executes the lines `first`, if any, for `side_by_side` elements of vectors.
+        """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
         for part, count, body in (("first", side_by_side, first), ("lines", lanes, lines)):
@@ -82,16 +92,16 @@ class Writer:
         return f"{text}@kernel_only\ndef {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """The series of what moves in a phase: of Z1, and in contact of the penetration."""
+        """Return the names of the unknown series: Z1, and in contact also the penetration."""
         return "XQ" if phase == "contact" else "X"
 
     def kept_series(self):
-        """Fill the series that stay the same while a trajectory does."""
+        """Return a kernel that fills the series which are the same in all steps of a trajectory."""
         made = (self._made(k, "EHD") for k in range(max(self.orders.values()) - 1))
         return self.function("kept_series", self._stored(chain.from_iterable(made), "EHD"))
 
     def _made(self, k, names):
-        """Lines for coefficients k of kept series."""
+        """Yield lines that compute coefficient k of the kept series with these names."""
         share = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
@@ -103,10 +113,10 @@ class Writer:
             yield f"d{k} = {share}{self.at('DASHPOT')}"
 
     def _kept(self, phase, tangent):
-        """What gives lines for coefficients of the kept series that a step needs.
+        """Return a function of k that gives lines for coefficient k of the kept series.
 
-        With one lane they are read off. In several lanes there are other trajectories in each
-        step, so they are made.
+        With one lane they are read from the array. With several lanes each step has other
+        trajectories, so the coefficients are computed anew.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -114,12 +124,13 @@ class Writer:
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
     def series(self, phase):
-        """Fill the series of a step: X and G, and in contact Q."""
+        """Return a kernel that fills the series of a step: X and G, and in contact Q."""
         lines = [
             f"cosine = {self.at('COSINE')}",
             f"sine = {self.at('SINE')}",
             f"x0 = {self.at('Y0')}",
-            # Not loaded together with x0: a pair of numbers stored one by one is waited for.
+            # The sum keeps LLVM from loading x0 and x1 as one vector. They were stored separately,
+            # and such a load must wait until both stores are complete.
             f"x1 = {self.at('Y1')} + 0.0",
             f"cubic = {self.at('CUBIC')}",
             "double = 2.0 * cubic",
@@ -137,7 +148,7 @@ class Writer:
         return self.function(f"{phase}_series", self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
-        """Fill U from the series of a step, for its tangents."""
+        """Return a kernel that fills U, for the tangents, from the series of a step."""
         count = self.orders[phase] - 1
         lines = [f"cubic = {self.at('CUBIC')}"]
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
@@ -145,7 +156,7 @@ class Writer:
         return self.function(f"{phase}_squares", lines)
 
     def tangent_series(self, phase):
-        """Fill the series of a tangent over a step, from U."""
+        """Return a kernel that fills the series of a tangent over a step, from U."""
         order, names = self.orders[phase], self.moving(phase)
         lines = [
             *(f"u{k} = {self.at('U', k)}" for k in range(order - 1)),
@@ -162,13 +173,16 @@ class Writer:
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
     def _factors(self, phase):
-        """Factors of the recurrence in contact."""
+        """Yield lines for the factors that the recurrence needs in contact."""
         if phase == "contact":
             yield f"r1 = {self.at('CONTACT_STIFFNESS')}"
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Lines, those for coefficients followed by their store, so that no number waits for it."""
+        """Yield lines, and after each that computes a coefficient of `names` the line to store it.
+
+        So the stores are spread over the lines and do not follow all of them.
+        """
         for line in lines:
             yield line
             given = line.split(" = ")[0]

@@ -1,7 +1,8 @@
 """The event-driven flow of one trajectory, in steps that end at events.
 
-A state is (Z1, Z1', Z2, Z2') with the wall that the loose mass touches (`side`: -1, 0 in
-flight, +1). Tangents are carried along if there are any.
+A state is (Z1, Z1', Z2, Z2'), together with `side`, the wall that the loose mass touches: -1 or 1,
+or 0 in flight. Solutions of the variational equations, the tangents, are integrated with the
+trajectory if they are given.
 """
 
 import numpy as np
@@ -17,7 +18,7 @@ _ONE = instances.instance(1)
 kept_series = _ONE.kept_series
 flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_ONE)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
-# Where the tangents' numbers begin in a workspace: at a cache line.
+# Index in a workspace at which the numbers of the tangents begin; a multiple of a cache line.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
 SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.SIDE,
@@ -31,20 +32,20 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 
 @kernel
 def workspace():
-    """Array for the numbers of one trajectory and of its tangents, as `step` keeps them."""
+    """Return an array for the rows of one trajectory and of its tangents (`series.rows`)."""
     return aligned(BEHIND + TANGENT_SIZE)
 
 
 @kernel
 def assign(target, state):
-    """`target[:] = state`, which to compile takes numba three seconds."""
+    """Copy a state of four numbers; numba takes three seconds to compile `target[:] = state`."""
     for i in range(4):
         target[i] = state[i]
 
 
 @kernel
 def polynomial(c, order, t):
-    """Value and first derivative of a polynomial at t."""
+    """Return value and first derivative at t of a polynomial with coefficients c."""
     value = c[order]
     slope = 0.0
     for k in range(order - 1, -1, -1):
@@ -54,8 +55,11 @@ def polynomial(c, order, t):
 
 
 @kernel_only
-def place(p, y, side, tolerance, a):
-    """Put a trajectory into a workspace, whose first rows are the same for series of any orders."""
+def write_trajectory(p, y, side, tolerance, a):
+    """Write parameters and state of a trajectory into the rows of a workspace.
+
+    These rows do not depend on the orders of the series, so this serves an instance of any orders.
+    """
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -67,8 +71,8 @@ def place(p, y, side, tolerance, a):
 
 @kernel
 def load(p, y, tangents, side, tolerance, a, d):
-    """Put a trajectory and its tangents into the workspace."""
-    place(p, y, side, tolerance, a)
+    """Write a trajectory and its tangents into a workspace, and fill its kept series."""
+    write_trajectory(p, y, side, tolerance, a)
     kept_series(a)
     if len(tangents) > 0:
         for i in range(COLUMNS):
@@ -78,7 +82,7 @@ def load(p, y, tangents, side, tolerance, a, d):
 
 @kernel_only
 def unload(y, tangents, a, d):
-    """Take the state and the tangents out of the workspace."""
+    """Read the state and the tangents from a workspace."""
     for i in range(4):
         y[i] = a[STATE + i]
     for i in range(len(tangents)):
@@ -88,7 +92,7 @@ def unload(y, tangents, a, d):
 
 @kernel_only
 def step_loaded(count, t, longest, a, d):
-    """Make a `step` of a trajectory that stays in the workspace, and of `count` tangents."""
+    """Do `step` for a trajectory and `count` tangents that are in the workspace already."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -117,17 +121,17 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     side : int
         Wall in contact, -1 or 1, or 0 in flight.
     t, longest, tolerance : float
-        Time (only its forcing phase counts), longest step, local error allowed.
+        Time (only the phase of the forcing depends on it), longest step, local error allowed.
     work : array
-        `workspace()`. From X and Q on it holds the series of Z1 and, in contact, of Z2 -+ d0 over
-        the step afterwards.
+        `workspace()`. Afterwards it holds from X on the series of Z1 over the step and, after a
+        step in contact, from Q on that of Z2 -+ d0.
 
     Returns
     -------
     length : float
-        Time gone by. It is `longest` once the motion has escaped (`equation.no_return`), since
-        steps to infinity would become ever shorter; the state is then that at the escape, after
-        the time `work[LENGTH]`.
+        Time by which the state has advanced. It is `longest` once the motion has escaped
+        (`equation.no_return`), since steps on the way to infinity would become ever shorter. The
+        state is then that at the escape, after the time `work[LENGTH]`.
     side : int
         Wall in contact after the step.
     """
@@ -140,7 +144,10 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
 
 @kernel
 def side_of(p, y):
-    """Wall in contact in a state: beyond it, or on it and moving outward."""
+    """Return the wall in contact in a state, -1 or 1, or 0 in flight.
+
+    A mass on a wall is in contact if it moves outward.
+    """
     if y[2] > p[CLEARANCE] or (y[2] == p[CLEARANCE] and y[3] > 0.0):
         return 1
     if y[2] < -p[CLEARANCE] or (y[2] == -p[CLEARANCE] and y[3] < 0.0):

@@ -25,8 +25,8 @@ from impact_damper.kernel.single import (
     TIME,
     X,
     assign,
-    place,
     side_of,
+    write_trajectory,
 )
 from impact_damper.motions import records
 from impact_damper.rivals.operations import operations
@@ -52,7 +52,7 @@ def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order,
     """
     work = aligned(made[3])
     a, count = pointer(work), 0
-    place(p, y, side, tolerance, a)
+    write_trajectory(p, y, side, tolerance, a)
     call_at(made[2], a)
     while t < end and count < len(rows):
         before = a[SIDE]

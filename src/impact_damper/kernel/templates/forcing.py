@@ -1,6 +1,6 @@
-"""The forcing at the beginning of a step.
+"""Cosine and sine of the forcing's phase at the beginning of a step, times its amplitude.
 
-This file is a template, as `step` is, and is compiled in one module with it.
+This file is a template (see `step`): all templates are compiled together as one module.
 """
 
 import math
@@ -12,18 +12,20 @@ from impact_damper.kernel.equation import forcing_amplitude
 
 LANES: int
 
-# A quarter turn in two parts, the first short enough for exact multiples of it.
+# pi/2 as the sum of two numbers. The first has so few digits that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# Angle by which a forcing known for a time close by is turned, by four terms of its series.
+# If COSINE and SINE are known for a phase that is closer than this, four terms of the addition
+# theorem give those wanted.
 NEAR = 1e-4
 
 
 @kernel_only
 def find_forcing(a):
-    """COSINE and SINE of the forcing phase at KNOWN, times the amplitude of the forcing.
+    """Find COSINE and SINE of the forcing's phase at the time KNOWN, times its amplitude.
 
-    By their series within an eighth of a turn.
+    The phase is reduced to an eighth of a turn around 0, where the series of `circular_series`
+    converge fast.
     """
     for i in range(LANES):
         angle = a[FREQUENCY + i] * a[KNOWN + i]
@@ -47,9 +49,9 @@ def find_forcing(a):
 
 @kernel_only
 def forcing(a):
-    """COSINE and SINE of the forcing phase at TIME, times the amplitude of the forcing.
+    """Find COSINE and SINE of the forcing's phase at TIME, times its amplitude.
 
-    A trajectory alone, which has looked ahead, may know them, or those of a time close by.
+    With one lane they may be known from `look_ahead`, for TIME itself or for a time close to it.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -65,7 +67,10 @@ def forcing(a):
 
 @kernel_only
 def look_ahead(a):
-    """For one trajectory, which would wait for it, the forcing at T, where the step may end."""
+    """With one lane, find the forcing at T, where the step is expected to end.
+
+    So the next step need not wait for it. With several lanes there is other work meanwhile.
+    """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]
         find_forcing(a)

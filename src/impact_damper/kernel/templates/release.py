@@ -1,6 +1,6 @@
-"""The search for the end of a contact.
+"""The search for the release, at which a contact ends.
 
-This file is a template, as `step` is, and is compiled in one module with it.
+This file is a template (see `step`): all templates are compiled together as one module.
 """
 
 import math
@@ -12,15 +12,15 @@ from impact_damper.kernel.equation import spring, spring_slope
 
 LANES: int
 
-# Longest steps in contact, while it deepens and on the way back, in natural periods of it, and
-# the share of its natural frequency by which its phase may turn faster, so that a step turns
-# the phase by less than three quarters of a turn, and half a turn: past one release at most.
-DEEPER, BACK, TURNING = 0.55, 0.4, 0.25
+# Longest step in natural periods of the contact, while the penetration grows and while it shrinks,
+# and the share of the natural frequency by which the phase of the contact may turn faster. A step
+# then turns the phase by less than 3/4 or 1/2 of a turn, which holds one release at most.
+LONGEST_DEEPENING, LONGEST_RETURNING, PHASE_MARGIN = 0.55, 0.4, 0.25
 
 
 @kernel_only
 def fast_exp2(y):
-    """Power of 2, to 0.3 %."""
+    """Return 2^y with a relative error below 0.3 %."""
     whole = np.floor(y)
     part = y - whole
     power = number(np.int64((whole + 1023.0) * 2.0**52))
@@ -28,10 +28,11 @@ def fast_exp2(y):
 
 
 @kernel_only
-def swing(f, slope, natural):
-    """Time, nearly, in which what swings at a natural frequency with f and this slope is at zero.
+def time_to_zero(f, slope, natural):
+    """Return nearly the time until a harmonic oscillation with value f and this slope is zero.
 
-    Arctangent of natural * move over natural, where the move is -f / slope.
+    That is arctan(natural * move) / natural, where move = -f / slope is the step of Newton's
+    method, with a rational function in place of the arctangent.
     """
     u = (natural * f) ** 2
     v = slope * slope
@@ -39,10 +40,11 @@ def swing(f, slope, natural):
 
 
 @kernel_only
-def foresee_release(a):
-    """NATURAL frequency, LENGTH, and a guess at T in it where the contact ends.
+def predict_release(a):
+    """Find the NATURAL frequency of the contact, LENGTH, and T, the predicted time of the release.
 
-    By the state alone: the series need not be waited for.
+    T is LENGTH if no release is expected before. The prediction needs only the state, so that the
+    processor need not wait for the series.
     """
     for i in range(LANES):
         wall = a[SIDE + i]
@@ -54,10 +56,11 @@ def foresee_release(a):
         mobility = 1.0 + a[INVERSE_MASS_RATIO + i]
         natural = math.sqrt(a[CONTACT_STIFFNESS + i] * mobility)
         loss = a[DASHPOT + i] * mobility
-        longest = (DEEPER if w >= 0.0 else BACK) * 2.0 * math.pi / natural
+        longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
-        # From the wall half a period of the contact, and what the mean of g adds to it, with Z1'
-        # as the contact changes it; back to the wall, as without g.
+        # g is the acceleration that does not come from the wall. A contact that begins here lasts
+        # half a natural period, changed by the mean of g over it. A contact on its way is taken
+        # to oscillate freely.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
@@ -65,7 +68,7 @@ def foresee_release(a):
         mean = wall * (g + 0.5 * half * drift) + h * w / mobility
         left = fast_exp2(-0.5 * loss * half / math.log(2.0))
         begun = half + (1.0 + left) * mean / (left * w * natural * natural + TINY)
-        guess = begun if q == 0.0 else swing(q, w, natural)
+        guess = begun if q == 0.0 else time_to_zero(q, w, natural)
         a[NATURAL + i] = natural
         a[LENGTH + i] = length
         a[T + i] = guess if 0.0 < guess < length else length
@@ -75,15 +78,20 @@ def foresee_release(a):
 def find_release(a):
     """Move T to the first time in [0, LENGTH] at which the penetration returns to zero.
 
-    At first T is a guess. MODE becomes MET; or T the LENGTH and MODE MISSED, when there is
-    certainly none. END_Z1, END_DEPTH and their slopes are of Z1 and of the penetration at T. With
-    g the part of its acceleration that does not come from the wall, |g| <= G = BOUND,
+    At the call T is a guess. If there is a release, MODE becomes MET. If there is certainly none,
+    T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and their slopes are those of Z1 and
+    of the penetration q at T.
 
-        q'' = g - w^2 q - D q',
+    Let g be the part of the acceleration that does not come from the wall, |g| <= G = BOUND, for
+    any spring and forcing, since the bound is a sum over the series of g. With the natural
+    frequency w and the damping D of the contact,
 
-    so that R = (q'^2 + w^2 q^2)^(1/2) grows at most, and falls at most but for the dashpot, at
-    the rate G: a bound on q''. The phase of (w q, q') turns at the rate w, but for G/R + D/2 at
-    most. Where that is little, q has one root at most before the phase has turned once.
+        q'' = g - w^2 q - D q'.
+
+    R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G, and falls at most at the rate G + D R,
+    which bounds q''. The phase of (w q, q') turns at the rate w, with a deviation of at most
+    G/R + D/2. If the deviation is below PHASE_MARGIN w over the step, q has at most one root in
+    it, and the search need not march.
     """
     contact_values(a)
     uncertain = 0
@@ -96,7 +104,7 @@ def find_release(a):
         rest = a[BOUND + i]
         speed = math.sqrt(w * w + natural * natural * q * q)
         least = 0.99 * fast_exp2(-loss * length / math.log(2.0)) * speed - rest * length
-        certain = least > 0.0 and rest + 0.5 * loss * least < TURNING * natural * least
+        certain = least > 0.0 and rest + 0.5 * loss * least < PHASE_MARGIN * natural * least
         a[BOUND + i] = rest + (natural + loss) * (speed + rest * length)
         a[FINE + i] = ROUNDING * (abs(q) + abs(w) * length)
         a[LOW + i] = 0.0
@@ -119,16 +127,16 @@ def find_release(a):
             move = 0.0
             if mode == MARCH:
                 ahead = safe_advance(f, -slope, a[BOUND + i])
-                t, mode = march(t, f, slope <= 0.0, ahead, a[LENGTH + i], fine)
+                t, mode = march_step(t, f, slope <= 0.0, ahead, a[LENGTH + i], fine)
             elif mode == BRACKET:
                 natural = a[NATURAL + i]
                 bend = (curve + natural * natural * f) / slope
-                first = swing(f, slope, natural)
-                move, mode = close_in(a, i, t, f, first, bend, natural, fine)
+                first = time_to_zero(f, slope, natural)
+                move, mode = bracketed_step(a, i, t, f, first, bend, natural, fine)
                 t += move
             elif mode == ENDING:
                 mode = MISSED
-            end_at(a, i, DEPTH, END_DEPTH, move, a[MODE + i] <= ENDING)
-            running += go_on(a, i, mode, t, move)
+            store_end(a, i, DEPTH, END_DEPTH, move, a[MODE + i] <= ENDING)
+            running += store_search(a, i, mode, t, move)
         if running > 0:
             contact_values(a)

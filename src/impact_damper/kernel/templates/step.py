@@ -1,14 +1,15 @@
-"""One certified Taylor step of the event-driven flow, for one trajectory or several in lockstep.
+"""One Taylor step of the event-driven flow, for one trajectory or several side by side.
 
-A step takes trajectories that are all in flight, or all in contact, to the next event or to
-the end of the step, whichever is first for each. Events are the beginning and the end of
-contacts; `events` and `release` search for them.
+A step takes trajectories that are all in flight, or all in contact, each to its next event or to
+its end of the step, whichever comes first. An event is the beginning or the end of a contact; the
+templates `contact` and `release` search for them.
 
-This file is a template: `widths.instance` compiles it for each number of lanes and each pair of
-orders that is wanted, after the constants and the functions that `sums` writes for them. All
-numbers stand in flat arrays, `a` for trajectories and `d` for tangents; names in capitals are
-the beginnings of their rows. Trajectories do not touch each other: what one comes to does not
-depend on its neighbours.
+The files in this folder are templates. `instances.instance` joins them into one module, for a
+number of lanes and a pair of orders, behind the constants declared below and the functions that
+`evaluation.Source` writes. All numbers stand in flat arrays, `a` for trajectories and `d` for
+tangents. A name in capitals is the index at which its row begins (`series.rows`), and lane i of the
+row stands i places further. No lane reads the numbers of another, so the result for a trajectory
+does not depend on its neighbours.
 """
 
 import math
@@ -26,54 +27,55 @@ SIZE: int
 TANGENT_SIZE: int
 
 ONE = 1023 << 52
-# Local errors pass through contacts, which amplify them; this share of the tolerance
-# keeps the error of settled motions within 10 times of it.
+# Share of the tolerance that a step may use. Contacts amplify local errors; with this share the
+# error of settled motions stays within 10 tolerances.
 SAFETY = 0.05
-# The last terms of a flight whose length was foreseen may be so many times larger.
-BEYOND = 4.0
+# In a flight with a predicted length the last terms may exceed `largest_tail` by this factor.
+EXCESS = 4.0
 
 
 @kernel_only
 def bits(x):
-    """The bits of a number: if positive, about 2^52 times its logarithm to base 2, plus ONE."""
+    """Return the bits of a float as an integer; for x > 0 nearly ONE + 2^52 log2(x)."""
     return np.float64(x).view(np.int64)
 
 
 @kernel_only
 def number(x):
-    """The number of some bits."""
+    """Return the float that has these bits."""
     return np.int64(x).view(np.float64)
 
 
 @kernel_only
-def allowed(a, i):
-    """How large the last terms of the series may be."""
+def largest_tail(a, i):
+    """Return the largest size that the last terms of the series of Z1' may have."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
 @kernel_only
 def limit_length(a, series, order, excess):
-    """Shorten LENGTH so that the last two terms of a series' slope stay below the tolerance.
+    """Shorten LENGTH so that the last two terms of a series' slope stay below `largest_tail`.
 
-    Only where TAIL exceeds that so many times: whatever the neighbours need. Roots are taken by
-    division of the bits, within a few per cent.
+    Only in lanes whose TAIL exceeds it by the factor `excess`. Roots are computed by division of
+    the bits, that is of logarithms, with an error of a few per cent.
     """
     for i in range(LANES):
-        most = bits(allowed(a, i))
+        most = bits(largest_tail(a, i))
         last = most - bits(abs(order * a[series + order * LANES + i]))
         before = most - bits(abs((order - 1) * a[series + (order - 1) * LANES + i]))
         last = (last >> 28) * ((1 << 28) // (order - 1))
         before = (before >> 28) * ((1 << 28) // (order - 2))
         shorter = min(a[LENGTH + i], number(ONE + min(last, before)))
-        a[LENGTH + i] = shorter if a[TAIL + i] > excess * allowed(a, i) else a[LENGTH + i]
+        a[LENGTH + i] = shorter if a[TAIL + i] > excess * largest_tail(a, i) else a[LENGTH + i]
 
 
 @kernel_only
-def foresee_length(a):
-    """Find a LENGTH in which the last terms of the series of Z1' may be expected to stay small.
+def predict_length(a):
+    """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    Not beyond LONGEST. By three terms, those of Z1 from EARLY on, as if all fell from SCALE at one
-    rate; the next step and its forcing need not wait for the last ones then.
+    The coefficients of Z1 from the order EARLY on are taken to fall geometrically from SCALE, and
+    LENGTH is such that the last terms of Z1' are then within the tolerance. The last coefficients
+    are not needed yet, so the processor can begin with the next step before they are known.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -93,16 +95,13 @@ def foresee_length(a):
 
 @kernel_only
 def end_flight(a):
-    """Find Z1 and its slope at T, where the step may END.
-
-    T is moved back where the last terms are too large there.
-    """
+    """Find END_Z1 and END_Z1_SLOPE at T, which is moved back where the last terms are too large."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
-        beyond += 1 if a[TAIL + i] > BEYOND * allowed(a, i) else 0
+        beyond += 1 if a[TAIL + i] > EXCESS * largest_tail(a, i) else 0
     if beyond > 0:
-        limit_length(a, X, FLIGHT_ORDER, BEYOND)
+        limit_length(a, X, FLIGHT_ORDER, EXCESS)
         for i in range(LANES):
             a[T + i] = min(a[T + i], a[LENGTH + i])
         flight_slope(a)
@@ -113,10 +112,10 @@ def end_flight(a):
 
 @kernel_only
 def flight_step(a):
-    """Step of trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
+    """Step trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
     forcing(a)
     flight_series(a)
-    foresee_length(a)
+    predict_length(a)
     walls = 0
     for i in range(LANES):
         a[MODE + i] = MISSED
@@ -168,10 +167,10 @@ def contact_tangents(a, d):
 
 @kernel_only
 def dashpot_jump(a, d, direction):
-    """Jump of tangents where the dashpot's force has set in (-1) or ended (+1).
+    """Let tangents jump where the dashpot's force has set in (direction -1) or ended (+1).
 
-    Saltation across Z2 = +-d0: only the force is discontinuous, so the jump is linear in
-    the relative displacement, does not depend on the speed, and has determinant 1.
+    This is the saltation matrix of the event Z2 = +-d0. Only the force is discontinuous, so the
+    jump is linear in the tangent's Z2, does not depend on the speed, and has determinant 1.
     """
     for i in range(TANGENTS):
         j = i % LANES
@@ -184,9 +183,9 @@ def dashpot_jump(a, d, direction):
 
 @kernel_only
 def contact_step(a):
-    """Step of trajectories in contact, whose SIDE becomes 0 where it ends."""
+    """Step trajectories in contact; SIDE becomes 0 where the contact ends."""
     forcing(a)
-    foresee_release(a)
+    predict_release(a)
     contact_series(a)
     look_ahead(a)
     contact_bound(a)
@@ -194,7 +193,7 @@ def contact_step(a):
     for i in range(LANES):
         scale = max(1.0, max(abs(a[Y0 + i]), abs(a[Y1 + i])))
         a[SCALE + i] = max(scale, abs(a[Y3 + i]))
-        beyond += 1 if a[TAIL + i] > allowed(a, i) else 0
+        beyond += 1 if a[TAIL + i] > largest_tail(a, i) else 0
     if beyond > 0:
         limit_length(a, X, CONTACT_ORDER, 1.0)
         limit_length(a, Q, CONTACT_ORDER, 1.0)
