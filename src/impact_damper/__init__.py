@@ -51,9 +51,7 @@ def __getattr__(name):
         raise AttributeError(f"module 'impact_damper' has no attribute {name!r}")
     found = getattr(import_module(f"impact_damper.{_HOMES[name]}"), name)
     if name in _OF_MACHINES:
-        from impact_damper.machine.arguments import takes_machine
-
-        found = takes_machine(found)
+        found = import_module("impact_damper.machine.arguments").takes_machine(found)
     # Once loaded, a name is found without this function.
     globals()[name] = found
     return found
