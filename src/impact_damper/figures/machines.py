@@ -8,8 +8,9 @@ from impact_damper.figures.style import BLUE, ORANGE, ROLES, axis_label, figure,
 
 CAPTION = """
 One row for each machine. On the left the largest displacement over the forcing frequency, without
-and with the damper: lines are exact periodic orbits, points motions found from starts as wide as
-the machine and by following them over frequency. On the right the same over the gap, the full play
+and with the damper: lines are exact periodic orbits, points motions found from random starts and by
+following them over frequency. Starts reach half as far again as the linear machine moves at its
+resonance. On the right the same over the gap, the full play
 of the loose mass, at one frequency: the quiet motion, the largest motion that starts lead to, and
 the share of starts that end quiet (dotted, right scale). The star is the smallest quiet motion; few
 starts may lead there. Motions that escape over the barrier of a softening spring have no size and

@@ -129,9 +129,7 @@ class Machine:
         deflection is that at which both springs are equally strong, or 1 mm.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
-        static = self._static_deflection()
-        bounce = math.sqrt((stiffness + cubic * static**2) * self.mass)
-        length = static * math.sqrt(max(1.0, bounce / self.viscous_damping))
+        length = math.sqrt(self._static_deflection() * self.resonant_displacement)
         return Scales(length, math.sqrt(self.mass / (stiffness + cubic * length**2)), self.mass)
 
     def _static_deflection(self):
@@ -149,6 +147,17 @@ class Machine:
         if self.base_acceleration is not None:
             return self.base_acceleration * self.mass / stiffness
         return math.sqrt(stiffness / cubic) if stiffness and cubic else 1e-3
+
+    @property
+    def resonant_displacement(self) -> float:
+        """Static deflection times m w/c: the displacement at resonance, m, of a linear machine.
+
+        A hardening spring has a smaller one. w^2 is the stiffness at the static deflection
+        over the mass.
+        """
+        static = self._static_deflection()
+        stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
+        return static * max(1.0, math.sqrt(stiffness * self.mass) / self.viscous_damping)
 
     @property
     def static_force(self) -> float:

@@ -13,13 +13,12 @@ def machines(datasets) -> pd.DataFrame:
     rows = []
     for name, data in datasets.get("machines", {}).items():
         made = json.loads(data.attrs["machine"])
-        bare, orbits = data["bare_displacement"].values, data["frequency"].values
-        size = data["maximum_displacement"].max("motion").values
+        bare, sizes = data["bare_displacement"].values, data["maximum_displacement"].values
+        # motions that escape have no size
+        size = np.where(np.isfinite(sizes), sizes, 0).max(axis=1)
         escaped = data["run_outcome"].values == flag("run_outcome", "escaped")
-        peak, place = int(np.argmax(bare)), int(np.nanargmax(np.where(np.isfinite(size), size, 0)))
-        gaps = data["gap"].values
-        near = int(np.argmin(np.abs(gaps - float(data["optimum_gap"]))))
-        known = np.isfinite(float(data["optimum_gap"]))
+        peak, place = int(np.argmax(bare)), int(np.argmax(size))
+        share, largest = _near_optimum(data)
         rows.append(
             {
                 "machine": name,
@@ -28,14 +27,25 @@ def machines(datasets) -> pd.DataFrame:
                 "largest without damper, mm": bare[peak],
                 "at, Hz": data["bare_frequency"].values[peak],
                 "largest with damper, mm": size[place],
-                "at, Hz (with damper)": orbits[place],
+                "at, Hz (with damper)": data["frequency"].values[place],
                 "share of starts that escape": escaped.mean(),
                 "gap varied at, Hz": float(data["swept_frequency"]),
                 "best gap (full play)": data.attrs["optimum"],
-                "starts that end quiet near it": data["quiet_share"].values[near] if known else 0,
-                "largest near it, mm": data["largest_displacement"].values[near]
-                if known
-                else np.nan,
+                "starts that end quiet near it": share,
+                "largest near it, mm": largest,
             }
         )
     return pd.DataFrame(rows)
+
+
+def _near_optimum(data):
+    """Return the share of starts that end quiet, and the largest size, at the gap next to the best.
+
+    Words stand where there is no such gap, or where a motion escapes.
+    """
+    best = float(data["optimum_gap"])
+    if np.isnan(best):
+        return "no quiet motion", "no quiet motion"
+    near = int(np.argmin(np.abs(data["gap"].values - best)))
+    largest = data["largest_displacement"].values[near]
+    return data["quiet_share"].values[near], "escapes" if np.isinf(largest) else largest
