@@ -4,17 +4,25 @@ import numpy as np
 
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.figures.branches import runs, runs_of
-from impact_damper.figures.style import BLUE, ORANGE, ROLES, axis_label, figure, legend, style
+from impact_damper.figures.style import (
+    BLUE,
+    ORANGE,
+    ROLES,
+    axis_label,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
 
 CAPTION = """
-One row for each machine. On the left the largest displacement over the forcing frequency, without
-and with the damper: lines are exact periodic orbits, points motions found from random starts and by
-following them over frequency. Starts reach half as far again as the linear machine moves at its
-resonance. On the right the same over the gap, the full play
-of the loose mass, at one frequency: the quiet motion, the largest motion that starts lead to, and
-the share of starts that end quiet (dotted, right scale). The star is the smallest quiet motion; few
-starts may lead there. Motions that escape over the barrier of a softening spring have no size and
-are not drawn.
+One row for each machine, (a), (b) and so on in the order named. On the left the largest
+displacement over the forcing frequency, without and with the damper: lines are exact periodic
+orbits, points motions found from starts as wide as the machine and by following them over
+frequency. On the right the same over the gap, the full play of the loose mass, at one frequency:
+the quiet motion, the largest motion that any start leads to, and the share of random starts that
+end quiet (dotted, right scale). The star is the smallest quiet motion; few starts may lead there.
+Motions that escape over the barrier of a softening spring have no size and are not drawn.
 """
 
 BARE = {"stable": ROLES["free_stable"], "unstable": ROLES["free_unstable"]}
@@ -46,6 +54,7 @@ def draw_machines(*, machines):
     for (left, right), data in zip(panels, machines, strict=True):
         draw_response(left, data)
         draw_gaps(right, data)
+    letter_panels(panels[:, 0])
     legend(drawn, 3)
     return drawn
 

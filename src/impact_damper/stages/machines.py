@@ -26,8 +26,6 @@ _complete_branches, _sweep, _response, _simulate, _steady_motion = map(
 # Motions computed before a stiffness after Hertz is given up, and change at which it agrees.
 MOST_MOTIONS = 30
 AGREED = 1e-6
-# Radius of the ball of starts, over the displacement of the linear machine at resonance.
-WIDER = 1.5
 # Variables over the gap that a study keeps of a sweep.
 SWEPT = (
     "quiet_displacement",
@@ -74,9 +72,8 @@ def machine_study(
     gaps : sequence of float
         Increasing gaps, the full play, m.
     starts, seed, settling, workers, progress
-        As in `response.frequency_response`, at each frequency and at each gap. Starts are drawn
-        from a ball WIDER than the machine moves at resonance: a smaller one would miss violent
-        motions and show a machine as quiet that is not.
+        As in `response.frequency_response`, at each frequency and at each gap. The search is as
+        wide as the machine (`start_states`).
 
     Returns
     -------
@@ -93,7 +90,6 @@ def machine_study(
         If an argument is out of range; the message names it, in SI units.
     """
     searched = {"starts": starts, "seed": seed, "settling": settling, "workers": workers}
-    searched["radius"] = WIDER * machine.resonant_displacement
     span = float(frequencies[0]), float(frequencies[-1])
     motions = _response(machine, damper, frequencies, **searched, progress=progress)
     # `branch` is a variable of the motions
