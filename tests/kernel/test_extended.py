@@ -206,7 +206,8 @@ def test_heyoka_in_the_same_digits(case):
         fp_type=Real,
     )
     alone = p.copy()
-    alone[3:7] = np.inf, 0, 0, 0
+    alone[CLEARANCE] = np.inf
+    alone[[CONTACT_STIFFNESS, INVERSE_MASS_RATIO, DASHPOT]] = 0
     run = extended.run(alone, state, start, times)
     motion.propagate_until(Real(times[-1]))
     assert np.max(np.abs(motion.state - run.states[-1, :2])) < 10 * DIGITS * run.growth
