@@ -4,16 +4,27 @@ import argparse
 import time
 from pathlib import Path
 
-from benchmarks import chart, costs, machine, overhead, ratios, scaling, scenes, stages, startup
+from benchmarks import (
+    chart,
+    costs,
+    machine,
+    overhead,
+    ratios,
+    scaling,
+    scenes,
+    searches,
+    stages,
+    startup,
+)
 from benchmarks.timing import one_core
 from impact_damper.data import table_files
 from impact_damper.figures.style import save_figure
 
 # How much of everything: in full, and to see that all of it runs.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
-        "sizes": (1, 16, 64, 256, 1024), "shared": 65536}  # fmt: skip
+        "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 10}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
-         "sizes": (1, 16), "shared": 256}  # fmt: skip
+         "sizes": (1, 16), "shared": 256, "wide": 20, "random": 1}  # fmt: skip
 RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
 
 
@@ -57,7 +68,20 @@ def start(write, amount):
     write("start_up", startup.table(amount["few"], compiling=amount is FULL))
 
 
-PARTS = {"ratios": compare, "chart": draw_chart, "costs": cost, "scaling": scale, "start_up": start}
+def search(write, amount):
+    """Default searches against wider ones."""
+    systems = [*searches.named_systems(), *searches.random_systems(amount["random"])]
+    write("searches", searches.table(systems, amount["wide"]))
+
+
+PARTS = {
+    "ratios": compare,
+    "chart": draw_chart,
+    "costs": cost,
+    "scaling": scale,
+    "start_up": start,
+    "searches": search,
+}
 
 
 def main():
