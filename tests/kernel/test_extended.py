@@ -157,7 +157,7 @@ def test_grazing_to_the_last_digit(damper, exponent):
     """Z2 of a flight shifts with its start: an extremum is placed just beyond or before a wall."""
     p = pack(PAPER, damper, 2.0)
     state, unbounded = np.array([0.3, 0.5, 0.0, 0.9], Real), p.copy()
-    unbounded[3] = 16.0
+    unbounded[CLEARANCE] = 16.0
     turnings = extended.run(unbounded, state, 0.0, [3.0]).turnings
     instant, _, height, _ = turnings[turnings[:, 1] == 1][0]
     for sign in (1, -1):
