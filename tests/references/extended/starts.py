@@ -44,7 +44,7 @@ KINDS = {
     "in contact": {"contact_stiffness": (10.0, 1e5)},
     "on a wall": {"contact_stiffness": (10.0, 1e5)},
     "linear spring": {"linear_frequency": (0.3, 5.0), "cubic": (0.0, 0.0)},
-    # Barriers beyond |Z1| = 8, at energies that no start reaches: an escape takes ever shorter steps.
+    # Barriers at energies that no start reaches, because an escape takes ever shorter steps.
     "softening spring": {"linear_frequency": (2.0, 4.0), "cubic": (-0.05, 0.0)},
     "other forces": {"cubic": (0.1, 10.0), "force": (0.1, 10.0), "unbalance": (0.1, 3.0)},
     "no force": {"linear_frequency": (0.0, 2.0), "force": (0.0, 0.0)},
