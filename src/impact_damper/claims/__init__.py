@@ -1,1 +1,1 @@
-"""Claims of the paper, each with the numbers that decide it and a verdict from the datasets."""
+"""Claims of the paper, each with the numbers (measures) that decide it and its verdict."""

@@ -1,4 +1,8 @@
-"""Claims 1, 2 and 3, on solutions of harmonic balance (sections 2 and 3, figure 3)."""
+"""Claims 1, 2 and 3, on solutions of harmonic balance (sections 2 and 3, figure 3).
+
+Equation (7) is harmonic balance with elastic contacts, equation (14) its limit of rigid walls; a is
+the amplitude of the primary mass. W is the forcing frequency, Wp the peak frequency.
+"""
 
 import numpy as np
 import pandas as pd
@@ -14,8 +18,8 @@ NEAR = 0.1  # largest relative difference of an orbit that agrees with a solutio
 def small_motion(datasets):
     """Measures of claim 1: at rm W^2 d0 = 1 equations (14) and (7) have a small stable solution.
 
-    From harmonic balance of the designs by (19), and from the exact orbits of the dampers of
-    figures 5 and 8.
+    They are computed from harmonic balance for dampers whose clearance follows rule (19), and from
+    the exact orbits for the dampers of figures 5 and 8.
     """
     designs = extract.select(datasets, "harmonic_balance", extract.RULES)
     vanishing = []
@@ -45,7 +49,7 @@ def small_motion(datasets):
 def rigid_against_elastic(datasets):
     """Measures of claim 2: the larger solutions of (14) and (7) agree.
 
-    The smallest solution at each frequency is left out. Exact orbits are compared as well.
+    The smallest solution at each frequency is left out. Exact orbits are compared with (7) as well.
     """
     designs = extract.damped(datasets, "harmonic_balance").values()
     if not designs:
@@ -82,9 +86,9 @@ def rigid_against_elastic(datasets):
 
 
 def quiet_and_high(datasets):
-    """Measures of claim 3: small stable motions around Wp, large ones outside the band.
+    """Measures of claim 3: small stable motions around Wp, large ones outside the suppression band.
 
-    By the solutions of (7) for all omega_l, and by exact orbits.
+    They are computed from the solutions of (7) for all omega_l, and from exact orbits.
     """
     reach, beside, bands = [], [], []
     for design in extract.select(datasets, "harmonic_balance", (*extract.CAPTIONS, *extract.RULES)):
@@ -112,7 +116,7 @@ def quiet_and_high(datasets):
 
 
 def _design_orbits(datasets):
-    """Measures of claim 3 from the exact quiet orbits at the design points of figure 3."""
+    """Measures of claim 3 from the exact quiet orbits of figure 3 at the design point W = Wp."""
     names = (*extract.CAPTIONS[1:], *extract.RULES)
     orbits = extract.select(datasets, "design_orbit", names)
     multipliers = [extract.largest_multiplier(extract.design_point(orbit)) for orbit in orbits]
@@ -127,7 +131,7 @@ def _design_orbits(datasets):
 
 
 def _quiet_and_high_orbits(datasets):
-    """Measures of claim 3 from the ranges of quiet and of high exact orbits, omega_l = 0."""
+    """Measures of claim 3 for omega_l = 0, from the ranges of W of quiet and high exact orbits."""
     reach, beside, pairs = [], [], []
     for name in extract.ELASTIC:
         branches, free = exact_orbits.of_curve(datasets, name)

@@ -1,4 +1,8 @@
-"""Claims 4, 16 and 17, on the suppression band (sections 3 and 4, figures 3, 5 and 10)."""
+"""Claims 4, 16 and 17, on the suppression band (sections 3 and 4, figures 3, 5 and 10).
+
+The suppression band is a range of the forcing frequency W, near the peak frequency, without motions
+of high amplitude.
+"""
 
 import numpy as np
 
@@ -8,7 +12,7 @@ from impact_damper.claims.suppression import suppression_band
 
 
 def growth(widths):
-    """Smallest ratio of a width to the preceding one."""
+    """Smallest ratio of a width to the width before it in a sequence."""
     widths = np.asarray(widths, float)
     return float(np.min(widths[1:] / widths[:-1]))
 
@@ -35,7 +39,7 @@ def widening(datasets):
 
 
 def accuracy(datasets):
-    """Measures of claim 16: amplitude and width of the band by harmonic balance are accurate."""
+    """Measures of claim 16: harmonic balance gives the band's amplitude and width accurately."""
     widths, shares, ratios, harmonics = [], [], [], []
     for name in extract.ELASTIC:
         design = extract.get(datasets, "harmonic_balance", name)
@@ -71,7 +75,7 @@ def smallest_quiet_orbits(branches, free, frequency):
 def amplitude_by_mass(datasets):
     """Measures of claim 17: the larger rm, the lower the amplitude in the suppression band.
 
-    At the frequencies that lie in the bands of all dampers.
+    Amplitudes are averaged over the frequencies that lie in the bands of all dampers.
     """
     designs = extract.select(datasets, "harmonic_balance", extract.BY_MASS)
     lower, upper = (

@@ -27,11 +27,11 @@ class Measure:
     Attributes
     ----------
     name : str
-        Key of the number in the evidence.
+        Key of the number in the dictionary that `Claim.evidence` returns.
     description : str
         What the number measures.
     least, most : float
-        Bounds that the claim requires. A measure without bounds only informs.
+        Bounds that the claim requires. A measure without bounds does not affect the verdict.
     decisive : bool
         True: a value outside the bounds refutes the claim. False: such a value makes the verdict
         "reproduced with a difference".
@@ -74,8 +74,8 @@ class Claim:
         The numbers that decide the claim. A name may occur twice, with a decisive bound and a
         sharper one.
     evidence : callable
-        Maps all datasets, by stage and name, to a dict with the value of each measure; NaN if the
-        datasets do not determine the value. Raises `Missing`.
+        Takes all datasets, a dict keyed by stage of dicts keyed by name, and returns a dict with
+        the value of each measure; NaN if the datasets do not determine it. May raise `Missing`.
     """
 
     number: str

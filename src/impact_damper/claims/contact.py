@@ -6,19 +6,20 @@ from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.contact.contact_law import damping_ratio
 
-LOW = 0.3  # example of a low coefficient of restitution
+LOW = 0.3  # example of a low coefficient of restitution e
 
 
 def duration(restitution):
-    """Ratio of the time in contact to the time for e = 1, 1/sqrt(1 - z^2)."""
+    """Ratio of the time in contact to the time for e = 1: 1/sqrt(1 - z^2), damping ratio z."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 
 def pull_free_error(restitution):
-    """Relative excess of the realised restitution over e if contact ends at zero force.
+    """Relative excess of the realised restitution over e if the contact ends at zero force.
 
-    The force -y'' vanishes at wd t = pi - 2 asin(z), when the penetration y is still positive.
-    From then to the end of the contact in the paper's model the wall pulls.
+    With the damping ratio z and the damped frequency wd, the force -y'' vanishes at wd t =
+    pi - 2 asin(z), when the penetration y is still positive. In the paper's model the contact goes
+    on to y = 0, and the wall pulls during this time.
     """
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * duration(restitution)) - 1

@@ -1,7 +1,8 @@
-"""Quantities from the branches of exact periodic orbits, for the claims and the tables.
+"""Compute what the claims and the tables need from the branches of exact periodic orbits.
 
-A branch is cut into pieces, each between two neighbouring orbits. Between them all quantities are
-interpolated linearly, so that branches can be evaluated at any frequency.
+A branch is a sequence of orbits along the frequency W. It is cut into pieces, each from one orbit
+to the next. Within a piece all quantities are interpolated linearly, so that branches can be
+evaluated at any frequency. Free means without the damper.
 """
 
 import numpy as np
@@ -12,12 +13,13 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, oscillator_of
 
 SYMMETRIC = 1e-6  # largest asymmetry of a symmetric orbit
-HALF = 0.5  # an orbit is high if its size exceeds this share of the free resonance branch
+HALF = 0.5  # an orbit is high if max |Z1| exceeds this share of that of the free resonance branch
+# Columns of `pieces` that are interpolated within a piece.
 INTERPOLATED = ("frequency", "size", "amplitude", "loose")
 
 
 def free_of(datasets, data):
-    """Return the branches without damper of the oscillator of a dataset, or raise Missing."""
+    """Return the branches without damper for the oscillator of `data`, or raise Missing."""
     wanted = oscillator_of(data)
     for free in extract.free(datasets, "branches").values():
         if oscillator_of(free) == wanted:
@@ -26,7 +28,7 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return the branches of a curve with damper and those without, or raise Missing."""
+    """Return the branches of dataset `name` and those of the free oscillator, or raise Missing."""
     branches = extract.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
@@ -42,13 +44,14 @@ def pieces(branches) -> pd.DataFrame:
         - branch, period (in forcing periods);
         - lower, upper: ends in W;
         - frequency, size (max |Z1|), amplitude (first harmonic of Z1 as a complex number, with its
-          phase relative to Z2), loose (the same with its phase relative to x2): values in the
-          middle of the piece; with the ending `_change` their differences between its ends;
-        - multiplier: mean over both ends of the largest modulus of a Floquet multiplier;
+          phase relative to Z2, the displacement of the primary relative to the loose mass), loose
+          (the same with its phase relative to the displacement x2 of the loose mass): values in the
+          middle of the piece; columns ending in `_change` hold the differences between its ends;
+        - multiplier: largest modulus of a Floquet multiplier, averaged over both ends;
         - stable: whether `multiplier` is below 1;
         - fewest, contacts: least and largest number of contacts per period at the ends;
         - asymmetry: largest asymmetry at the ends;
-        - restitution: least ratio of the speeds after and before a contact.
+        - restitution: least ratio of the speed after a contact to the speed before it.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -82,7 +85,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Ascending ranges [lower, upper] of W that some pieces cover; touching ranges are merged."""
+    """Ascending ranges [lower, upper] of W covered by `part`, pieces; touching ones are merged."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -93,12 +96,12 @@ def ranges(part):
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Total width of W between `lower` and `upper` that some pieces cover."""
+    """Total width, within W from `lower` to `upper`, of the ranges covered by the pieces."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Pieces interpolated at frequencies: a row for each pair of a frequency and a piece there."""
+    """Interpolate pieces at frequencies; one row for each frequency and piece that contains it."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -113,13 +116,13 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Row of `crossings` with the smallest size at each frequency; none without a piece there."""
+    """Row of `crossings` with the smallest size at each frequency that lies in a piece."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
 
 def largest_sizes(part, frequency):
-    """Largest size of the pieces at each frequency; NaN without a piece there."""
+    """Largest size of the pieces at each frequency; NaN if no piece contains the frequency."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
@@ -142,12 +145,12 @@ def resonance(free, frequency):
 
 
 def above_half(part, free):
-    """Mask of the pieces larger than half of the free resonance branch."""
+    """Mask of the pieces with max |Z1| above half of that of the free resonance branch."""
     return part["size"] > HALF * resonance(free, part.frequency)
 
 
 def high(branches, free):
-    """Pieces of stable orbits of any period, larger than half of the free resonance branch."""
+    """Pieces of stable orbits of any period that are high, as `above_half` says."""
     part = pieces(branches)
     part = part[part.stable]
     return part[above_half(part, free)]
@@ -163,15 +166,16 @@ def quiet(branches, free):
 def counterparts(design, branches) -> pd.DataFrame:
     """Pair each impacting solution of (7) with the nearest exact orbit at the same frequency.
 
-    The orbits considered are those that the ansatz of (7) approximates: symmetric, period 1, two
-    contacts per period, stable or unstable.
+    Only orbits that the single harmonic of (7) can approximate are considered: symmetric, period 1,
+    two contacts per period, stable or unstable.
 
     Returns
     -------
     pandas.DataFrame
-        One row for each solution with such an orbit: `frequency`; `a`; `balance_stable`; `least`
-        (whether |a| is the smallest at this frequency); the columns of `crossings` for the orbit;
-        `difference`, the relative difference of the orbit's first harmonic to `a`.
+        One row for each solution of (7) with such an orbit: `frequency`; `a`, its amplitude;
+        `balance_stable`; `least` (whether |a| is the smallest at this frequency); the columns of
+        `crossings` for the orbit; `difference`, the relative difference between `a` and the first
+        harmonic of the orbit.
     """
     part = pieces(branches)
     alike = part[
@@ -205,7 +209,8 @@ def high_counterparts(design, branches, free):
 def subharmonic(free):
     """Return the pieces of the one-third subharmonic without damper, or raise Missing.
 
-    Of the branches of symmetric orbits of period 3, the one with the widest range of W.
+    If there are several branches of symmetric orbits of period 3, the one with the widest range of
+    W is taken.
     """
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]

@@ -1,6 +1,9 @@
-"""Access to datasets, their parameters and flags, and quantities of harmonic balance.
+"""Read what the claims and the tables need from datasets: parameters, flags, harmonic balance.
 
-For the claims and the tables. Exact orbits have a module of their own, `exact_orbits`.
+`datasets` is a dictionary keyed by stage; each value is a dictionary keyed by name ("figure_05a"),
+an entry of the configuration. The module `exact_orbits` reads branches of periodic orbits. A quiet
+orbit has period 1 and a max |Z1| of at most half that of the resonance without the damper; the
+design point of a damper is the peak frequency Wp.
 """
 
 import numpy as np
@@ -9,9 +12,11 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, has_damper, parameters_of
 from impact_damper.data.variables import VARIABLES
 
-# Names of curves of the configuration. CAPTIONS: by ascending omega_l, with the clearances of the
-# captions of figure 3; RULES: the same with the clearances of (19); BY_MASS: by ascending mass
-# ratio; ELASTIC: all simulated ones with elastic contact; INELASTIC: as BY_MASS[1], but e < 1.
+# Names of the configuration's curves, each a frequency response of one oscillator and damper.
+# CAPTIONS: dampers with the clearances that the captions of figure 3 print, in order of increasing
+# linear frequency omega_l; RULES: the same dampers with the clearances of rule (19); BY_MASS: in
+# order of increasing mass ratio rm; ELASTIC: all curves with elastic contact that are simulated;
+# INELASTIC: as BY_MASS[1], but with restitution e < 1.
 CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
 RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
@@ -28,12 +33,12 @@ def get(datasets, stage, name):
 
 
 def damped(datasets, stage) -> dict:
-    """Datasets of a stage that have a damper, by name."""
+    """Datasets of a stage that have a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
 
 
 def free(datasets, stage) -> dict:
-    """Datasets of a stage without a damper, by name."""
+    """Datasets of a stage without a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
 
 
@@ -127,7 +132,10 @@ def select(datasets, stage, names):
 
 
 def design_point(orbit):
-    """Return the quiet orbit of a dataset `design_orbit` at the design point, or raise Missing."""
+    """Return the exact quiet orbit at W = Wp and the oscillator's own damping, or raise Missing.
+
+    `orbit` is a dataset of the stage `design_orbit`, which follows the orbit in the damping.
+    """
     if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
@@ -140,7 +148,7 @@ def largest_multiplier(orbit):
 
 
 def stable_from(orbit):
-    """Damping h above which the quiet orbit of a dataset `design_orbit` is stable."""
+    """Damping h above which the quiet orbit in a dataset of the stage `design_orbit` is stable."""
     value, events = orbit.followed_value.values, orbit.event_value.values
     last = np.max(value[largest_multiplier(orbit) >= 1], initial=value.min())
     return float(

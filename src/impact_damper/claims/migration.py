@@ -1,4 +1,8 @@
-"""Claims 12, 13, 14 and 19, on migration control (section 5, figures 13 to 16)."""
+"""Claims 12, 13, 14 and 19, on migration control (section 5, figures 13 to 16).
+
+Migration leads the free oscillator from the resonance to the non-resonance branch, by switching the
+damper on and off again (release). A case is a dataset of one oscillator, damper and frequency.
+"""
 
 import numpy as np
 
@@ -8,13 +12,13 @@ from impact_damper.data.datasets import damper_of, flag, oscillator_of
 
 
 def release_shares(case, kind, free_motion):
-    """Share of the releases of each damped motion of a kind that lead to a free motion."""
+    """For each damped motion of a kind, the share of its releases that lead to a free motion."""
     rows = case.damped_kind.values == flag("damped_kind", kind)
     return case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
 
 
 def extreme_share(case, kind, free_motion, choose):
-    """Extreme of `release_shares` by min or max; NaN without such a damped motion or release."""
+    """Least or largest of `release_shares` (`choose`: min or max); NaN if there are none."""
     shares = release_shares(case, kind, free_motion)
     shares = shares[np.isfinite(shares)]
     return float(choose(shares)) if len(shares) else np.nan
@@ -45,7 +49,7 @@ def both_outcomes(case, kind):
 
 
 def scanned(datasets, case):
-    """Releases at each frequency of the scans of a case's oscillator and damper, in order."""
+    """Release scans of a case's oscillator and damper: a dataset per frequency, in rising order."""
     wanted = oscillator_of(case), damper_of(case)
     found = [
         scan.isel(frequency=k)
@@ -57,7 +61,10 @@ def scanned(datasets, case):
 
 
 def nearest_range(scan, kind, frequency):
-    """Range of a scan, nearest to a frequency, in which releases lead to both free motions."""
+    """Part of a scan, nearest to a frequency, in which releases lead to both free motions.
+
+    The part is a list of neighbouring entries of `scanned`; empty if there is none.
+    """
     both = np.array([both_outcomes(releases, kind) for releases in scan], int)
     edges = np.flatnonzero(np.diff(both, prepend=0, append=0))
     parts = [scan[first:last] for first, last in edges.reshape(-1, 2)]
@@ -97,7 +104,7 @@ def release_phase(datasets):
 
 
 def total_cycles(datasets):
-    """Measures of claim 14: at most 350 cycles in total, from all runs of all cases."""
+    """Measures of claim 14: a run takes at most 350 cycles in total; from the runs of all cases."""
     runs = cases(datasets)
     within = [float(run.within_share.sel(bound="share")) for run in runs]
     reached = [run.trial_outcome == flag("trial_outcome", "reached") for run in runs]

@@ -1,4 +1,7 @@
-"""Claims 5, 6 and 8, on the motions with the damper (section 3, figures 4, 5 and 8)."""
+"""Claims 5, 6 and 8, on the motions with the damper (section 3, figures 4, 5 and 8).
+
+A motion has high amplitude if its max |Z1| exceeds half that of the free resonance branch.
+"""
 
 import numpy as np
 import pandas as pd

@@ -7,13 +7,13 @@ from impact_damper.claims.bands import smallest_quiet_orbits
 from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.suppression import suppression_band
 
-AWAY = 0.1  # relative distance from the optimum clearance
+AWAY = 0.1  # relative distance from the optimum clearance at which max |Z1| is taken
 
 
 def sweeps(datasets, *keys, **fixed):
-    """Return clearance sweeps grouped by the parameters `keys`, or raise Missing.
+    """Return clearance sweeps in groups with equal parameters `keys`, or raise Missing.
 
-    Only sweeps with the parameter values `fixed`, and only groups of two or more, count.
+    Only sweeps with the parameter values `fixed` are taken, and only groups of two or more sweeps.
     """
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
@@ -27,13 +27,13 @@ def sweeps(datasets, *keys, **fixed):
 
 
 def near_width(sweep):
-    """Width of the range of d0 with max |Z1| within 10 % of the minimum, over the optimum d0."""
+    """Width of the d0 range with max |Z1| within 10 % of its minimum, divided by the optimum d0."""
     lower, upper = sweep.near_clearance.values
     return (upper - lower) / float(sweep.optimum_clearance)
 
 
 def displaced(sweep):
-    """Largest max |Z1| at 10 % from the optimum d0, over the free resonance amplitude 1/(h W)."""
+    """Larger max |Z1| at 10 % from the optimum d0, relative to the free resonance 1/(h W)."""
     best = float(sweep.optimum_clearance)
     sizes = np.interp(
         [best * (1 - AWAY), best * (1 + AWAY)],
@@ -48,7 +48,7 @@ def displaced(sweep):
 
 
 def excess(datasets):
-    """Measures of claim 9: the numerical optimum d0 is slightly above (19) and insensitive."""
+    """Measures of claim 9: the optimum d0 slightly exceeds (19); max |Z1| near it hardly varies."""
     groups = sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.rule_clearance) - 1 for sweep in members]
@@ -69,7 +69,7 @@ def excess(datasets):
 
 
 def restitution(datasets):
-    """Measures of claim 11: lower e widens the band and lowers and flattens the optimum d0."""
+    """Measures of claim 11: lower e widens the band, lowers the optimum d0, flattens max |Z1|."""
     names = (extract.BY_MASS[1], extract.INELASTIC)
     bands = [suppression_band(datasets, name) for name in names]
     design = extract.get(datasets, "harmonic_balance", extract.BY_MASS[1])

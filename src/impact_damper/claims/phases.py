@@ -9,7 +9,8 @@ from impact_damper.claims.claim import Claim, Measure, Missing
 def phases(datasets):
     """Measures of claim 7: antiphase of the masses below Wp, in phase above.
 
-    For the phase of Z1 to Z2, which is the paper's, and for the phase of Z1 to x2.
+    They are computed for the phase of Z1 relative to Z2, as in the paper (Z2: displacement of the
+    primary relative to the loose mass), and relative to the displacement x2 of the loose mass.
     """
     below, above, turns, balance, loose_below, loose_above, loose_turns = ([] for _ in range(7))
     for name in extract.BY_MASS:

@@ -13,16 +13,19 @@ from impact_damper.theory.design_rule import peak_frequency
 STATE = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}
 PRINTED_STATE = 3
-SHALLOW = 0.02  # largest penetration, over the clearance, at which the expansion is tested
+SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansion is tested
 
 
 def formula_peak(data):
-    """Peak frequency Wp of the oscillator of a dataset by W^2 = wl^2 + 3/(4 h^2 W^2)."""
+    """Peak frequency Wp of a dataset's oscillator, the root W of W^2 = wl^2 + 3/(4 h^2 W^2)."""
     return peak_frequency(oscillator_of(data))
 
 
 def penetration(datasets):
-    """Measures of S1: expansion of the contact force B for a small penetration b - d0."""
+    """Measures of S1: expansion of the contact force B for a small penetration b - d0.
+
+    Here b is the amplitude of Z2 in the solutions of (7), and d0 the clearance.
+    """
     design = extract.get(datasets, "harmonic_balance", extract.CAPTIONS[0])
     mass_ratio, clearance, stiffness = (
         extract.parameter(design, name) for name in ("mass_ratio", "clearance", "contact_stiffness")
@@ -49,7 +52,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Measures of S2: clearances of the captions of figure 3 over the clearances of (19)."""
+    """Measures of S2: clearances in the captions of figure 3, divided by the clearances of (19)."""
     printed, ruled = (
         [
             extract.parameter(design, "clearance")

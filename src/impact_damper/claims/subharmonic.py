@@ -1,4 +1,7 @@
-"""Claims 10 and 18, on the one-third subharmonic (section 3, figures 5 and 8)."""
+"""Claims 10 and 18, on the one-third subharmonic (section 3, figures 5 and 8).
+
+Without the damper (free) it is a motion of period 3; with it, any whose period is a multiple of 3.
+"""
 
 import numpy as np
 
@@ -10,7 +13,7 @@ AS_LARGE = 0.95  # least ratio of amplitudes at which the subharmonic counts as 
 
 
 def largest_ratio(part, free):
-    """Largest ratio of the size of pieces to the free subharmonic's; NaN without pieces."""
+    """Largest ratio of max |Z1| of pieces to that of the free subharmonic; NaN without pieces."""
     sizes = exact_orbits.largest_sizes(exact_orbits.subharmonic(free), part.frequency)
     return (part["size"] / sizes).max()
 
@@ -38,14 +41,14 @@ def reappearance(datasets):
 
 
 def expected(curve):
-    """Mean amplitude over random starts, counting 0 if a start leads to no subharmonic."""
+    """Mean max |Z1| of random starts at each frequency; a start without subharmonic counts as 0."""
     third = extract.is_outcome(curve, "settled") & (curve.period % 3 == 0)
     share = curve.share / curve.share.sum("motion")
     return (share * curve.maximum_displacement).where(third, 0.0).sum("motion")
 
 
 def unchanged(branches, free):
-    """Share of the range of the free subharmonic with an equally large one with the damper."""
+    """Share of the free subharmonic's range of W where the damper leaves one about as large."""
     lower, upper = exact_orbits.subharmonic_range(free)
     part = exact_orbits.stable_subharmonics(branches)
     part = part[part.frequency.between(lower, upper)]

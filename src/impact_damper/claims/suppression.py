@@ -1,4 +1,8 @@
-"""The suppression band by the motions that exist: exact orbits and simulated chaotic motions."""
+"""The suppression band according to exact orbits and simulated chaotic motions.
+
+The band is the range of the forcing frequency W in which no motion with the damper is high: none
+has a max |Z1| above half that of the free resonance branch.
+"""
 
 from typing import NamedTuple
 
@@ -9,7 +13,7 @@ from impact_damper.claims import exact_orbits, extract
 
 
 class Band(NamedTuple):
-    """A suppression band by the motions that exist.
+    """A suppression band according to the motions that exist.
 
     Attributes
     ----------
@@ -35,7 +39,10 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Mask of the motions with damper that are larger than half of the free resonance branch."""
+    """Mask of the motions with damper that are larger than half of the free resonance branch.
+
+    `response` is a dataset of the stage `response`; `free` holds the branches without damper.
+    """
     frequency = response.frequency
     limit = exact_orbits.HALF * xr.DataArray(
         exact_orbits.resonance(free, frequency), {"frequency": frequency}
@@ -53,7 +60,7 @@ def suppression_band(datasets, name):
 
     The lower edge is the larger of two frequencies: the upper end of the branches of stable high
     orbits, and the last frequency of the response with a high motion that did not settle. The
-    latter is known to the step of the frequencies only.
+    latter is known only to within one step of the response's frequencies.
 
     Raises
     ------

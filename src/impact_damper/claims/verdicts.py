@@ -1,4 +1,7 @@
-"""Registry of all claims of Chatterjee, Mallik and Ghosh (1995), and the table of verdicts."""
+"""Registry of all claims of Chatterjee, Mallik and Ghosh (1995), and the table of verdicts.
+
+Slips are misprints and gaps of the paper.
+"""
 
 import pandas as pd
 
@@ -43,7 +46,7 @@ def claims(datasets) -> pd.DataFrame:
     Parameters
     ----------
     datasets : dict of dict of xarray.Dataset
-        By stage and name. A claim whose datasets are missing is not decidable.
+        Keyed by stage, then by name. A claim whose datasets are missing is not decidable.
     """
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 

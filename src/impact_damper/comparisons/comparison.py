@@ -1,4 +1,4 @@
-"""One number of ours beside a published one, and how fast their difference vanishes."""
+"""A published number beside the one computed here, and how fast their difference vanishes."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 class Comparison(NamedTuple):
-    """A published number, or that of a published closed form, and ours.
+    """A published number, or that of a published closed form, and the number computed here.
 
     Attributes
     ----------
@@ -15,15 +15,17 @@ class Comparison(NamedTuple):
     quantity : str
         What is compared, with its parameters; unique.
     published, ours : float
+        The published number and the one computed here.
     reason : str
-        Why they differ, a flag of the variable `difference_reason`.
+        Why the two numbers differ, a flag of the variable `difference_reason`.
     order : float
-        Exponent with which the difference falls with the parameter that the reason names; NaN if
+        Exponent n of |ours - published| ~ parameter^n, where `reason` names the parameter; NaN if
         that parameter is not varied.
     limit : float
-        Our value extrapolated to the limit that the closed form is for; NaN if it is not.
+        `ours` extrapolated to the limit in which the closed form holds (rigid walls); NaN if it is
+        not extrapolated.
     error : float
-        Standard error of the difference, of numbers found by random starts; NaN for others.
+        Standard error of the difference of numbers found by random starts; NaN for other numbers.
     """
 
     publication: str
@@ -37,6 +39,6 @@ class Comparison(NamedTuple):
 
 
 def observed_order(parameters, differences) -> float:
-    """Return the exponent n of |difference| ~ parameter^n between the last two of several."""
+    """Return the exponent n of |difference| ~ parameter^n, from the last two parameters given."""
     (first, last), (before, after) = parameters[-2:], differences[-2:]
     return float(np.log(abs(after / before)) / np.log(last / first))

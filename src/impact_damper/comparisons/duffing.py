@@ -14,9 +14,9 @@ from impact_damper.system.families import family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator
 
-# Largest distance of a settled state from the orbit that it has settled on.
+# A settled state belongs to an orbit if each component differs by at most this from the orbit's.
 SAME = 1e-3
-# Frequencies between which responses are followed, over the natural frequency.
+# Range of forcing frequencies, divided by the natural frequency, over which responses are followed.
 SPAN = 0.6, 1.4
 
 
@@ -33,7 +33,7 @@ def basin_shares(starts, seed, settling):
     Returns
     -------
     list of Comparison
-        With the standard error of the difference of two random counts.
+        One for each motion, with the standard error of the difference of two random counts.
 
     Raises
     ------
@@ -84,9 +84,9 @@ def jump_frequencies(springs, damping_ratios, peak):
     springs : sequence of float
         Cubic coefficients, negative for softening springs.
     damping_ratios : sequence of float
-        Falling.
+        Damping ratios z, each smaller than the one before.
     peak : float
-        Force over damping ratio: the amplitude at the peak is about half of it.
+        Ratio of the force to the damping ratio. The amplitude at the peak is about half this ratio.
 
     Returns
     -------
@@ -95,7 +95,7 @@ def jump_frequencies(springs, damping_ratios, peak):
     Raises
     ------
     ArithmeticError
-        If a branch has not two folds.
+        If a branch does not have exactly two folds.
     """
     found = []
     for cubic in springs:
@@ -120,7 +120,7 @@ def _folds(damping_ratio, cubic, force):
     """Return the frequencies of the folds of the response, that of the large motion first."""
     oscillator = Oscillator(2 * damping_ratio, 1.0, cubic=cubic, force=force)
     begin = SPAN[0]
-    # The response far below the natural frequency, at W T = pi/2.
+    # First guess: the linear response well below resonance, without damping, at W T = pi/2.
     speed = -begin * force / (1 - begin**2)
     orbit = find_orbit(pack(oscillator, None, begin), [0.0, speed, 0.0, speed])
     family, here, ends = family_of(oscillator, None, begin, "frequency", SPAN)

@@ -1,4 +1,7 @@
-"""Hertz's impact of elastic bodies against our contact with the linear spring of equal energy."""
+"""Hertz's impact of elastic bodies, compared with our linear contact spring of equal energy.
+
+The linear spring stores the same energy as the contact after Hertz at the largest compression.
+"""
 
 import numpy as np
 
@@ -8,12 +11,15 @@ from impact_damper.motions.simulate import simulate
 from impact_damper.system.parameters import Damper, Oscillator
 
 STEEL = Material(youngs_modulus=210e9, poissons_ratio=0.3)
-# Masses of the machine and of a steel ball with its radius, kg and m; half its gap, mm.
+# MACHINE and BALL: masses of the machine and of the steel ball, kg. RADIUS of the ball, m.
+# HALF_GAP: clearance of the ball in the machine, mm.
 MACHINE, BALL, RADIUS, HALF_GAP = 12.0, 0.6, 0.0264, 1.0
-# Distance from the wall at which the impact is simulated, over half the gap, and samples of it.
+# APART: distance of the ball from the wall at the start of a simulation, divided by HALF_GAP.
+# SAMPLES: states stored in a forcing period.
 APART, SAMPLES = 1e-6, 4000
-# A forcing frequency, 1/s, in whose period the impact ends; there is no force.
+# Forcing frequency, rad/s. The force is zero: only the length of the run, half a period, follows.
 FREQUENCY = 1000.0
+# Damping h of the machine: the least that `Oscillator` allows, since 0 is not.
 UNDAMPED = 1e-9
 
 
@@ -49,7 +55,7 @@ def hertz_impacts(speeds):
 
 
 def _simulated(stiffness, speed):
-    """Return duration in s and largest compression in m of a simulated impact; it runs in mm, s."""
+    """Return duration, s, and largest compression, m, of an impact simulated in units mm and s."""
     motion = simulate(
         Oscillator(UNDAMPED, 0.0, cubic=0.0, force=0.0),
         Damper(BALL / MACHINE, HALF_GAP, 1.0, stiffness / MACHINE),

@@ -1,4 +1,7 @@
-"""The symmetric motion of Masri and Caughey against our orbits with ever stiffer contacts."""
+"""The symmetric motion of Masri and Caughey, compared with our orbits as contacts become stiffer.
+
+Their closed form holds for rigid walls; our orbits have contacts of finite stiffness r1.
+"""
 
 from dataclasses import replace
 from itertools import product
@@ -11,8 +14,10 @@ from impact_damper.literature.masri_caughey import stability_boundaries, two_imp
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Exponent of the contact stiffness in the error of rigid walls, by which orbits are extrapolated.
+# Exponent n of error ~ r1^n if walls are taken as rigid. With it our numbers are extrapolated to
+# rigid walls.
 ORDER = -0.5
+# Events that end stability and are compared, and the words for them in `Comparison.quantity`.
 EVENTS = {
     "fold": "fold",
     "symmetry_breaking": "loss of symmetry",
@@ -21,28 +26,31 @@ EVENTS = {
 
 
 def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, stiffnesses):
-    """Compare displacements, multipliers and boundaries of stability, in all combinations.
+    """Compare displacements, multipliers and boundaries of stability.
+
+    The comparisons are made for all combinations of the sequences given.
 
     Parameters
     ----------
     damping_ratio : float
-        Of an oscillator with the linear stiffness, the force and the natural frequency 1, so that
-        lengths are given in static deflections.
+        Damping ratio of the oscillator. Its linear stiffness, force and natural frequency are 1, so
+        that lengths are given in static deflections.
     restitutions, mass_ratios, gaps, frequencies : sequence of float
         e, rm, full gap 2 d0 in static deflections, and W.
     stiffnesses : sequence of float
-        Increasing contact stiffnesses r1, two or more, the last two for orders and limits.
+        Increasing contact stiffnesses r1, two or more. The order of convergence and the limit for
+        rigid walls are estimated from the last two.
 
     Returns
     -------
     list of Comparison
-        Of the stable motion or, where none is stable, of the least unstable one. Where the closed
-        form has no motion there is nothing to compare.
+        For each combination those of the stable motion or, if none is stable, of the one with the
+        smallest multiplier. If the closed form has no motion there is nothing to compare.
 
     Raises
     ------
     ArithmeticError
-        If our orbit is not found where the closed form has one.
+        If our orbit is not found although the closed form has one.
     TypeError, ValueError
         If a value is out of range, or stiffnesses do not increase.
     """
@@ -89,7 +97,7 @@ def _at_gap(oscillator, dampers, frequency, clearance, words):
 
 
 def _compared(quantity, published, ours, stiffnesses):
-    """Return the comparison of a series over rising contact stiffness with its limit."""
+    """Return the comparison of `ours`, a number for each stiffness, with the published limit."""
     ours = np.array(ours)
     gain = (stiffnesses[-1] / stiffnesses[-2]) ** -ORDER - 1
     return Comparison(

@@ -1,8 +1,8 @@
-"""Symmetric orbits with two compliant contacts a period, over the speed of the loose mass.
+"""Symmetric orbits with two compliant contacts a period, given the speed of the loose mass.
 
 With a linear spring, a force and a frequency given, the clearance of a symmetric orbit is a
-function of the ratio of the speed of the loose mass to the clearance. Along this ratio the orbits
-pass a fold in the clearance without turning.
+function of the ratio s of the speed of the loose mass to the clearance. Two orbits may have the
+same clearance, with a fold between them, but only one has a given s: so orbits are sought by s.
 """
 
 from dataclasses import replace
@@ -16,12 +16,13 @@ from impact_damper.orbits.compliant_orbits import CONTACTS
 from impact_damper.orbits.shooting import Orbit, shoot
 from impact_damper.system.packed import pack
 
-# Newton's method: number of corrections, and residual relative to the state.
+# Newton's method: most corrections, and largest residual relative to the state.
 ITERATIONS = 15
 RESIDUAL = 1e-9
-# Relative change of the clearance for the derivative of the map.
+# Relative change of the clearance with which the map is differentiated by differences.
 NUDGE = 1e-6
-# Relative changes of the ratio between which a change of stability is looked for.
+# A change of stability is looked for at ratios s between 1 - width and 1 + width times that of the
+# closed form, with one of these widths after the other.
 WIDTHS = 0.005, 0.02, 0.08
 
 
@@ -31,11 +32,11 @@ class SymmetricOrbit(NamedTuple):
     Attributes
     ----------
     orbit : Orbit
-        Its phase is in the middle of the flight from Z2 = -d0.
+        Its state is that in the middle of the flight from the wall Z2 = -d0.
     clearance : float
         d0.
     ratio : float
-        Speed of the loose mass there over d0.
+        s, the speed of the loose mass in the middle of this flight divided by d0.
     """
 
     orbit: Orbit
@@ -44,7 +45,7 @@ class SymmetricOrbit(NamedTuple):
 
     @property
     def modulus(self) -> float:
-        """Largest modulus of the multipliers of half a period."""
+        """Largest modulus of the multipliers of the map over half a period."""
         return float(np.max(np.abs(np.linalg.eigvals(self.orbit.root))))
 
     @property
@@ -73,10 +74,10 @@ def orbit_at_clearance(oscillator, damper, frequency, motion) -> SymmetricOrbit:
 
 
 def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
-    """Return the orbit with a ratio of the speed of the loose mass to the clearance.
+    """Return the orbit with a given ratio s of the speed of the loose mass to the clearance.
 
-    Newton's method for the state and the clearance, from the motion between rigid walls. The
-    clearance of the damper has no effect.
+    Newton's method finds the state and the clearance; it starts from the motion between rigid
+    walls. The clearance of `damper` has no effect.
 
     Raises
     ------
@@ -90,8 +91,8 @@ def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
         p = pack(oscillator, replace(damper, clearance=clearance), frequency)
         return shoot(p, state, 1, rigid.phase, symmetric=True)
 
-    # By the clearance the map is differentiated once: the walls are nearly rigid, and Newton's
-    # method starts close to the orbit.
+    # The derivative of the map with respect to the clearance is computed only once: the walls are
+    # nearly rigid, so that Newton's method starts close to the orbit.
     step = NUDGE * rigid.clearance
     ahead, behind = (mapped(rigid.state, rigid.clearance + h)[1] for h in (step, -step))
     matrix = np.zeros((5, 5))
@@ -123,7 +124,7 @@ def boundary_near(oscillator, damper, frequency, boundary) -> SymmetricOrbit:
     Raises
     ------
     ArithmeticError
-        If there is none near.
+        If there is no such orbit at the ratios searched (`WIDTHS`).
     """
     rigid = boundary.motion.speed / boundary.motion.clearance
 

@@ -1,4 +1,4 @@
-"""Tuned mass dampers and the nonlinear absorber: closed forms against their computed responses."""
+"""Tuned mass dampers and the nonlinear absorber: closed forms compared with computed responses."""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -14,13 +14,14 @@ from impact_damper.literature.tuned_mass_damper import (
     peaks,
 )
 
-# Direct search for the least maximum of the response: tolerance on tuning, damping and maximum.
+# Direct search for the tuning and damping whose response has the least maximum: tolerance of
+# tuning, damping and maximum, and most iterations.
 TOLERANCE = 1e-10
 MOST_STEPS = 1000
 
 
 def tuned_mass_dampers(mass_ratios):
-    """Compare peaks, tuning and damping with those of the computed response.
+    """Compare published peaks, tunings and damping ratios with those of the computed response.
 
     Parameters
     ----------
@@ -29,8 +30,8 @@ def tuned_mass_dampers(mass_ratios):
     Returns
     -------
     list of Comparison
-        The highest peak of Den Hartog's absorber beside the height of its fixed points, and the
-        exact optimum beside that of a direct search.
+        The height of the fixed points of Den Hartog's absorber with the highest peak of its
+        response, and the exact optimum with the optimum found by a direct search.
     """
     found = []
     for mass in mass_ratios:
@@ -62,7 +63,7 @@ def tuned_mass_dampers(mass_ratios):
 
 
 def _least_maximum(mass) -> Tuning:
-    """Return the tuning with the least maximum, by a direct search from that of Den Hartog."""
+    """Return the tuning with the least maximum, by a direct search from Den Hartog's tuning."""
     best = minimize(
         lambda values: peaks(Tuning(mass, *values))[1].max(),
         den_hartog(mass)[1:],
@@ -73,7 +74,7 @@ def _least_maximum(mass) -> Tuning:
 
 
 def nonlinear_absorbers(mass_ratio, forces):
-    """Compare the ratio of the two peaks of the nonlinear absorber with 1.
+    """Compare the ratio of the two peaks of the nonlinear absorber with 1, the value designed for.
 
     Parameters
     ----------
@@ -88,7 +89,7 @@ def nonlinear_absorbers(mass_ratio, forces):
     Raises
     ------
     ArithmeticError
-        If the response has not two peaks, or is not found.
+        If the response does not have two peaks, or is not found.
     """
     found = []
     for force in forces:

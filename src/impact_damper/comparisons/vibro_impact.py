@@ -1,4 +1,9 @@
-"""The slow invariant manifold of the vibro-impact absorber against our orbits and free decays."""
+"""The slow invariant manifold of the vibro-impact absorber, compared with our orbits and decays.
+
+The closed forms are those of `literature.slow_invariant_manifold`, of first order in the mass ratio
+rm. t = pi w/(2 W d0) is the speed w of the loose mass as a ratio, with the forcing frequency W and
+the clearance d0 (half the gap). Our numbers come from orbits and simulations with finite rm.
+"""
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -11,14 +16,15 @@ from impact_damper.motions.simulate import simulate
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Ratios of the speed of the loose mass at the start of a free decay, and between which it is timed.
-# The decay takes a few impacts to reach the manifold.
+# Speed ratios t in a free decay. The simulation begins at START; the time is taken from t = FIRST
+# to t = LAST. Between START and FIRST a few impacts bring the motion to the manifold.
 START, FIRST, LAST = 1.6, 1.5, 1.1
-# The smallest damping that an oscillator may have, in place of none.
+# Damping h of the oscillator in a free decay: the least that `Oscillator` allows, since 0 is not.
 UNDAMPED = 1e-9
-# Samples of a forcing period of a decay, and how much longer than predicted a decay is run.
+# SAMPLES: stored states in each natural period of a simulated decay. LONGER: ratio of the length of
+# this simulation to the predicted time of the decay from START to LAST.
 SAMPLES, LONGER = 24, 1.2
-# Distance from the wall at the start of a decay.
+# Distance of the loose mass from the wall Z2 = -d0 at the start of a decay, where d0 = 1.
 APART = 1e-9
 
 
@@ -30,11 +36,12 @@ def vibro_impact(restitution, damping_share, mass_ratios, contact_stiffness):
     restitution : float
         e.
     damping_share : float
-        Damping ratio over rm.
+        Damping ratio of the oscillator divided by rm.
     mass_ratios : sequence of float
-        Falling rm, two or more, by which orders are observed.
+        Falling rm, two or more. The order of convergence is estimated from each pair of
+        neighbouring ones.
     contact_stiffness : float
-        r1 of our orbits, so large that it has no effect beside the mass ratio.
+        r1 of our orbits, so large that the error by finite r1 is small against that by finite rm.
 
     Returns
     -------
@@ -53,7 +60,7 @@ def vibro_impact(restitution, damping_share, mass_ratios, contact_stiffness):
 
 
 def ring_down(restitution, mass_ratios, contact_stiffness):
-    """Compare the time in which the speed of the loose mass falls from FIRST to LAST.
+    """Compare the time in which the speed ratio t falls from FIRST to LAST in a free decay.
 
     Parameters
     ----------
@@ -73,7 +80,10 @@ def ring_down(restitution, mass_ratios, contact_stiffness):
 
 
 def _series(rows, mass_ratios, words):
-    """Return comparisons of quantities over falling mass ratio, with the order observed.
+    """Return comparisons of each quantity at each mass ratio, with the order of convergence.
+
+    `rows` has a dictionary for each mass ratio: its keys are the quantities, its values pairs of
+    the number of the closed form and our number.
 
     Raises
     ------
@@ -104,7 +114,7 @@ def _series(rows, mass_ratios, words):
 
 
 def _thresholds(restitution, damping_share, mass, contact_stiffness):
-    """Return pairs of the closed form and ours, by quantity, for one mass ratio."""
+    """Return a dictionary for one mass ratio: quantity -> (closed form's number, our number)."""
     absorber = VibroImpactAbsorber(mass, restitution, damping_share * mass)
     oscillator = Oscillator(2 * absorber.damping_ratio, 1.0, cubic=0.0, force=1.0)
     damper = Damper(mass, 1.0, restitution, contact_stiffness)
@@ -139,16 +149,18 @@ def _thresholds(restitution, damping_share, mass, contact_stiffness):
 
 
 def decay_time(absorber, contact_stiffness) -> float:
-    """Return the time of `ring_down` in a simulated free decay.
+    """Return the time in which t falls from FIRST to LAST, from a simulated free decay.
 
-    The amplitude of the undamped primary mass is constant between contacts; at a contact the mean
-    of the amplitudes before and after it is taken.
+    The amplitude of the undamped primary mass is constant between contacts; the amplitude at a
+    contact is taken as the mean of those before and after it. The manifold gives the amplitudes
+    that belong to FIRST and LAST.
 
     Parameters
     ----------
     absorber : VibroImpactAbsorber
-        Its oscillator's damping is not used.
+        Its damping ratio is not used.
     contact_stiffness : float
+        r1 of the simulation.
     """
     mass, restitution = absorber.mass_ratio, absorber.restitution
     periods = LONGER * absorber.ring_down_time(START, LAST) / (2 * np.pi)

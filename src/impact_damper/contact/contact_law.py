@@ -1,6 +1,6 @@
 """One contact of the damper in closed form, under a constant load, with two rules for its end.
 
-While the loose mass touches a wall, equations (20) to (23) give for the penetration q
+While the loose mass touches a wall, equations (20) to (23) give for the penetration q = |Z2| - d0
 
     q'' + 2 z wn q' + wn^2 q = g,   wn^2 = r1 (1 + 1/rm),   z = zeta_c sqrt(1 + rm),
 
@@ -9,11 +9,12 @@ short contact. With s = wn t, u = wn q/v0 and the approach speed v0 this is
 
     u'' + 2 z u' + u = G,   u(0) = 0,   u'(0) = 1,   G = g/(wn v0):
 
-so that a contact depends on the restitution e, which gives z by (25), and on the load G alone. A
-positive load presses the bodies together. The force of the wall is F = u + 2 z u'.
+so that a contact depends only on the restitution e, which gives z by (25), and on the load G, the
+dimensionless acceleration by the other forces. A positive load presses loose mass and wall
+together. The force of the wall is F = u + 2 z u'.
 
-Exit rules: `zero_penetration` (appendix B) ends the contact where u = 0, and the wall may pull
-before that; `no_tension` ends it where F = 0.
+Two exit rules say when a contact ends: `zero_penetration` (appendix B) when u = 0, so that the wall
+may pull the loose mass before; `no_tension` when F = 0, so that it never pulls.
 """
 
 import math
@@ -32,13 +33,13 @@ class Exit(NamedTuple):
     Attributes
     ----------
     outcome : str
-        "released"; "falls_back" if the loose mass leaves a wall that cannot pull, but the load
-        returns it before it is back at zero penetration; "no_release" if the contact does not end.
+        "released"; "falls_back" if under `no_tension` the loose mass leaves the wall, but the load
+        drives it back into the wall before u = 0; "no_release" if the contact does not end.
     duration : float
-        wn t, infinite if the contact does not end.
+        s = wn t at the end of the contact, infinite if the contact does not end.
     departure : float
-        The realised restitution: speed at zero penetration over approach speed, after a flight
-        under the load if the contact ended before; NaN unless released.
+        The realised restitution: speed at u = 0 divided by approach speed. If the contact ended
+        before, a flight under the load leads to u = 0. NaN unless released.
     """
 
     outcome: str
@@ -52,11 +53,11 @@ class Tension(NamedTuple):
     Attributes
     ----------
     time : float
-        Share of the contact in which the wall pulls.
+        Share of the duration of the contact in which the wall pulls.
     impulse : float
-        Impulse of the pull over the impulse of the push.
+        Impulse of the pull divided by the impulse of the push.
     peak : float
-        Largest pull over the largest push.
+        Largest pull divided by the largest push.
     """
 
     time: float
@@ -83,14 +84,14 @@ class _Wave(NamedTuple):
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
     def first_extrema(self):
-        """Return the places of the first maximum, 0 if it falls there, and of the next minimum."""
+        """Return s at the first maximum (0 if the function falls from s = 0) and next minimum."""
         slope = self.slope()
         turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
         rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
         return (turn / self.w, (turn + math.pi) / self.w) if rising else (0.0, turn / self.w)
 
     def first_fall(self):
-        """Return where it first falls to zero, or infinity: later minima are no deeper."""
+        """Return s at the first fall to zero, or infinity, since later minima are no deeper."""
         top, bottom = self.first_extrema()
         if self(bottom) > 0:
             return math.inf
@@ -152,8 +153,7 @@ def contact(restitution, load, rule) -> Exit:
 def tension(restitution, load) -> Tension:
     """Return time, impulse and peak of the pull of the wall under the rule `zero_penetration`.
 
-    The impulse of the wall between two instants is the impulse of the load less the change of
-    speed.
+    The impulse of the wall between two instants is the integral of G over s minus the change of u'.
 
     Parameters
     ----------

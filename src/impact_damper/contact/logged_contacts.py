@@ -1,7 +1,8 @@
-"""Contacts of simulated motions: their load, and the restitution they realise.
+"""Contacts of simulated motions: their load, and their realised restitution.
 
-They are those of two motions with contacts: the smallest settled one and the largest one of all
-that random starts reach.
+The load and the realised restitution of a contact are those of `contact_law`. Contacts are logged,
+that is recorded one by one, of two motions among those with contacts that random starts reach: the
+smallest settled motion, and the largest motion, settled or not.
 """
 
 from dataclasses import replace
@@ -16,14 +17,15 @@ from impact_damper.motions.following import follow_stable
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.packed import DASHPOT, FREQUENCY, pack
 
-# Relative errors of the restitution up to which it is close to the intended one, or fair.
+# The restitution of a contact is "close" to the intended e if its relative error is at most CLOSE,
+# and "fair" if it is at most FAIR.
 CLOSE, FAIR = 0.01, 0.05
 SIZES = ("smallest", "largest")
-# Following in the dashpot's coefficient ends to this accuracy.
+# Accuracy, in the dashpot's coefficient, at which the end of a stable orbit is located.
 RESOLUTION = 1e-6
 # Largest number of contacts that are logged.
 LARGEST_LOG = 10**5
-# An error stated for a motion is not exceeded by this share of its contacts.
+# Errors stated for a motion are this quantile over its contacts.
 MOST = 0.99
 
 
@@ -43,8 +45,9 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     Returns
     -------
     dict of numpy.ndarray
-        Over the contacts: `load`, g/(wn v0) at the beginning; `restitution`, speed of departure
-        over speed of approach; `duration` over the duration of an elastic contact.
+        Arrays with one entry for each contact. `load`: g/(wn v0) at its beginning. `restitution`:
+        speed of departure divided by speed of approach. `duration`: divided by that of an elastic
+        contact without load, pi/wn.
 
     Raises
     ------
@@ -59,7 +62,7 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     count = records.trace(p, np.array(state), begin, times, tolerance, states, log)
     if count > LARGEST_LOG:
         raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in this time")
-    # the same integration again, sampled where contacts begin
+    # the same integration again, now to store the states at which contacts begin
     times = np.append(log[:count, 1], times)
     states = np.empty((len(times), 4))
     records.trace(p, np.array(state), begin, times, tolerance, states, log)
@@ -117,9 +120,9 @@ def compare_contacts(oscillator, damper, frequency, motion, periods):
     Returns
     -------
     table : dict
-        Registered variables.
+        Values of registered variables, keyed by name.
     logged : dict or None
-        As from `logged_contacts`; None without a motion.
+        What `logged_contacts` returns; None without a motion.
     """
     if motion is None:
         return {
@@ -155,15 +158,16 @@ def compare_contacts(oscillator, damper, frequency, motion, periods):
 
 
 def _most(error, released):
-    """Return the error, in modulus, that is not exceeded by the share MOST of released contacts."""
+    """Return the quantile MOST of |error| over the released contacts."""
     return np.quantile(np.abs(error[released]), MOST)
 
 
 def without_pull(oscillator, damper, frequency, motion):
-    """Return max |Z1| of a settled motion if the walls did not pull the loose mass.
+    """Return max |Z1| of a settled motion as it would be if walls did not pull the loose mass.
 
-    The exit rule `no_tension` is represented by the restitution it realises without load; the
-    duration of contacts remains that of the rule `zero_penetration`.
+    The simulation ends contacts by the rule `zero_penetration`. The rule `no_tension` is imitated
+    by the dashpot that realises its higher restitution (without load); the orbit is followed to
+    this dashpot. The duration of contacts remains that of `zero_penetration`.
 
     Returns
     -------
@@ -171,7 +175,7 @@ def without_pull(oscillator, damper, frequency, motion):
         NaN unless found.
     status : int
         Flag of `scene_without_pull_status`: found, not_settled, not_followed if the orbit cannot be
-        followed to that restitution, or other_contacts if it has another number of contacts there.
+        followed to this dashpot, or other_contacts if it then has another number of contacts.
     """
     if not is_settled(motion):
         return np.nan, flag("scene_without_pull_status", "not_settled")

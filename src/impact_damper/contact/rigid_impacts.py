@@ -1,8 +1,10 @@
 """The rigid-impact model: free flight between rigid walls, and instantaneous impacts.
 
-An impact changes Z2' to -e Z2' and keeps the momentum Z1' + rm (Z1' - Z2'). This is the limit of
-the contact of equations (20) to (25) as r1 goes to infinity, where forces other than that of the
-contact have no time to act.
+Z1 is the displacement of the primary mass and Z2 that of the primary mass relative to the loose
+mass. An impact changes Z2' to -e Z2', with the restitution e, and keeps the momentum
+Z1' + rm (Z1' - Z2'), with the mass ratio rm. This is the limit of
+the contact of equations (20) to (25) as the contact stiffness r1 goes to infinity: an impact takes
+no time, so only the force of the contact changes velocities in it.
 """
 
 import math
@@ -17,13 +19,16 @@ from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO
 
-# Largest number of impacts in a forcing period: with e < 1 infinitely many may follow each other.
+# Impacts in a forcing period at which it is given up: with e < 1 infinitely many may follow.
 MOST_IMPACTS = 200
 
 
 @kernel
 def rebound(p, restitution, y, tangents, t):
-    """Apply an instantaneous impact to a state, and its saltation matrix to the tangents, in place.
+    """Apply an instantaneous impact in place: to a state y, and its derivative S to `tangents`.
+
+    S, the saltation matrix, maps a small change d of the state before the impact to that after it;
+    each row of `tangents` is such a d.
 
     With k = (1 + e)/(1 + 1/rm) and the acceleration a of Z1 before the impact,
 
@@ -49,38 +54,40 @@ def rebound(p, restitution, y, tangents, t):
 
 @kernel
 def rigid_map(p, restitution, y, tolerance):
-    """Integrate the rigid model over one forcing period, from W T = pi/2.
+    """Integrate the rigid model over one forcing period, from the forcing phase W T = pi/2.
 
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
-        Packed parameters (`packed.pack`) with dashpot 0; r1 has no effect.
+        Packed parameters (`packed.pack`); the dashpot must be 0, r1 has no effect.
     restitution : float
         e.
     y : array, shape (4,)
-        Z1, Z1', Z2, Z2' between the walls.
+        Z1, Z1', Z2, Z2' at the beginning, with the loose mass between the walls.
     tolerance : float
-        Local error allowed.
+        Local error allowed in a step.
 
     Returns
     -------
     state : array, shape (4,)
+        State after the period.
     matrix : array, shape (4, 4)
-        Derivative of the map.
+        Derivative of this state with respect to `y`.
     impacts : int
-        Number of impacts. If it is MOST_IMPACTS the period was not finished: the rest is void.
+        Number of impacts. If it is MOST_IMPACTS, the period was not finished, and the other return
+        values are invalid.
     speed : float
         Smallest |Z2'| at which a wall is approached, infinite without impacts.
     first : tuple of two floats
-        |Z2'| at the first impact and the acceleration of Z1 towards that wall before it, NaN
-        without impacts.
+        |Z2'| just before the first impact, and the acceleration of Z1 then, positive towards the
+        wall that is hit; NaN without impacts.
     largest : float
         Largest |Z1|.
     """
     state = y.copy()
     tangents = np.eye(4)
     work = workspace()
-    flight = np.int64(0)  # for a literal the step would be compiled once more
+    flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     t = strobe_time(p)
     end = t + 2.0 * math.pi / p[FREQUENCY]
     impacts, speed, first, largest = 0, math.inf, (math.nan, math.nan), abs(y[0])

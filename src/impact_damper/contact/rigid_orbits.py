@@ -1,10 +1,12 @@
-"""Orbits of the rigid-impact model with two impacts a forcing period, and a correction for it.
+"""Orbits of the rigid-impact model with two impacts a forcing period, without and with corrections.
 
-At finite r1 a contact takes the time tc, during which the loose mass penetrates the wall. If rigid
-walls stand further out by delta = v tc e/(1 + e), with the approach speed v, the loose mass returns
-to d0 at the time when the compliant contact ends. The load changes its speed there: `mended_walls`
-gives the restitution e' that the rigid wall needs. With both corrections the error of the orbit is
-of order 1/r1; without them of order 1/sqrt(r1).
+The corrected ("mended") rigid walls imitate a compliant contact of finite stiffness r1. Such a
+contact takes the time tc, and the loose mass must leave it at the right time with the right speed.
+Time: rigid walls further out by delta = v tc e/(1 + e), v the approach speed, make the loose mass
+return to |Z2| = d0 when the compliant contact ends. Speed: the load, that is the other forces
+during the contact, changes the speed at this end; `mended_walls` gives the restitution e' of the
+rigid wall that yields the same speed. The error of the orbit is of order 1/sqrt(r1) between plain
+rigid walls and of order 1/r1 between corrected ones.
 """
 
 from typing import NamedTuple
@@ -16,6 +18,8 @@ from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rigid_map
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE, DASHPOT, pack
 
+# Impacts a forcing period of the orbits wanted, most corrections of Newton's method, and largest
+# relative difference of the approach speeds of two symmetric impacts.
 IMPACTS = 2
 ITERATIONS = 12
 SAME_SPEED = 1e-6
@@ -59,24 +63,24 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
     guess : array, shape (4,)
         State near the orbit at W T = pi/2.
     reach : float
-        Largest distance of the orbit from the guess.
+        Largest difference of a component of the state from the guess.
 
     Returns
     -------
     orbit : RigidOrbit or None
     status : str
-        "found"; "not_followed" if Newton's method fails; "other_contacts" if the orbit has not two
-        symmetric impacts a period; "chatter" if impacts follow each other without end.
+        "found"; "not_followed" if Newton's method fails; "other_contacts" if the orbit has other
+        than two symmetric impacts a period; "chatter" if there are MOST_IMPACTS in a period.
     """
     p = pack(oscillator, damper, frequency)
     return _solve(p, damper.restitution, guess, reach)
 
 
 def _solve(p, restitution, guess, reach):
-    """`rigid_orbit` for packed parameters and a restitution."""
+    """Return what `rigid_orbit` does, for packed parameters and any restitution."""
     p = p.copy()
     p[DASHPOT] = 0.0
-    restitution = float(restitution)  # a whole number would have the map compiled again
+    restitution = float(restitution)  # for an int numba would compile the map again
     y = np.array(guess, float)
     for k in range(ITERATIONS):
         state, matrix, impacts, slowest, first, largest = rigid_map(
@@ -103,19 +107,21 @@ def _solve(p, restitution, guess, reach):
 def mended_walls(oscillator, damper, orbit):
     """Return clearance d0 + delta and restitution e' of rigid walls that replace compliant ones.
 
-    All to first order in 1/wn. In contact the damping h of Z1 acts on the relative motion as a
-    damping h rm/(1 + rm), whose ratio adds to z. The load is then
-    G = (a + h rm/(1 + rm) v)/(wn v), with the acceleration a of Z1 towards the wall before the
-    contact, and changes the restitution by -2 z (1 + e) G. With the flights over delta, before and
-    after the impact at the outer wall, under the accelerations a and a_after, the restitution
-    needed is e' = e + (both changes) + (delta/v^2) (a_after/e - e a).
+    The corrections are of first order in 1/wn, with the natural frequency wn and the damping ratio
+    z of the contact (`contact_law`), v the approach speed and a the acceleration of Z1 towards the
+    wall before the contact. Three effects change the restitution e:
+
+    - the damping h of Z1 damps the relative motion in contact by h rm/(1 + rm), which adds to z;
+    - the load of the contact, G = (a + h rm/(1 + rm) v)/(wn v), adds -2 z (1 + e) G to e;
+    - between d0 and the wall at d0 + delta the loose mass flies under the acceleration a before and
+      a_after after the impact. To undo its effect, (delta/v^2) (a_after/e - e a) is added.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     orbit : RigidOrbit
-        Of the plain rigid model.
+        Orbit between plain rigid walls, which gives v and a.
 
     Returns
     -------
@@ -135,7 +141,10 @@ def mended_walls(oscillator, damper, orbit):
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """`rigid_orbit` between `mended_walls`, from the orbit of the plain rigid model."""
+    """Return orbit and status as `rigid_orbit`, between the corrected walls of `mended_walls`.
+
+    Newton's method starts from `orbit`, the orbit between plain rigid walls.
+    """
     clearance, restitution = mended_walls(oscillator, damper, orbit)
     p = pack(oscillator, damper, frequency)
     p[CLEARANCE] = clearance

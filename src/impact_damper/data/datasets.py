@@ -13,12 +13,12 @@ from impact_damper.system.parameters import Damper, Oscillator, pick
 
 SOURCE = "impact-damper"
 
-# Largest count of numbers read at once from an open file.
+# Most numbers read at once from an open file.
 PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """Variable with the attributes registered for `name`; `dims` replaces the default ones.
+    """Variable with the attributes registered for `name`; `dims` replaces its dimensions.
 
     Raises
     ------
@@ -43,7 +43,8 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
     Parameters
     ----------
     data, coordinates : dict
-        Arrays by registered name; an entry may be a pair (dims, array).
+        Arrays keyed by registered name. A value may also be a pair (dims, array), where `dims`
+        replaces the registered dimensions.
     parameters : dict
         Parameters from which the data were computed; stored as a JSON attribute.
     title : str
@@ -81,7 +82,7 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
 
 
 def flag(name, meaning) -> int:
-    """Stored value of a meaning of a flag: `flag("outcome", "settled")` is 1."""
+    """Stored number of a named value of a variable: `flag("outcome", "settled")` is 1."""
     return VARIABLES[name].flags[meaning]
 
 
@@ -117,7 +118,7 @@ def has_damper(data) -> bool:
 def save(data, path) -> None:
     """Write a dataset to NetCDF; the file appears only when it is complete.
 
-    The attributes of `seal` are added, by which `load` detects a file that was replaced or
+    The attributes of `seal` are added, with which `load` detects that a file was replaced or
     damaged.
     """
     with whole_netcdf(path) as part:
@@ -155,7 +156,7 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} holds {data.attrs.get('id')}: {DELETE}.")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written: {DELETE}.")
-    # The seal belongs to the file: datasets derived from this one get their own when saved.
+    # The seal belongs to this file; a dataset derived from it gets another seal when it is saved.
     data.attrs = {name: value for name, value in data.attrs.items() if name not in sealed}
     return data
 
@@ -166,7 +167,7 @@ def seal(variables, path) -> dict:
     Parameters
     ----------
     variables : dict of xarray.Variable
-        By name; variables of an open file are read in pieces.
+        Keyed by name. Variables of an open file are read in pieces.
     path : str or pathlib.Path
         Path of the file.
     """

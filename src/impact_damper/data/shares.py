@@ -5,6 +5,7 @@ from scipy.stats import binomtest, chi2
 
 from impact_damper.system.bounds import LEAD
 
+# Labels of the numbers that `wilson` and `escape_rate` return.
 BOUNDS = ["share", "lower", "upper"]
 
 
@@ -19,8 +20,8 @@ def wilson(successes, total):
 def survival(lives, horizon, times):
     """Share of runs whose lifetime exceeds each of `times`, with 95 % intervals.
 
-    Lifetimes are known up to the horizon, at which all remaining runs are cut off. Without earlier
-    losses the Kaplan-Meier estimate is the binomial share.
+    Lifetimes are known up to the horizon, the time at which all remaining runs are cut off. Since
+    no run is cut off earlier, the Kaplan-Meier estimate is the binomial share.
 
     Parameters
     ----------
@@ -48,8 +49,9 @@ def survival(lives, horizon, times):
 def escape_rate(lives, horizon, lead=LEAD):
     """Rate at which runs end after the time `lead`, per unit time, with its 95 % interval.
 
-    The number of ends divided by the total time at risk, the estimate for an exponential
-    distribution; with chi-squared limits for a Poisson count.
+    The rate is the number of runs that end between `lead` and the horizon, divided by the time that
+    all runs together last between them (time at risk). This is the estimate for exponentially
+    distributed lifetimes; the interval is the chi-squared one of a Poisson count.
 
     Returns
     -------
@@ -65,12 +67,12 @@ def escape_rate(lives, horizon, lead=LEAD):
 
 
 def missed_share(data):
-    """Share of the completed runs that miss the contact; NaN if no run was completed.
+    """Share of the completed runs in which an integrator misses the contact; NaN without any.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Returned by `stages.missed_contacts.missed_contacts`; all methods or one.
+        Returned by `stages.missed_contacts.missed_contacts`, with all integrators or one.
 
     Returns
     -------

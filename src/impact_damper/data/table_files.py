@@ -6,6 +6,7 @@ import numpy as np
 
 from impact_damper.data.whole_files import whole
 
+# Significant digits of numbers.
 DIGITS = 6
 
 
@@ -19,7 +20,7 @@ def save_table(frame, csv_path, markdown_path, document=None) -> None:
     frame : pandas.DataFrame
     csv_path, markdown_path : str or pathlib.Path
     document : callable, optional
-        Maps the rounded table to Markdown; `as_markdown` by default.
+        Function from the rounded table to its Markdown text; `as_markdown` by default.
     """
     shown = frame.map(_rounded).astype(object)
     _write(csv_path, shown.to_csv(index=False, lineterminator="\n"))
@@ -27,7 +28,7 @@ def save_table(frame, csv_path, markdown_path, document=None) -> None:
 
 
 def as_markdown(frame) -> str:
-    """Markdown of a table of strings."""
+    """Return the Markdown text of a table of strings."""
 
     def escaped(value):
         return str(value).replace("|", r"\|")
@@ -42,7 +43,7 @@ def _write(path, content):
 
 
 def _rounded(value):
-    """Text of a cell."""
+    """Return the text of a table cell for its value."""
     if isinstance(value, str):
         return value
     if isinstance(value, numbers.Integral):

@@ -7,15 +7,15 @@ from pathlib import Path
 
 DELETE = "delete it and run the same command again"
 
-# An HDF5 file begins with SIGNATURE. If one of VERSIONS follows, the bytes LENGTH hold the file's
-# length.
+# A NetCDF-4 file is an HDF5 file, which begins with SIGNATURE. If one of VERSIONS follows, the
+# bytes at LENGTH state the length of the file.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)
 
 
 class BrokenFileError(OSError):
-    """A results file that is damaged or was not written by a run; the message says what to do."""
+    """A results file is damaged or was not written by this project; the message says what to do."""
 
 
 @contextmanager
@@ -27,7 +27,7 @@ def whole(path):
     Raises
     ------
     OSError
-        If the file cannot be written, with its path and the reason.
+        If the file cannot be written; the message has its path and the reason.
     """
     path = Path(path)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
@@ -48,20 +48,20 @@ def whole(path):
 
 @contextmanager
 def whole_netcdf(path):
-    """As `whole` for a NetCDF file, which is checked with `check_length` before it is renamed."""
+    """Do as `whole`, but check the NetCDF file with `check_length` before it is renamed."""
     with whole(path) as part:
         try:
             yield part
-        except RuntimeError as error:  # the NetCDF library's own
+        except RuntimeError as error:  # raised by the NetCDF library
             raise OSError(str(error)) from error
         check_length(part)
 
 
 def _reason(folder, error):
-    """Reason why a file could not be written, with what to do, as one line.
+    """Return in one line why a file could not be written, and what to do.
 
-    A trial file is written, since errors of the NetCDF library are vague, and wrong for a full
-    disk.
+    To know the reason a trial file is written, since the errors of the NetCDF library are vague,
+    and wrong for a full disk.
     """
     trial = folder / f".trial-{os.getpid()}"
     try:

@@ -1,4 +1,8 @@
-"""Error against counted work of methods on scenes (kind accuracy)."""
+"""Error against counted work, for each method on each test case (figure kind `accuracy`).
+
+A test case, called scene in the code, is one motion with its parameters, first state and length. A
+method is an integrator, or a model that solves for a periodic orbit directly.
+"""
 
 from itertools import cycle
 
@@ -20,19 +24,18 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
 
 CAPTION = """
-Error over work. Work is the number of floating-point operations, counted and not timed, with an
-elementary function as 20: from the source code for the Taylor series and for Merson's method, by
-formulas for the other methods. Points along a line are tolerances of an integrator, or numbers of
-harmonics of a balance. Integrators start from the state of the scene. Models of orbits need no
-start; of several solutions the nearest to the orbit is drawn. Kink: the method integrates through
-the kinks of the force without locating contacts. Cross: wrong number of contacts. Open markers with
-a plus at the upper edge: the run failed or exceeded the allowed evaluations. Reference: a run of an
-independent program in 80-bit arithmetic; for a chaotic motion, which is judged by averages with
-their standard errors, a longer run of the Taylor series, whose standard error is shaded. Dashed:
-the accuracy that the scene requires. The paper has no such figure.
+Error against work, the number of floating-point operations; an elementary function such as a sine
+counts as 20. For the Taylor series and for Merson's method operations are counted in the source
+code, for other methods computed by formulas. A line joins the tolerances of an integrator, or the
+numbers of harmonics of a balance. Models other than integrators solve for the orbit directly; of
+several solutions the one nearest to the exact orbit is drawn. Kink: contacts are not located.
+Cross: wrong number of contacts. Plus: the run failed, or took too many evaluations. Reference: an
+independent program in 80-bit arithmetic; for a chaotic motion, which is judged by averages, a
+longer run of the Taylor series, whose standard error is shaded. Dashed: required accuracy. The
+paper has no such figure.
 """
 
-# Models of orbits: label, colour, marker and line.
+# Models that solve for an orbit directly: label, colour, marker and line.
 ORBIT_ROLES = {
     "rigid": ("rigid impacts", GREY, "s", "none"),
     "rigid_mended": ("rigid, mended", GREY, "D", "none"),
@@ -60,7 +63,7 @@ FINEST = 1e-16
 
 @style()
 def draw_accuracy(*, accuracy):
-    """Draw error over counted work, one panel for each scene, methods by colour and marker.
+    """Draw error against counted work: a panel for each test case, a colour and marker per method.
 
     Parameters
     ----------
@@ -86,7 +89,7 @@ def draw_accuracy(*, accuracy):
 
 
 def _panel(axes, data):
-    """Draw one scene."""
+    """Draw the panel of one test case."""
     made = parameters_of(data)
     quantity, allowed = made["accuracy"]["quantity"], made["accuracy"]["within"]
     chaotic = made["motion"] == "chaotic"
@@ -123,7 +126,7 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Return errors and standard errors of a chaotic scene, and shade those of its reference."""
+    """Return errors and standard errors on a chaotic test case; shade the reference's error."""
     truth = float(data["reference_average"].sel(statistic=quantity))
     average = data["average"].sel(statistic=quantity).values
     doubt = float(data["reference_average_error"].sel(statistic=quantity)) / truth

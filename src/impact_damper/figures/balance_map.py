@@ -1,4 +1,4 @@
-"""Maps of the agreement between harmonic balance and the exact motions (kind balance_map)."""
+"""Maps of where harmonic balance agrees with the exact motions (figure kind `balance_map`)."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -25,17 +25,18 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-(a) The quiet motion. Balance: the solution of (7) with the smallest amplitude, below half of the
-free resonance, with its stability by the slow flow (17). Orbit: the exact periodic orbit with two
-symmetric contacts, stable or unstable by its Floquet multipliers, continued from motions that
-settled. Beyond the solid line the orbit does not exist: it ends there in a fold. Dots: a start at
-the solution of (7) leads to chaos, small or violent, even if a stable orbit exists. (b) The high
-motion. Balance: the stable solution of (7) with the largest amplitude above this half. Then the
-motion that a start at this solution leads to, or without such a solution a start on the free
-resonance branch. Chaotic: the largest Lyapunov exponent exceeds zero by four standard errors after
-the configured number of periods; the motion may be a long transient. Near: within 20 per cent of
-the amplitude of (7). Free resonance: the upper branch of the free response. Harmonic balance
-assumes elastic contact, so its verdict does not depend on e. The paper has no such figure.
+(a) The quiet motion. Balance: the solution of (7) with the smallest amplitude, if below half that
+of the free resonance, with its stability by the slow flow (17). Orbit: the exact periodic orbit
+with two symmetric contacts, stable or unstable by its Floquet multipliers, continued from motions
+that settled. Beyond the solid line the orbit does not exist: it ends there in a fold. Dots: a start
+at the solution of (7) leads to chaos, small or violent, even if a stable orbit exists. (b) The high
+motion. Balance: the stable solution of (7) with the largest amplitude, if above that half. After
+the comma in the legend: the motion to which a start at this solution leads or, without such a
+solution, a start on the free resonance branch. Chaotic: the largest Lyapunov exponent exceeds zero
+by four standard errors after the configured number of periods; the motion may be a long transient.
+Near: within 20 per cent of the amplitude of (7). Free resonance: the upper branch of the free
+response. Harmonic balance assumes elastic contact, so its verdict does not depend on e. The paper
+has no such figure.
 """
 
 PARAMETERS = {

@@ -20,8 +20,8 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Largest displacement over the forcing frequency of the exact periodic orbits on every branch on
-which a settled motion was found, by pseudo-arclength continuation. Solid: stable, all Floquet
+Largest displacement against forcing frequency of the exact periodic orbits, by pseudo-arclength
+continuation of every branch on which a settled motion was found. Solid: stable, all Floquet
 multipliers below 1 in modulus. Dotted: unstable. Grey and black: without the damper. Markers:
 bifurcations and changes of contact, located to at least eight digits. A branch ends at the limits
 of the frequency range or where it meets a branch of higher symmetry. Crosses: the branch continues,
@@ -58,7 +58,7 @@ PERIODS = [
 
 @style()
 def draw_branches(*, branches):
-    """Draw the largest displacement of the orbits over frequency, one panel for each damper.
+    """Draw the largest displacement of the orbits against frequency, one panel for each damper.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def draw_branches(*, branches):
 
 
 def runs(data, chosen):
-    """Yield the parts of branches with uniform stability.
+    """Yield each part of a branch on which all orbits are stable, or all unstable.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def runs(data, chosen):
 
 
 def runs_of(branches, number, value, size, stability):
-    """Yield what `runs` does, of some branches.
+    """Yield the same as `runs`, for the given branches and from arrays in place of a dataset.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def runs_of(branches, number, value, size, stability):
 
 
 def draw_free_orbits(axes, data):
-    """Draw the free orbits in roles by period (1, 3, others) and stability."""
+    """Draw orbits without a damper; period (1, 3, others) and stability set colour and line."""
     for role, unstable, chosen in (
         ("free_stable", "free_unstable", lambda period: period == 1),
         ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),

@@ -1,4 +1,7 @@
-"""Maps of the contact model, with the contacts of simulated motions (kind contact_model)."""
+"""Accuracy of the contact model against restitution and load (figure kind `contact_model`).
+
+The load on a contact is the acceleration by all other forces; CAPTION defines it.
+"""
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
@@ -19,15 +22,15 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Each cell is one contact in closed form, valid for any mass ratio and stiffness. The restitution e
-sets the dashpot by (25). The load g is the acceleration of the primary mass towards the wall by all
-other forces, taken as constant, divided by the natural frequency of the contact and the approach
-speed v0; a positive load presses the masses together. Left: contact ends at zero penetration, as in
-appendix B. Right: contact ends at zero force, since a wall cannot pull. (a, b) Relative error of
-the realised restitution; zero on the left without load. (c, d) Time in contact over the time for e
-= 1. Hatched: the contact does not end. Markers in (a): contacts of simulated motions with the
-paper's rule, from the smallest settled and the largest motion that random starts reach at each
-frequency. The paper only states that the model fails at low e.
+Each cell is one contact in closed form, valid for any mass ratio and stiffness. The intended
+restitution e sets the dashpot by (25). The load g is the acceleration of the primary mass towards
+the wall by all forces but that of the contact, taken as constant; a positive g presses the masses
+together. The vertical axis divides g by the natural frequency of the contact and the approach
+speed. Left: contact ends at zero penetration, as in appendix B. Right: it ends at zero force, since
+a wall cannot pull. (a, b) Relative error of the realised restitution. (c, d) Time in contact
+divided by the time for e = 1 and g = 0. Hatched: the contact does not end. Markers in (a): contacts
+of motions simulated with the paper's rule, the smallest settled and the largest that random starts
+reach at each frequency. The paper only states that the model fails at low e.
 """
 
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}

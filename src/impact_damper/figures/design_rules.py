@@ -1,4 +1,4 @@
-"""Rules for the clearance and optima of the exact motion (kind design_rules)."""
+"""Optimum clearances of the exact motion, and rules for them (figure kind `design_rules`)."""
 
 import numpy as np
 
@@ -19,13 +19,13 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Left: clearance with the smallest largest displacement. Right: clearance with the smallest first
+Left: clearance that minimises the largest displacement. Right: clearance that minimises the first
 harmonic of the displacement. Points: optima of the exact quiet motion, by Newton's method on its
 orbit; a cross marks an optimum at which the motion is unstable and therefore not observed. Lines:
 theory of straight flights between the walls, corrected for contact time, restitution, damping and
 linear stiffness. Last row: for each rule the share of all optima, stable or unstable, that the rule
 predicts within a given error; the explicit formula applies to elastic contact only. The paper has
-rule (18) alone.
+only rule (18).
 """
 
 SWEPT = {
@@ -55,7 +55,7 @@ LOOKS = {
 
 @style()
 def draw_design_rules(*, design_rules):
-    """Draw optima and rules over each swept parameter, and the distribution of all errors.
+    """Draw optima and rules against each swept parameter, and the distribution of all errors.
 
     Parameters
     ----------
@@ -85,12 +85,12 @@ def draw_design_rules(*, design_rules):
 
 
 def swept(data):
-    """Names of the parameters, beside the mass ratio, with more than one value."""
+    """Return the names of the parameters, except the mass ratio, that have several values."""
     return [name for name in SWEPT if data.sizes[name] > 1]
 
 
 def draw_sweep(axes, data, name):
-    """Draw the optima over one parameter for each mass ratio, and the rules as lines."""
+    """Draw optima (points) and rules (lines) against one parameter, for each mass ratio."""
     data = data.squeeze([other for other in SWEPT if other != name], drop=True)
     unstable = data["best_stability"] == flag("best_stability", "unstable")
     for index, mass_ratio in enumerate(data["mass_ratio"].values):
@@ -124,7 +124,7 @@ def draw_sweep(axes, data, name):
 
 
 def draw_errors(axes, datasets):
-    """Draw the share of the optima that each rule predicts within an error."""
+    """Draw, against the error, the share of the optima that each rule predicts within it."""
     for rule, words in RULES.items():
         errors = np.concatenate(
             [

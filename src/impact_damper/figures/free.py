@@ -1,19 +1,19 @@
-"""Response of the oscillator without a damper: figure 2 (kind free)."""
+"""Response of the oscillator without a damper: figure 2 (figure kind `free`)."""
 
 from impact_damper.figures.branches import draw_free_orbits
 from impact_damper.figures.style import axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement of the periodic orbits without a damper over the forcing frequency: exact
+Largest displacement of the periodic orbits without a damper against forcing frequency: exact
 orbits, continued along their branches. Solid: stable. Dashed: unstable. Triangles: period of three
-forcing periods. Strokes: other periods. Every branch on which a settled motion was found is drawn
-to its ends.
+forcing periods. Short vertical lines: other periods. Every branch on which a settled motion was
+found is drawn to its ends.
 """
 
 
 @style()
 def draw_free(*, branches):
-    """Draw the largest displacement of the free orbits over frequency, one panel an oscillator.
+    """Draw the largest displacement of orbits without a damper, one panel for each oscillator.
 
     Parameters
     ----------

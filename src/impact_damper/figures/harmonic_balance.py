@@ -1,4 +1,7 @@
-"""Responses by harmonic balance with and without a damper: figure 3 (kind harmonic_balance)."""
+"""Responses by harmonic balance, with and without a damper: figure 3.
+
+Figure kind `harmonic_balance`.
+"""
 
 import numpy as np
 
@@ -7,18 +10,18 @@ from impact_damper.figures.motion_lines import draw_lines, lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 CAPTION = """
-Amplitude by harmonic balance over the forcing frequency, one panel for each clearance. Thick:
-stable solutions of equations (7) with contact. Thin: response without the damper, stable (solid)
-and unstable (dashed). Shaded: the suppression band. The paper does not define the band; it is taken
-as the frequencies around the peak at which (7) has a single stable solution, with an amplitude
-below the free resonance motion. Its upper end is the end of the free resonance branch. Motions with
-the loose mass at rest are left out, as in the paper.
+Amplitude by harmonic balance against forcing frequency, one panel for each clearance. Thick: stable
+solutions of equations (7) with contact. Thin: response without the damper, stable (solid) and
+unstable (dashed). Shaded: the suppression band. The paper does not define the band; it is taken as
+the frequencies around the peak at which (7) has a single stable solution, with an amplitude below
+the free resonance motion. Its upper end is the end of the free resonance branch. Motions with the
+loose mass at rest are left out, as in the paper.
 """
 
 
 @style()
 def draw_harmonic_balance(*, harmonic_balance):
-    """Draw the amplitude by harmonic balance over frequency, one panel for each damper.
+    """Draw the amplitude by harmonic balance against frequency, one panel for each damper.
 
     Parameters
     ----------
@@ -56,7 +59,7 @@ def draw_balance(axes, balance):
 
 
 def draw_amplitudes(axes, balance, name, chosen, role):
-    """Draw |a| of the chosen solutions of harmonic balance in a role."""
+    """Draw |a| of the chosen solutions; `role` has the keywords of `plot`, as in `style.ROLES`."""
     group = np.where(chosen, 0, -1)
     joined = lines(balance["frequency"].values, balance[name].values, group)
     draw_lines(axes, [(at, abs(values)) for _, at, values in joined], role)

@@ -1,4 +1,8 @@
-"""Errors of harmonic balance and Hill's method over the number of harmonics."""
+"""Errors of harmonic balance and of Hill's method against the number of harmonics.
+
+Figure kind `harmonic_convergence`. A cold start begins Newton's method from the single-term
+solution instead of the solution with fewer harmonics.
+"""
 
 import numpy as np
 
@@ -20,14 +24,15 @@ CAPTION = r"""
 Errors of harmonic balance with the harmonics 1, 3, ... N against the exact orbit, whose state
 returns after a period to 1e-11 or better: (a) largest displacement; (b) root mean square of the
 retained harmonics, both relative to max \|Z1\|; (c) largest error of a Floquet multiplier by Hill's
-method. Each solution is started from the solution with fewer harmonics. (d) Result of Newton's
-method, at most 40 steps, if it is started from the single-term solution instead; colours as in the
-other panels. Dashed grey: predicted decrease of the errors, drawn three times too high. It follows
-from the smoothness of the force: N^-4 in (a), N^-5 in (b) and N^-4 in (c) for elastic contact, a
-kink; N^-3 with a dashpot, a jump; without contact exp(-s W N) in (a) and (b) and exp(-2 s W N) in
-(c), where s is the distance of the nearest singularity of the motion in complex time from the real
-axis. The powers hold from the harmonic whose period is one contact, with a dashpot at least from
-r1/(c W); fewer harmonics do not resolve a contact.
+method. Newton's method for each solution starts from the solution with fewer harmonics. (d) Result
+of Newton's method, at most 40 steps, started from the single-term solution instead (cold start).
+Dashed grey: predicted decrease of the errors, drawn three times too high. It follows from the
+smoothness of the force: N^-4 in (a), N^-5 in (b) and N^-4 in (c) for elastic contact, a kink; N^-3
+with a dashpot, a jump; without contact exp(-s W N) in (a) and (b) and exp(-2 s W N) in (c), where s
+is the distance of the nearest singularity of the motion in complex time from the real axis and W
+the forcing frequency. The powers hold from the harmonic whose period is one contact, with a dashpot
+of coefficient c at least from r1/(c W) with the contact stiffness r1; fewer harmonics do not
+resolve a contact.
 """
 
 PANELS = {
@@ -88,7 +93,7 @@ def draw_errors(axes, harmonics, measure):
 
 
 def guide(data, at):
-    """Line of the predicted decay, three times above the geometric mean of the fitted errors."""
+    """Return the line of the predicted decay, three times the geometric mean of the errors."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -114,7 +119,7 @@ def draw_cold(axes, harmonics):
 
 
 def title(data, short=False):
-    """Parameters of a motion: its damper, or "free" without one."""
+    """Return the parameters of a motion as text: its damper, or "free" without one."""
     parameters = parameters_of(data)
     if not has_damper(data):
         return "free" if short else f"free, {parameter_label(parameters, 'frequency')}"

@@ -1,4 +1,4 @@
-"""Machines in SI units: displacement over frequency and over the gap (kind machines)."""
+"""Machines in SI units: displacement against frequency and gap (figure kind `machines`)."""
 
 import numpy as np
 
@@ -16,13 +16,14 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-One row for each machine, (a), (b) and so on in the order named. On the left the largest
-displacement over the forcing frequency, without and with the damper: lines are exact periodic
-orbits, points motions found from starts as wide as the machine and by following them over
-frequency. On the right the same over the gap, the full play of the loose mass, at one frequency:
-the quiet motion, the largest motion that any start leads to, and the share of random starts that
-end quiet (dotted, right scale). The star is the smallest quiet motion; few starts may lead there.
-Motions that escape over the barrier of a softening spring have no size and are not drawn.
+One row for each machine, (a), (b) and so on in the order named. Left: largest displacement against
+forcing frequency, without and with the damper. Lines are exact periodic orbits. Points are motions
+to which starts lead, or which are followed from the neighbouring frequency; the starts are scaled
+by the motions without the damper. Right: largest displacement against the gap, the full play of the
+loose mass, at one frequency: the quiet motion, the largest motion that any start leads to, and the
+share of random starts that lead to the quiet motion (dotted, right scale). Star: the smallest quiet
+motion, to which few starts may lead. Motions that escape over the barrier of a softening spring
+have no size and are not drawn.
 """
 
 BARE = {"stable": ROLES["free_stable"], "unstable": ROLES["free_unstable"]}
@@ -38,7 +39,7 @@ SHARE = {"linestyle": ":", "linewidth": 0.9, "color": "black", "label": "share o
 
 @style()
 def draw_machines(*, machines):
-    """Draw the responses of machines over frequency, and over the gap of their dampers.
+    """Draw displacements of machines against frequency, and against the gap of their dampers.
 
     Parameters
     ----------
@@ -60,7 +61,7 @@ def draw_machines(*, machines):
 
 
 def draw_response(axes, data):
-    """Draw displacements over the forcing frequency, without and with the damper."""
+    """Draw displacements against forcing frequency, without and with the damper."""
     names = ("bare_branch", "bare_frequency", "bare_displacement", "bare_stability")
     number, *rest = (data[name].values for name in names)
     for value, size, stable in runs_of(np.unique(number), number, *rest):
@@ -78,7 +79,7 @@ def draw_response(axes, data):
 
 
 def draw_gaps(axes, data):
-    """Draw the quiet and the largest displacement and the share of quiet starts over the gap."""
+    """Draw quiet and largest displacement, and the share of quiet starts, against the gap."""
     gap, largest = data["gap"].values, data["largest_displacement"].values
     axes.plot(gap, np.where(np.isfinite(largest), largest, np.nan), **LARGEST)
     axes.plot(gap, data["quiet_displacement"], **QUIET)

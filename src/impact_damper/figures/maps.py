@@ -1,4 +1,4 @@
-"""Shared by maps: cells coloured by value or flag, hatching, contour lines, legend entries."""
+"""Parts that all maps use: coloured or hatched cells, contour lines, legend entries."""
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -28,7 +28,7 @@ def marked(axes, x, y, where, colour):
 
 
 def span(centres):
-    """Outer edges of the first and the last cell of a uniform grid of cell centres."""
+    """Return the outer edges of the first and last cell, from evenly spaced cell centres."""
     return centres[0] - np.diff(centres)[0] / 2, centres[-1] + np.diff(centres)[-1] / 2
 
 
@@ -61,7 +61,7 @@ def key(axes, label, colour, hatch=None):
 
 
 def edges(values):
-    """Cell edges of a logarithmic grid of cell centres; a single cell is one decade wide."""
+    """Return cell edges from logarithmically spaced centres; a single cell is a decade wide."""
     logarithms = np.log(values)
     if len(logarithms) == 1:
         return np.exp(logarithms[0] + np.log(10) * np.array([-0.5, 0.5]))
@@ -71,7 +71,7 @@ def edges(values):
 
 
 def flags(axes, x, y, values, meanings, roles):
-    """Draw cells with a flag in the colours of its meanings, with legend entries.
+    """Draw cells coloured by a flag, an integer that codes a meaning, and add legend entries.
 
     Parameters
     ----------
@@ -81,9 +81,9 @@ def flags(axes, x, y, values, meanings, roles):
     values : array, shape (len(y) - 1, len(x) - 1)
         Values of the flag.
     meanings : dict of int
-        Value of each meaning of the flag.
+        Value of the flag, keyed by its meaning.
     roles : dict
-        Colour and legend text of each meaning.
+        Colour and legend text, keyed by meaning.
     """
     shown = sorted(meanings, key=meanings.get)
     bounds = np.append([meanings[name] for name in shown], meanings[shown[-1]] + 1) - 0.5

@@ -1,4 +1,7 @@
-"""Verdicts of integrators by tolerance (kind method_verdicts)."""
+"""Which integrators find the right motion at which tolerance (figure kind `method_verdicts`).
+
+Each verdict is on one test case, called scene in the code: a start near a periodic orbit.
+"""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -23,14 +26,13 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 
 CAPTION = """
-Each cell is a run from a start near a periodic orbit. Whether this orbit exists and is stable is
-known exactly from its Floquet multipliers; the table of verdicts lists the scenes. All methods are
-judged by the same rule, from the states once a forcing period: the motion has settled if the last
-six states repeat within 0.001 with a period of at most six, and it is on an orbit if Z1 and Z1'
-agree within 0.005. Wrong period or branch: the motion settles, but not on the orbit on which the
-exact motion settles. SciPy's methods take a hundred times as long and are run in some scenes at few
-tolerances; white cells were not run. Fixed steps, and methods marked kink, integrate through the
-kink of the force without locating contacts. The paper has no such figure.
+Each cell is a run from a start near a periodic orbit, whose existence and stability are known from
+its Floquet multipliers; the table of verdicts lists the test cases. One rule judges all methods,
+from Z1 and Z1' once per forcing period. A motion has settled with period n, at most 6, if each of
+the last six states is within 0.001 of that n periods earlier. It is on an orbit of this period if a
+state is within 0.005 of it. Wrong period or branch: the motion settles, but not on the exact
+motion's orbit. White: not run; SciPy's methods are a hundred times slower. Fixed steps, and methods
+marked kink, do not locate contacts. The paper has no such figure.
 """
 
 ROLES = {
@@ -46,7 +48,7 @@ ROLES = {
 
 @style()
 def draw_method_verdicts(*, method_verdicts):
-    """Draw the verdicts over tolerance or steps and scene, one panel for each method.
+    """Draw the verdict on each test case against tolerance or steps, one panel for each method.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Migration control: a run over time: figures 13, 15 and 16 (kind migration)."""
+"""A run of migration control against time: figures 13, 15 and 16 (figure kind `migration`)."""
 
 import numpy as np
 
@@ -14,9 +14,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Displacement of the primary mass over time, (a) in a whole run and (b) around its last release. The
-damper is on where the background is shaded. The run drawn is the first one that arrives on the
-non-resonance branch with the median number of switchings, or the first of all runs if none arrives.
+Displacement of the primary mass against time, (a) in a whole run and (b) around its last release,
+when the damper is switched off. The damper is on where the background is shaded. The run drawn is
+the first one that arrives on the non-resonance branch with the median number of switchings, or the
+first of all runs if none arrives.
 """
 
 AROUND = -15, 25  # forcing periods drawn before and after the last release
@@ -53,7 +54,7 @@ def draw_migration(*, migration):
 
 
 def draw_run(axes, run, span, width):
-    """Draw a run of the controller over a span of time, with its switchings."""
+    """Draw a run of the controller within a span of time, with its switchings."""
     axes.plot(run["time"], run["displacement"], color=BLACK, linewidth=width)
     on, off = (run[name].values[np.isfinite(run[name])] for name in ("on_time", "off_time"))
     for begin, end in zip(on, off, strict=True):

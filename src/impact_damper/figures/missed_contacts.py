@@ -1,4 +1,4 @@
-"""Contacts near grazing that integrators miss (kind missed_contacts)."""
+"""Share of contacts near grazing that integrators miss (figure kind `missed_contacts`)."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -18,16 +18,17 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
-Random free flights of one forcing period whose largest abs(Z2) is known. With the wall nearer than
-this value by the depth, a contact takes place. Shading: share of the flights in which a method does
-not notice the contact, because no step ends beyond the wall; neither SciPy's events nor integration
-through the kink look between steps. Solid line: median error of the largest abs(Z2) in the motion
-that the method computes; at smaller depths this motion may miss the wall because of its error, at
-larger depths (up to the edge of the shading) it passes the wall between two steps. Dashed line:
-depth at which half of the contacts would be missed if the steps were equal and their phase random.
-Dots: with the wall farther away by the depth, where no contact takes place, the method reports one
-in some flight. Failed runs are excluded; crosses mark where there are any. The method of the paper
-is Runge-Kutta-Merson. The paper has no such figure.
+Random free flights of one forcing period whose largest abs(Z2) is known; Z2 is the displacement of
+the primary mass relative to the loose mass. A wall nearer than this value by the depth (horizontal
+axis) is touched. Shading: share of the flights in which a method does not notice the contact,
+because no step ends beyond the wall; neither SciPy's events nor integration through the kink look
+between steps. Solid line: median error of the largest abs(Z2) in the motion that the method
+computes; at smaller depths this motion may miss the wall because of its error, at larger depths (up
+to the edge of the shading) it passes the wall between two steps. Dashed line: depth at which half
+of the contacts would be missed if the steps were equal and their phase random. Dots: with the wall
+farther away by the depth, so that it is not touched, the method reports a contact in some flight.
+Crosses: some runs failed; these are excluded. The method of the paper is Runge-Kutta-Merson. The
+paper has no such figure.
 """
 
 COLUMNS = 4

@@ -1,4 +1,4 @@
-"""Phase plots of steady motions: figure 4 (kind motion)."""
+"""Phase plots of steady motions: figure 4 (figure kind `motion`)."""
 
 import numpy as np
 
@@ -14,9 +14,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Velocity over displacement of the primary mass during one period of the motion. Thick: contact with
-a wall. A contact is short: it reverses the velocity at nearly constant displacement, so that the
-motion differs strongly from the single harmonic of equations (7).
+Velocity against displacement of the primary mass during one period of the motion. Thick: contact
+with a wall. A contact is short: it reverses the velocity at nearly constant displacement, so that
+the motion differs strongly from the single harmonic of equations (7).
 """
 
 WALLS = {
@@ -27,7 +27,7 @@ WALLS = {
 
 @style()
 def draw_motion(*, motion):
-    """Draw velocity over displacement of the primary mass with its contacts, one panel a motion.
+    """Draw velocity against displacement and mark the contacts, one panel for each motion.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def draw_motion(*, motion):
 
 
 def in_contact(traced, wall):
-    """Mask of the times of contact with a wall; a contact without an end lasts to the last time."""
+    """Return which times lie in a contact with a wall; one without an end lasts to the last."""
     time = traced["time"].values[:, None]
     chosen = traced["contact_wall"].values == wall
     begin = traced["contact_begin"].values[chosen]

@@ -1,14 +1,14 @@
 """Lines that join the motions of a response which belong to one branch.
 
-In the datasets the order of the motions at one frequency has no relation to their order at the
-next.
+Joining is needed because the datasets list the motions at each frequency by size, so that a motion
+may stand at another place at the next frequency.
 """
 
 import numpy as np
 
 
 def lines(x, y, group):
-    """Join the entries of a table to lines, from row to row within each group.
+    """Join the entries of a table into lines, from row to row within each group.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def lines(x, y, group):
 
 
 def branch_lines(response, chosen):
-    """Lines through the chosen motions of a response, extended to the ends of their branches.
+    """Return lines through chosen motions of a response, extended to the ends of their branches.
 
     A branch whose period changes gives one line for each period.
 
@@ -88,6 +88,6 @@ def branch_lines(response, chosen):
 
 
 def draw_lines(axes, lines, role):
-    """Draw lines, pairs of abscissae and ordinates, in one role."""
+    """Draw lines, pairs of abscissae and ordinates; `role` has the keywords of `plot`."""
     for at, values in lines:
         axes.plot(at, values, **role)

@@ -1,4 +1,7 @@
-"""Largest displacement over clearance, with the optimum: figures 6, 7 and 11 (kind optimum)."""
+"""Largest displacement against clearance, with the optimum: figures 6, 7 and 11.
+
+Figure kind `optimum`.
+"""
 
 import numpy as np
 
@@ -15,8 +18,8 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Points: largest displacement over clearance of the quiet motion, which has period 1 and two
-symmetric contacts. Lines: for elastic contact the amplitude of the first harmonic by equations (7),
+Points: largest displacement of the quiet motion, which has period 1 and two symmetric contacts,
+against clearance. Lines: for elastic contact the amplitude of the first harmonic by equations (7),
 for inelastic contact a guide to the eye. Stars: smallest displacement, computed on the exact orbit.
 Bars: clearances at which the displacement is at most 10 per cent larger. Harmonic balance predicts
 an amplitude of zero where the exact motion keeps its higher harmonics, so the two optima differ. A
@@ -30,7 +33,7 @@ VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
 @style()
 def draw_optimum(*, optimum):
-    """Draw the largest displacement of the quiet motion over clearance, all sweeps in one plot.
+    """Draw the largest displacement of the quiet motion against clearance, all sweeps in one plot.
 
     Parameters
     ----------
@@ -63,7 +66,7 @@ def draw_optimum(*, optimum):
 
 
 def line_of(sweep, elastic):
-    """Clearances and |a| by (7) for elastic contact, else max |Z1|, with the optimum inserted."""
+    """Return clearances with |a| by (7), or max |Z1| if inelastic; the optimum is inserted."""
     if elastic:
         names, least = ("analytical_amplitude", "analytical_optimum"), 0
     else:
@@ -75,7 +78,7 @@ def line_of(sweep, elastic):
 
 
 def titles(sweeps):
-    """Legend texts of sweeps: the mass ratio, and all parameters that differ between sweeps."""
+    """Return legend texts: the mass ratio, and all parameters that differ between sweeps."""
     parameters = [parameters_of(sweep) for sweep in sweeps]
     names = [
         name

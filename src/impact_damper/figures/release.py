@@ -1,4 +1,7 @@
-"""States at which the damper is switched off, by destination: figure 14 (kind release)."""
+"""States at which the damper is switched off (releases), by destination: figure 14.
+
+Figure kind `release`. The destination is the motion on which the free oscillator then settles.
+"""
 
 from impact_damper.data.datasets import flag
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
@@ -8,7 +11,7 @@ States of the primary mass at which the damper is switched off, marked by the mo
 free oscillator then settles: first the releases before the motion with the damper has settled, then
 the releases from each settled motion, evenly spaced over its period. The paper draws one motion
 with releases to the subharmonic and to the non-resonance motion. Where the free oscillator has no
-one-third subharmonic (see its table), no release can lead to it.
+one-third subharmonic (see table `subharmonic`), no release can lead to it.
 """
 
 # Role of each destination, and title of the panel of each damped motion.

@@ -1,4 +1,4 @@
-"""Frequency responses with and without a damper: figures 5, 8 and 10 (kind response)."""
+"""Frequency responses with and without a damper: figures 5, 8, 10 (figure kind `response`)."""
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.figures.branches import draw_free_orbits, runs
@@ -7,8 +7,8 @@ from impact_damper.figures.motion_lines import branch_lines, draw_lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 CAPTION = """
-Largest displacement over the forcing frequency of all motions that were found, from random starts
-and by continuing each motion to the neighbouring frequencies. Lines join the settled motions of a
+Largest displacement against forcing frequency of all motions that were found, from random starts
+and by following each motion to the neighbouring frequencies. Lines join the settled motions of a
 branch and extend to its ends. The motions without damper and the dotted unstable ones with damper
 are exact periodic orbits. A chaotic motion is a point at the largest displacement observed. A
 motion without contact is one of the free oscillator. A motion with damper is called subharmonic if
@@ -24,7 +24,7 @@ STATUSES = ("chaotic", "non_colliding", "unresolved")
 
 @style()
 def draw_response(*, response, harmonic_balance, subharmonic, branches):
-    """Draw the largest displacement over frequency, all dampers of one oscillator in one plot.
+    """Draw the largest displacement against frequency, all dampers of an oscillator in one plot.
 
     Parameters
     ----------
@@ -91,12 +91,12 @@ def draw_unstable_orbits(axes, orbits):
 
 
 def prefix_of(data):
-    """Prefix of the names of the roles: "inelastic_" for a damper with restitution below 1."""
+    """Return the prefix of names in `style.ROLES`: "inelastic_" for restitution below 1, or ""."""
     return "inelastic_" if parameters_of(data)["restitution"] < 1 else ""
 
 
 def draw_settled(axes, motions, roles, prefix=""):
-    """Draw the settled motions with contacts; a period that is a multiple of 3 is subharmonic."""
+    """Draw settled motions with contacts; those whose period is a multiple of 3 as subharmonic."""
     period = motions["period"].values
     colliding = is_settled(motions) & (motions["contacts"].values > 0)
     chosen = {

@@ -1,4 +1,4 @@
-"""Errors of rigid impacts over contact stiffness and frequency (kind rigid_limit)."""
+"""Errors of rigid impacts against contact stiffness and frequency (figure kind `rigid_limit`)."""
 
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -21,17 +21,17 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-The quiet motion (period 1, two symmetric contacts, stable or unstable) with compliant contact, in
-each cell, and with instantaneous impacts, at each frequency; computed by Newton's method and
-continued from the W above. Upper row: relative error of the largest displacement with instantaneous
+The quiet motion (period 1, two symmetric contacts, stable or unstable), computed by Newton's method
+with compliant contact in each cell, and with instantaneous impacts at each frequency W; continued
+from the W stated above. Upper row: relative error of the largest displacement with instantaneous
 impacts. Lower row: error of the modulus of the dominant Floquet multiplier, that is of the decay in
 one period; small in wide areas, where the multipliers are complex pairs whose modulus hardly
 depends on r1. Dots: both motions are unstable. Hatched: one of the motions was not reached from the
-neighbouring cell, in steps down to 1/32 of their distance. Last panel: errors at the W above. The
-mended rigid model moves the walls outwards by v tc e/(1 + e), with the approach speed v and the
-time in contact tc, and corrects the restitution to the same order. Its error decreases as 1/r1, the
-error of the plain model as r1^(-1/2); both decrease as r1^(-1/2) where the displacement is largest
-during a contact. The paper uses rigid walls for (13) and (14) only.
+neighbouring cell, in steps down to 1/32 of their distance. Last panel: errors at the W stated
+above. The corrected rigid model (mended) moves the walls outwards by v tc e/(1 + e), with the
+approach speed v and the time in contact tc, and corrects the restitution to the same order. Its
+error decreases as 1/r1, the error of the plain model as r1^(-1/2); both decrease as r1^(-1/2) where
+the displacement is largest during a contact. The paper uses rigid walls for (13) and (14) only.
 """
 
 SMALLEST = 1e-4  # lower end of the colour scale
@@ -41,7 +41,7 @@ OWN = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (6, 3))}
 
 @style()
 def draw_rigid_limit(*, rigid_limit):
-    """Draw maps of the errors of max |Z1| and of decay for each damper, and their order in r1.
+    """Draw maps of the errors of max |Z1| and of the decay, and the order of the former in r1.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def draw_map(axes, data, values, norm):
 
 
 def draw_orders(axes, rigid_limit):
-    """Draw the errors of max |Z1| over stiffness at the design frequency, with guiding slopes."""
+    """Draw errors of max |Z1| against stiffness at the design frequency, with guiding slopes."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, line = data["stiffness"], curve(index)
@@ -130,5 +130,5 @@ def draw_orders(axes, rigid_limit):
 
 
 def title(data):
-    """Parameters of a damper."""
+    """Return the parameters of a damper as text."""
     return parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")

@@ -135,7 +135,7 @@ def approach(axes, start, centre, radius, level, color, rate, **keywords):
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Draw a switching between two states at one place of both planes, dashed where hidden."""
+    """Draw a switching of the damper: a vertical line between the planes, dashed where hidden."""
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
@@ -161,7 +161,7 @@ def triad(axes, x, y):
 
 
 def planes(axes, off, on):
-    """Draw the plane of states without the damper, two basins, and the plane with damper, one."""
+    """Draw the planes of states without the damper, with two basins, and with it, with one."""
     right = 5.3
     v = np.linspace(0, 2, 100)
     border = 2.5 + 0.22 * np.sin(2.6 * v)

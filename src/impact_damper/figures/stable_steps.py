@@ -1,4 +1,7 @@
-"""The quiet motion by fixed-step methods, over stiffness and step (kind stable_steps)."""
+"""Accuracy of the quiet motion by fixed-step methods, against stiffness and step.
+
+Figure kind `stable_steps`.
+"""
 
 import math
 
@@ -26,12 +29,12 @@ from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
 Each cell is a run that starts on the exact quiet orbit for this stiffness and integrates through
-the kinks with equal steps, an integer number of them in a forcing period. omega_c is the natural
-frequency of an undamped contact; a contact lasts half a natural period. Colour: largest deviation
-of max abs(Z1) from the exact value in any period. Solid lines: largest step such that this and all
-smaller steps tested, at least four, keep the accuracy. Dashed: linear stability limit of the
-method. Dotted: equal numbers of steps a period. White: more steps than allowed, not run. The paper
-used one stiffness, 2000, and has no such figure.
+the kinks of the force with equal steps, an integer number of them per forcing period. omega_c is
+the natural frequency of an undamped contact, which lasts half a natural period. Colour: largest
+deviation of max abs(Z1) from the exact value in any period. Solid lines: largest step such that
+this and all smaller steps tested, at least four, keep the accuracy. Dashed: linear stability limit
+of the method. Dotted: a constant number of steps per period. White: not run, since more steps than
+allowed. The paper used one stiffness, 2000, and has no such figure.
 """
 
 ROLES = {
@@ -47,7 +50,7 @@ ROLES = {
 
 @style()
 def draw_stable_steps(*, stable_steps):
-    """Draw the verdicts over stiffness and step, a row of panels for each damper.
+    """Draw the verdicts against stiffness and step, a row of panels for each damper.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Maps of the largest displacement over mass ratio and clearance (kind studies)."""
+"""Maps of the largest displacement against mass ratio and clearance (figure kind `studies`)."""
 
 from itertools import product
 

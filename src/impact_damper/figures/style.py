@@ -1,5 +1,7 @@
 """Common style of all figures: fonts, colours, roles of curves, sizes, labels, saving.
 
+A role is what a curve stands for, as `free_stable`; ROLES maps it to the look of the curve.
+
 The palette of Okabe and Ito can be distinguished by colour-blind readers. Roles that occur in the
 same figure also differ in marker or line style, for grey print.
 """
@@ -76,8 +78,8 @@ def _shading(label, color):
     return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
 
 
-# Keywords of `plot`, for the last two of `axvspan`, by the role of a curve. To change a keyword in
-# one figure: ROLES[name] | {...}.
+# Keywords of `plot`, keyed by the role of a curve; those of "damper_on" and "band" are keywords of
+# `axvspan`. To change a keyword in one figure: ROLES[name] | {...}.
 ROLES = {
     "free_stable": _line("free, stable", BLACK, zorder=2.2),
     "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
@@ -134,7 +136,7 @@ ROLES = {
     "band": _shading("suppression band (harmonic balance)", PALE_YELLOW),
 }
 
-# Colour, dashes and marker of curves that differ in a parameter.
+# Colour, dashes and marker of curves that differ in the value of a parameter only.
 CURVES = [
     (BLUE, "-", "o"),
     (VERMILION, (0, (5, 2)), "s"),
@@ -170,23 +172,23 @@ def figure(column, height) -> Figure:
 
 
 def curve(index) -> dict:
-    """Keywords of `plot`: line of the curve `index` in `CURVES`, counted from 0."""
+    """Return keywords of `plot` for the line of the curve `index` in `CURVES`, counted from 0."""
     color, dashes, _ = CURVES[index]
     return {"color": color, "linestyle": dashes}
 
 
 def points(index) -> dict:
-    """Keywords of `plot`: open markers that go with the line of the curve `index`."""
+    """Return keywords of `plot` for the open markers that go with the line of curve `index`."""
     color, _, marker = CURVES[index]
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 
 
-# Symbols of parameters whose mathtext `tex` does not give.
+# Mathtext of symbols of parameters that `tex` would not translate rightly.
 MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
 def parameter_label(parameters, *names, separator=", ") -> str:
-    """Symbols and values of parameters, as "$r_m = 0.12$, $e = 1$"."""
+    """Return symbols and values of parameters as text, such as "$r_m = 0.12$, $e = 1$"."""
     symbols = [SYMBOLS[name] for name in names]
     return separator.join(
         f"${MATHTEXT.get(symbol, tex(symbol))} = {parameters[name]:g}$"
@@ -195,7 +197,7 @@ def parameter_label(parameters, *names, separator=", ") -> str:
 
 
 def axis_label(variable) -> str:
-    """Axis label of a variable: description, symbol, units, as "Forcing frequency, $\\Omega$".
+    """Return an axis label: description, symbol, units, such as "Forcing frequency, $\\Omega$".
 
     Parameters
     ----------
@@ -210,7 +212,7 @@ def axis_label(variable) -> str:
 
 
 def tex(symbol) -> str:
-    """Mathtext of a symbol of the registry: words become commands, digits become indices.
+    """Return the mathtext of a symbol: words become commands, digits become indices.
 
     "Omega_p" becomes "\\Omega _p", and "max |Z1|" becomes "\\max\\,|Z_{1}|".
     """

@@ -1,18 +1,21 @@
-"""Printed basin shares of an oscillator with five coexisting motions.
+"""Published basin shares of an oscillator with five coexisting motions.
+
+A basin share is the share of random starts (initial states) that lead to a motion.
 
 The oscillator x'' + 0.08 x' + x^3 = 0.2 cos t of Thompson and Stewart, Nonlinear Dynamics and
 Chaos, 1986, is a test case of bSTAB (Stender and Hoffmann, "bSTAB: an open-source software for
 computing the basin stability of multi-stable dynamical systems", Nonlinear Dyn. 107, 1451-1468,
 2022, doi 10.1007/s11071-021-06786-5) and of its successor pybasin. Starts (x, x') are drawn
-uniformly from a box. The shares are those of 10 000 starts by bSTAB that pybasin publishes beside
-its own (github.com/adrianwix/pybasin, commit 925877c,
-artifacts/results/duffing_case1_comparison.json; by pybasin 0.2023, 0.4950, 0.0288, 0.0257, 0.2482).
+uniformly from a box. The shares below are those of 10 000 starts by bSTAB, as pybasin publishes
+them (github.com/adrianwix/pybasin, commit 925877c,
+artifacts/results/duffing_case1_comparison.json); those of pybasin itself, in the same order, are
+0.2023, 0.4950, 0.0288, 0.0257 and 0.2482.
 """
 
 from typing import NamedTuple
 
 DAMPING, FORCE, FREQUENCY = 0.08, 0.2, 1.0
-# Least and greatest x and x' of the starts.
+# Box of the starts: least and greatest x, least and greatest x'. Number of the starts.
 BOX = (-1.0, 1.0), (-0.5, 1.0)
 STARTS = 10_000
 
@@ -23,12 +26,13 @@ class PublishedMotion(NamedTuple):
     Attributes
     ----------
     name : str
-        As in bSTAB.
+        Name in bSTAB.
     meaning : str
+        The motion in words.
     start : tuple of float
-        A start (x, x') that leads to it.
+        A start (x, x') that leads to the motion.
     share : float
-        Share of the starts.
+        Share of the starts that lead to the motion, by bSTAB.
     """
 
     name: str

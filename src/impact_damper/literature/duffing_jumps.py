@@ -1,8 +1,9 @@
 """Frequencies at which the forced motion of a weakly damped Duffing oscillator jumps.
 
 Brennan, Kovacic, Carrella and Waters, "On the jump-up and jump-down frequencies of the Duffing
-oscillator", J. Sound Vib. 318(4-5), 1250-1261, 2008. Single-term harmonic balance of
-x'' + 2 z x' + x + a x^3 = F cos(r T), for a hardening or softening spring: the amplitude X solves
+oscillator", J. Sound Vib. 318(4-5), 1250-1261, 2008. They use single-term harmonic balance of
+x'' + 2 z x' + x + a x^3 = F cos(r T) for a hardening (a > 0) or softening spring (a < 0). The
+amplitude X of the motion solves
 
     ((1 - r^2) X + (3/4) a X^3)^2 + (2 z r X)^2 = F^2.
 """
@@ -20,11 +21,12 @@ class Jumps(NamedTuple):
     Attributes
     ----------
     down : float
-        From the large motion: the response is largest there, in quadrature with the force,
-        r^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2. The fold lies beside it, at a distance of second
-        order in z.
+        Frequency r of the jump from the large motion, taken as that of the largest response, which
+        is in quadrature with the force: r^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2. The fold differs
+        from it by a distance of second order in z.
     up : float
-        From the small motion, without damping: r^2 = 1 + (3/2)^(4/3) (a F^2)^(1/3).
+        Frequency r of the jump from the small motion, with the damping neglected:
+        r^2 = 1 + (3/2)^(4/3) (a F^2)^(1/3).
     """
 
     down: float
@@ -37,8 +39,8 @@ def jumps(damping_ratio, cubic, force) -> Jumps:
     Raises
     ------
     TypeError, ValueError
-        If a value is out of range, or a softening spring is so weak that the response is not
-        bounded by damping: 3 |a| F^2 > 4 z^2.
+        If a value is out of range, or the spring softens so much that damping does not bound the
+        response: 3 |a| F^2 > 4 z^2.
     """
     check_number("damping_ratio", damping_ratio, above=0.0, most=1.0)
     check_number("cubic", cubic)

@@ -2,14 +2,16 @@
 
 The closed form of Masri and Caughey, "On the stability of the impact damper", J. Appl. Mech. 33(3),
 586-592, 1966. Walls are rigid, and an impact takes no time. Half a forcing period after an impact
-at one wall the mirrored motion meets the other wall; in between the loose mass flies at constant
-velocity, w, -w, w, ...
+at one wall the mirror image of this impact follows at the other wall; in between the loose mass
+flies at constant velocity, in turn w and -w. Z1 is the displacement of the primary mass, Z2 that of
+the primary mass relative to the loose mass, W the forcing frequency.
 
 The loose mass meets the wall Z2 = -d0 with the velocity w and leaves it with -w. Momentum and
 restitution give the velocity of the primary mass before this impact, -k w with
 k = (1 - e + 2 rm)/(1 + e), and the flight gives its displacement, pi w/(2 W) - d0. The state of the
-primary mass after the impact is the sum of the forced response and of a free part w (a, b + 2 rm).
-Half a period later the free part is the mirror image of its value before the impact,
+primary mass after the impact is the sum of the forced response and of a free part, a decaying
+oscillation without force, written as w (a, b + 2 rm). By symmetry the free part half a period later
+is the mirror image of its value w (a, b) before the impact,
 
     M (a, b + 2 rm) = -(a, b),
 
@@ -30,14 +32,15 @@ from impact_damper.system.bounds import plain
 from impact_damper.system.checks import check_frequency
 from impact_damper.system.parameters import check_damper, check_oscillator
 
-# Points of a flight between which its turning points are looked for.
+# Points in time of a flight, between which turning points (zeros of a velocity) are looked for.
 SAMPLES = 200
-# Ratios pi w/(2 W d0), 1 where the primary mass is in its middle position at the impacts, between
-# which changes of stability are looked for. Beyond the last the motion is unstable for any damper.
+# Ratios pi w/(2 W d0) between which changes of stability are looked for. The ratio is 1 if the
+# primary mass is in its middle position at the impacts. Beyond the last ratio the motion is
+# unstable for any damper.
 RATIOS = np.linspace(0.02, 2.5, 249)
-# Bisections of a change of stability.
+# Bisections with which a change of stability is located.
 BISECTIONS = 48
-# A multiplier is complex if its imaginary part exceeds this.
+# A multiplier counts as complex if the modulus of its imaginary part exceeds this.
 COMPLEX = 1e-6
 
 
@@ -49,20 +52,21 @@ class TwoImpactMotion(NamedTuple):
     clearance : float
         d0.
     speed : float
-        w, of the loose mass between impacts.
+        w, speed of the loose mass between impacts.
     phase : float
         W T of the impact at the wall Z2 = -d0, in (-pi, pi].
     impact : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' before that impact.
+        Z1, Z1', Z2, Z2' just before the impact at the wall Z2 = -d0.
     displacement : float
         max |Z1|.
     multipliers : numpy.ndarray of complex, shape (4,)
-        Of the map over half a period with a change of sign, by falling modulus. A multiplier 1 is a
-        fold, -1 a loss of symmetry. The multipliers of a period are their squares.
+        Multipliers of the map over half a period followed by a change of sign, by falling modulus.
+        A multiplier 1 means a fold, -1 a loss of symmetry. The multipliers of a whole period are
+        the squares of these.
     room : float
         Least distance of the loose mass from a wall at the turning points of Z2 during a flight,
-        over d0; infinite without such points. Where it is negative the equations have a solution
-        that is no motion, because the loose mass would pass a wall.
+        divided by d0; infinite without such points. If it is negative the solution of the equations
+        is no motion, because the loose mass would pass through a wall.
     """
 
     clearance: float
@@ -75,7 +79,7 @@ class TwoImpactMotion(NamedTuple):
 
     @property
     def stable(self) -> bool:
-        """Whether it is a motion and all multipliers are less than 1 in modulus."""
+        """Whether the solution is a motion and all multipliers are less than 1 in modulus."""
         return bool(self.room > 0 and abs(self.multipliers[0]) < 1)
 
 
@@ -87,9 +91,9 @@ class Flight(NamedTuple):
     clearance : float
         d0.
     phase : float
-        W T, a quarter of a period after the impact.
+        W T in the middle of the flight, a quarter of a period after the impact.
     state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' there.
+        Z1, Z1', Z2, Z2' at this phase.
     """
 
     clearance: float
@@ -103,10 +107,10 @@ class Boundary(NamedTuple):
     Attributes
     ----------
     motion : TwoImpactMotion
-        At the end.
+        The motion at this end of the range.
     event : str
-        "fold", "symmetry_breaking", "neimark_sacker", or "third_contact" where the loose mass
-        begins to touch a wall during a flight.
+        What ends stability: "fold", "symmetry_breaking", "neimark_sacker", or "third_contact" if
+        the loose mass begins to touch a wall during a flight.
     """
 
     motion: TwoImpactMotion
@@ -138,7 +142,7 @@ def two_impact_motions(oscillator, damper, frequency) -> list[TwoImpactMotion]:
 
 
 def flight_with_speed(oscillator, damper, frequency, ratio) -> Flight:
-    """Return the flight in which the speed of the loose mass is the clearance times a ratio.
+    """Return the middle of the flight of the motion with a given ratio s = w/d0.
 
     Parameters
     ----------
@@ -182,7 +186,7 @@ def stability_boundaries(oscillator, damper, frequency) -> list[Boundary]:
 
 
 def _event(motion):
-    """Return what ends the stability of a motion that is about to lose it."""
+    """Return what ends stability, given the stable motion next to its end."""
     value = motion.multipliers[0]
     if motion.room < 1 - abs(value):
         return "third_contact"
@@ -201,7 +205,7 @@ class _Family:
     response : complex
         Amplitude of the forced response without a damper.
     free : numpy.ndarray, shape (2,)
-        a and b + 2 rm, free part of the state of the primary mass after an impact, over w.
+        a and b + 2 rm: free part of the state of the primary mass after an impact, divided by w.
     across, along : float
         Coefficients of (across s - 1)^2 + (along s)^2 = |response|^2/d0^2 for s = w/d0.
     """
@@ -229,7 +233,7 @@ class _Family:
         self.along = (self.before + self.free[1] - 2 * mass) / self.frequency
 
     def free_map(self, time):
-        """Return the map of (Z1, Z1') over a time without forcing, shape (..., 2, 2)."""
+        """Return the matrix, shape (..., 2, 2), that maps (Z1, Z1') over a time without forcing."""
         drag, stiffness = self.oscillator.damping / 2, self.oscillator.linear_frequency**2
         turn = np.sqrt(complex(stiffness - drag**2)) * np.asarray(time)
         cosine, sine = np.cos(turn).real, (np.sinc(turn / np.pi) * time).real
@@ -254,14 +258,14 @@ class _Family:
         )
 
     def is_stable(self, ratio) -> bool:
-        """Return `TwoImpactMotion.stable` for a ratio, with less work for unstable motions."""
+        """Return `TwoImpactMotion.stable` for a ratio s, faster for unstable motions."""
         clearance, phase, impact = self.impact(ratio)
         if abs(self._multipliers(impact, phase)[0]) >= 1:
             return False
         return self._room(self.motions(ratio, clearance, phase, impact)[1], clearance) > 0
 
     def impact(self, ratio):
-        """Return clearance, and phase and state before the impact at Z2 = -d0."""
+        """Return the clearance, and phase and state just before the impact at Z2 = -d0."""
         position, lag = self.across * ratio - 1, self.along * ratio
         clearance = abs(self.response) / np.hypot(position, lag)
         phase = float(np.angle((position + 1j * lag) / self.response))
@@ -284,23 +288,24 @@ class _Family:
         return primary, gap
 
     def _room(self, gap, clearance):
-        """Return the least distance from a wall at turning points of Z2, over the clearance."""
+        """Return `TwoImpactMotion.room`: least distance from a wall divided by the clearance."""
         rooms = [clearance - abs(gap(time)[0]) for time in self._turns(gap)]
         return min(rooms, default=np.inf) / clearance
 
     def _turns(self, motion):
-        """Return the times of a flight at which the velocity of a motion changes its sign."""
+        """Return the times in a flight at which the velocity in `motion` changes its sign."""
         times = np.linspace(0, self.half, SAMPLES)
         speed = motion(times)[1]
         changes = np.flatnonzero(speed[:-1] * speed[1:] < 0)
         return [brentq(lambda t: motion(t)[1], times[k], times[k + 1]) for k in changes]
 
     def _multipliers(self, impact, phase):
-        """Return the multipliers of the impact and the flight after it, mirrored.
+        """Return the multipliers of an impact and the flight after it, with a change of sign.
 
-        In the coordinates (Z1, Z1', x2, x2') with the loose mass x2 = Z1 - Z2, an impact at the
-        surface n (Z1, Z1', x2, x2') = d0 is linear, y -> J y, and its derivative, corrected for the
-        change of its time, is J + (f_after - J f_before) n/(n f_before).
+        In the coordinates y = (Z1, Z1', x2, x2'), with the displacement x2 = Z1 - Z2 of the loose
+        mass, the impact at the wall n y = d0 is a linear map y -> J y. A disturbance also shifts
+        the time of the impact. With this shift, and the rates f of y before and after the impact,
+        the derivative of the impact is J + (f_after - J f_before) n/(n f_before).
         """
         mass, restitution = self.damper.mass_ratio, self.damper.restitution
         share = (1 + restitution) / (1 + mass)

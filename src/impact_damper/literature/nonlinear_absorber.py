@@ -2,13 +2,14 @@
 
 Habib, Detroux, Viguie and Kerschen, "Nonlinear generalization of Den Hartog's equal-peak method",
 Mech. Syst. Signal Process. 52-53, 17-28, 2015, doi 10.1016/j.ymssp.2014.08.009. With the mass ratio
-m, tuning f, damping ratio z, and u = x1 - x2 the displacement relative to the absorber,
+m, the tuning f (natural frequency of the absorber divided by that of the oscillator), the damping
+ratio z of the absorber, and the displacement u = x1 - x2 of the oscillator relative to it,
 
     x1'' + x1 + k x1^3 + N = F cos(r T),    m (x1 - u)'' = N,
     N = m (f^2 u + 2 z f u') + k2 u^3.
 
-The linear part is tuned as `tuned_mass_damper.exact_optimum`. With k2 = 2 m^2 k/(1 + 4 m) the peaks
-of the response stay equal to first order in k F^2.
+f and z are those of `tuned_mass_damper.exact_optimum`. With k2 = 2 m^2 k/(1 + 4 m) the two peaks of
+the response stay equal to first order in k F^2.
 """
 
 from typing import NamedTuple
@@ -18,12 +19,12 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.literature.tuned_mass_damper import exact_optimum
 
-# Odd harmonics of the balance, samples of a period in it and for the largest displacement, and
-# frequencies among which peaks are looked for before they are refined.
+# HARMONICS: odd harmonics of the balance. SAMPLES in a period in the balance, FINE for the largest
+# displacement. FREQUENCIES among which peaks are looked for before they are refined.
 HARMONICS = np.array([1, 3, 5, 7])
 SAMPLES, FINE = 64, 2048
 FREQUENCIES = np.linspace(0.75, 1.4, 131)
-# Newton's method: largest correction of a solution, relative, and number of corrections.
+# Newton's method: largest relative correction on convergence, and most corrections.
 CONVERGED = 1e-12
 ITERATIONS = 30
 
@@ -35,7 +36,7 @@ class Peaks(NamedTuple):
     ----------
     frequencies : numpy.ndarray, shape (count,)
     displacements : numpy.ndarray, shape (count,)
-        Largest |x1|, over the static deflection F.
+        Largest |x1| divided by the static deflection F.
     """
 
     frequencies: np.ndarray
@@ -43,19 +44,19 @@ class Peaks(NamedTuple):
 
 
 def tuned_cubic(mass_ratio, cubic) -> float:
-    """Return the cubic coefficient k2 of the absorber for that of the primary spring."""
+    """Return the cubic coefficient k2 of the absorber for the coefficient k of the oscillator."""
     return 2 * mass_ratio**2 * cubic / (1 + 4 * mass_ratio)
 
 
 class AbsorberOnDuffing:
-    """Periodic motions of the oscillator with the absorber, by balance of HARMONICS.
+    """Periodic motions of the oscillator with the absorber, by harmonic balance with HARMONICS.
 
     Parameters
     ----------
     mass_ratio, cubic, absorber_cubic : float
         m, k and k2.
     force : float
-        F, with the linear stiffness 1.
+        F; the linear stiffness of the oscillator is 1.
     """
 
     def __init__(self, mass_ratio, cubic, absorber_cubic, force):
@@ -63,7 +64,8 @@ class AbsorberOnDuffing:
         self.force = force
         _, tuned, damping = exact_optimum(mass_ratio)
         self._stiffness, self._dashpot = mass_ratio * tuned**2, 2 * mass_ratio * damping * tuned
-        # Coefficients of all cosines, then of all sines, to and from samples of a period.
+        # Matrices from coefficients (of all cosines, then of all sines) to samples of a period,
+        # and back.
         self._sample, self._fine = _samples(SAMPLES), _samples(FINE)
         self._project = self._sample.T * 2 / SAMPLES
         turn = np.diag(HARMONICS.astype(float))
@@ -91,7 +93,7 @@ class AbsorberOnDuffing:
         raise ArithmeticError(f"harmonic balance at frequency {frequency:g}: no convergence")
 
     def displacement(self, coefficients):
-        """Return the largest |x1| of a solution, over the static deflection."""
+        """Return the largest |x1| of a solution divided by the static deflection."""
         return np.max(np.abs(self._fine @ coefficients[0])) / self.force
 
     def peaks(self) -> Peaks:
@@ -143,7 +145,7 @@ class AbsorberOnDuffing:
         return residual, slope
 
     def _cube(self, factor, coefficients):
-        """Return the coefficients of factor x^3 and their derivative."""
+        """Return the coefficients of factor x^3 and their derivative by those of x."""
         x = self._sample @ coefficients
         slope = self._project @ (3 * factor * x[:, None] ** 2 * self._sample)
         return self._project @ (factor * x**3), slope

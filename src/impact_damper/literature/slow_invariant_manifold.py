@@ -5,20 +5,23 @@ Sound Vib. 331(21), 4599-4608, 2012, and Gourc, Michon, Seguy and Berlioz, "Targ
 under harmonic forcing with a vibro-impact nonlinear energy sink: analytical and experimental
 developments", J. Vib. Acoust. 137(3), 031008, 2015.
 The primary mass has a linear spring, and all results hold to the first order in the mass ratio rm
-and in the damping ratio z. Lengths are given over half the gap, forces over the spring's force at
-that displacement, and times in 1/natural frequency.
+and in the damping ratio z. Lengths are divided by half the gap d0, forces by the spring's force at
+the displacement d0, frequencies W by the natural frequency, and the unit of time is 1/(natural
+frequency).
 
-The primary mass moves as a sine of amplitude x, the loose mass flies from wall to wall in half a
-period. With the speed of the loose mass as ratio t = pi w/(2 W d0), flight and restitution give the
-manifold
+The primary mass moves as a sine of amplitude x; the loose mass, of speed w, flies from wall to wall
+in half a period. Let t = pi w/(2 W d0), the speed of the loose mass as a ratio. Flight and
+restitution e relate x to t: the relation is the slow invariant manifold, along which motions change
+slowly,
 
     x^2 = (t - 1)^2 + (q t)^2,      q = (2/pi) (1 - e)/(1 + e),
 
-since the displacement at an impact is t - 1 and the velocity -q t W. The derivative of the map from
-impact to impact has the determinant e^2 and the trace 2 e - (1 + e)^2 (pi^2/4) (t - 1)/t, so the
-manifold is stable for 1/(1 + q^2) < t < pi^2/(pi^2 - 4). The impulses have the first harmonic
-(8 rm/pi^2) W^2 t in the phase of the impacts. Its balance with a force F at W determines F; the
-force is least where it is in phase with the velocity,
+since at an impact the primary mass has the displacement t - 1 and the velocity -q t W. The
+derivative of the map from impact to impact has the determinant e^2 and the trace
+2 e - (1 + e)^2 (pi^2/4) (t - 1)/t, so the manifold is stable for 1/(1 + q^2) < t < pi^2/(pi^2 - 4).
+The impulses on the primary mass have the first harmonic (8 rm/pi^2) W^2 t, in phase with the
+impacts. The balance of first harmonics gives the force F that a motion needs at W; for given t this
+force is least if it is in phase with the velocity of the primary mass,
 
     W^2 = x^2/(x^2 + c t (t - 1)),    F = 2 z W x + c W^2 q t^2/x,    c = 8 rm/pi^2.
 """
@@ -34,7 +37,7 @@ from impact_damper.system.bounds import (
     check_number,
 )
 
-# Ratios of speed at which the force is computed before its extremes are refined.
+# Number of ratios t at which the force is computed before its extremes are refined.
 SAMPLES = 201
 
 
@@ -44,13 +47,13 @@ class Threshold(NamedTuple):
     Attributes
     ----------
     force : float
-        F over the spring's force at half the gap.
+        F divided by the spring's force at half the gap.
     ratio : float
-        t, speed of the loose mass.
+        t, the speed of the loose mass as a ratio.
     frequency : float
-        W over the natural frequency.
+        W divided by the natural frequency.
     amplitude : float
-        Of the primary mass, over half the gap.
+        x, the amplitude of the primary mass divided by half the gap.
     """
 
     force: float
@@ -65,9 +68,9 @@ class Optimum(NamedTuple):
     Attributes
     ----------
     clearance : float
-        Half the gap, over the static deflection F/k.
+        Half the gap divided by the static deflection F/k.
     amplitude : float
-        Of the primary mass, over the static deflection.
+        Amplitude of the primary mass divided by the static deflection.
     """
 
     clearance: float
@@ -105,16 +108,16 @@ class VibroImpactAbsorber:
         return 1 / (1 + self._loss**2), np.pi**2 / (np.pi**2 - 4)
 
     def amplitude(self, ratio):
-        """Return the amplitude of the primary mass on the manifold, over half the gap."""
+        """Return the amplitude x of the primary mass on the manifold for ratios t."""
         return np.hypot(np.asarray(ratio) - 1, self._loss * np.asarray(ratio))
 
     def frequency(self, ratio):
-        """Return the frequency at which the force is in phase with the velocity."""
+        """Return the frequency W at which the force needed for ratios t is least."""
         size, ratio = self.amplitude(ratio), np.asarray(ratio)
         return size / np.sqrt(size**2 + self._coupling * ratio * (ratio - 1))
 
     def force(self, ratio):
-        """Return the force that this motion needs, over the spring's force at half the gap."""
+        """Return this least force F, divided by the spring's force at half the gap."""
         size, turning = self.amplitude(ratio), self.frequency(ratio)
         absorbed = self._coupling * turning**2 * self._loss * np.asarray(ratio) ** 2 / size
         return 2 * self.damping_ratio * turning * size + absorbed
@@ -144,8 +147,8 @@ class VibroImpactAbsorber:
     def optimum(self) -> Optimum:
         """Return the clearance of the least response at the natural frequency.
 
-        By the balance, F/x = 2 z W + c W^2 q t^2/x^2. On the manifold t/x is largest for t = 1:
-        impacts in the middle position, at W = 1, where x = q.
+        By the balance, F/x = 2 z W + c W^2 q t^2/x^2, so x/F is least where t/x is largest. On the
+        manifold this is at t = 1, where W = 1 and x = q: impacts take place in the middle position.
         """
         clearance = 1 / (2 * self.damping_ratio * self._loss + self._coupling)
         return Optimum(clearance, self._loss * clearance)
@@ -153,15 +156,15 @@ class VibroImpactAbsorber:
     def ring_down_time(self, first, last):
         """Return the time in which the ratio t falls in a free decay without damping.
 
-        The energy lost in two impacts a period, (2/pi) rm (1 - e)/(1 + e) w^2 per unit of time, is
-        taken from x^2/2; integrated over t,
+        Two impacts a period lose the energy (2/pi) rm (1 - e)/(1 + e) w^2 per unit of time. The
+        energy x^2/2 of the primary mass falls by this; integration over t gives
 
             (8 rm/pi^3) (1 - e)/(1 + e) time = (1 + q^2) ln(first/last) + 1/first - 1/last.
 
         Parameters
         ----------
         first, last : float
-            Ratios at beginning and end, first > last.
+            Ratios t at the beginning and at the end, first > last.
         """
         rate = 4 * self.mass_ratio * self._loss / np.pi**2
         path = (1 + self._loss**2) * np.log(first / last) + 1 / first - 1 / last

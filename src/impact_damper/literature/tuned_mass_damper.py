@@ -1,8 +1,9 @@
 """The tuned mass damper on an undamped linear oscillator under a harmonic force.
 
-Frequencies are given over the natural frequency of the oscillator, displacements over the static
-deflection. The absorber has the mass ratio m, the tuning f (its own natural frequency) and the
-damping ratio z.
+Frequencies are divided by the natural frequency of the oscillator, displacements by the static
+deflection. The absorber has the mass ratio m, the tuning f (its own natural frequency, divided
+likewise) and the damping ratio z. For any z the response curve passes through the same two points,
+the fixed points.
 """
 
 from typing import NamedTuple
@@ -31,7 +32,7 @@ class Tuning(NamedTuple):
 
 
 def response(tuning, frequency):
-    """Return the amplitude of the primary mass at frequencies r, over the static deflection."""
+    """Return the amplitude of the primary mass, in static deflections, at frequencies r."""
     mass, tuned, damping = tuning
     r = np.asarray(frequency)
     coupling = tuned**2 + 2j * damping * tuned * r
@@ -56,7 +57,7 @@ def peaks(tuning):
 
 
 def den_hartog(mass_ratio) -> Tuning:
-    """Return the tuning with equal fixed points, and the damping of Brock.
+    """Return the tuning for which both fixed points are equally high, and the damping of Brock.
 
     Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.2 and 3.3: f = 1/(1 + m); Brock, "A
     note on the damped vibration absorber", J. Appl. Mech. 13, A-284, 1946:
@@ -67,12 +68,12 @@ def den_hartog(mass_ratio) -> Tuning:
 
 
 def fixed_point(mass_ratio) -> float:
-    """Return the amplitude sqrt(1 + 2/m) of `den_hartog` at the fixed points."""
+    """Return the amplitude at the fixed points with the tuning of `den_hartog`, sqrt(1 + 2/m)."""
     return np.sqrt(1 + 2 / _checked(mass_ratio))
 
 
 def exact_optimum(mass_ratio) -> Tuning:
-    """Return the tuning and damping of the least maximum of the response.
+    """Return the tuning and damping for which the maximum of the response is least.
 
     Nishihara and Asami, "Closed-form solutions to the exact optimizations of dynamic vibration
     absorbers", J. Vib. Acoust. 124(4), 576-582, 2002, doi 10.1115/1.1500335.
@@ -86,7 +87,7 @@ def exact_optimum(mass_ratio) -> Tuning:
 
 
 def least_maximum(mass_ratio) -> float:
-    """Return the amplitude of both peaks with `exact_optimum`, by the same authors."""
+    """Return the amplitude of both peaks with `exact_optimum`, by Nishihara and Asami too."""
     mass = _checked(mass_ratio)
     root = np.sqrt(4 + 3 * mass)
     difference = (8 + 9 * mass) ** 2 * (16 + 9 * mass) - 128 * root**3

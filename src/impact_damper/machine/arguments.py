@@ -20,7 +20,7 @@ arguments and the dataset returned are in SI units: see `Machine`.
 
 
 def takes_machine(function):
-    """Return a function that takes a `Machine` in place of the oscillator, with the rest in SI.
+    """Return a function that also takes a `Machine`, with the other arguments in SI units.
 
     Arguments are known by their names, which mean the same in all functions: `frequency` and
     `frequencies` (Hz), `state` (m, m/s), `clearances` (m, on each side), `radius` (m; of speeds as
@@ -48,7 +48,7 @@ def takes_machine(function):
 
 
 def _called(function, machine, given):
-    """Call a function with arguments in SI units, and return its dataset in them."""
+    """Call a function with arguments given in SI units, and return its dataset in SI units."""
     arguments = dict(given)
     damper = arguments.get("damper")
     parameter = arguments.get("parameter", "frequency")
@@ -67,7 +67,7 @@ def _called(function, machine, given):
 
 
 def _damper(machine, damper, swept):
-    """Return a damper in the scales of a machine; where its gap is swept, its other arguments."""
+    """Return a damper in the scales of a machine, or, to sweep its gap, its other arguments."""
     if damper is None:
         return None
     if not isinstance(damper, MachineDamper):
@@ -90,7 +90,7 @@ def _span(machine, parameter, span):
 
 
 def _each(name, values, convert):
-    """Return converted numbers: one, or a list of all in a sequence, named with their places."""
+    """Return a converted number, or a list of those in a sequence, each named by its place."""
     if np.ndim(getattr(values, "magnitude", values)) == 0:
         return convert(name, values)
     return [convert(f"{name}[{place}]", value) for place, value in enumerate(values)]

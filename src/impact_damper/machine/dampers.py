@@ -85,7 +85,7 @@ class MachineDamper:
             check_si("gap", self.gap, "clearance", above=play, why=why)
 
     def scaled(self, scales) -> Damper:
-        """Return the damper in the scales of its machine.
+        """Return the dimensionless damper, in the scales of its machine.
 
         Raises
         ------

@@ -56,7 +56,7 @@ class Impact(NamedTuple):
     stiffness: float
 
 
-# Duration of an impact in units of the largest compression over the speed:
+# Duration of an impact, in units of the largest compression divided by the speed:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
 

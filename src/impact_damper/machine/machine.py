@@ -121,7 +121,7 @@ class Machine:
 
     @cached_property
     def scales(self) -> Scales:
-        """Scales by which the dimensionless equations are those of the machine.
+        """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and of what it becomes at
         resonance, so that quiet motions, violent ones and the gaps between them are neither far
@@ -133,10 +133,7 @@ class Machine:
         return Scales(length, math.sqrt(self.mass / (stiffness + cubic * length**2)), self.mass)
 
     def _static_deflection(self):
-        """Return the deflection under the force, or the eccentricity to which it is proportional.
-
-        m
-        """
+        """Return the deflection (m) under the force; for an unbalance, its ratio to the mass."""
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
             return static_deflection(self.force, stiffness, cubic)
@@ -153,7 +150,7 @@ class Machine:
         """Static deflection times m w/c: the displacement at resonance, m, of a linear machine.
 
         A hardening spring has a smaller one. w^2 is the stiffness at the static deflection
-        over the mass.
+        divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -168,7 +165,7 @@ class Machine:
         return self.linear_stiffness * x + abs(self.cubic_stiffness) * x**3
 
     def oscillator(self, frequency=None) -> Oscillator:
-        """Return the machine in its scales.
+        """Return the dimensionless oscillator: the machine in its scales.
 
         Parameters
         ----------
@@ -256,7 +253,7 @@ class Machine:
 
 
 def describe_si(machine, damper=None) -> dict:
-    """Return the values of a machine and its damper that are given, by name, in SI units.
+    """Return the given values of a machine and its damper, keyed by name, in SI units.
 
     The mass of the damper is called `damper_mass`, its gap is the full play.
     """

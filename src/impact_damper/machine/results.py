@@ -1,7 +1,7 @@
-"""Datasets in SI units, and back.
+"""Convert datasets to SI units, and back.
 
-Which physical quantity a variable is, the registry of variables says. Numbers that mix quantities,
-as the distance between two states, stay in the scales of the machine.
+The registry of variables says which physical quantity a variable is. Numbers that mix quantities,
+such as the distance between two states, stay in the scales of the machine.
 """
 
 import json

@@ -26,7 +26,7 @@ class Quantity(NamedTuple):
     shown : str
         Unit in datasets, if not `unit`.
     share : float
-        `unit` in terms of the unit in datasets.
+        Value of 1 `unit` in the unit of datasets, such as 1000 for m in mm.
     """
 
     unit: str
@@ -37,7 +37,7 @@ class Quantity(NamedTuple):
     share: float = 1.0
 
 
-# By name; `Variable.quantity` of the registry is one of these names.
+# Keyed by name; `Variable.quantity`, in the registry of variables, is one of these names.
 QUANTITIES = {
     "number": Quantity(""),
     "mass": Quantity("kg", mass=1),
@@ -55,8 +55,8 @@ QUANTITIES = {
     "unbalance": Quantity("kg m", length=1, mass=1),
     "pressure": Quantity("Pa", length=-1, time=-2, mass=1),
 }
-# A number and units with powers. pint would also compute what stands in a text, however long that
-# takes.
+# A text may hold a number and units with powers only: pint would also evaluate an expression,
+# however long that takes.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
@@ -108,7 +108,7 @@ def si_value(name, value, quantity) -> float:
 
 @cache
 def _factor(text, unit):
-    """Return a unit in terms of an SI unit, or None if it is unknown or of another dimension."""
+    """Return the value of a unit in an SI unit, or None if unknown or of another dimension."""
     import pint
 
     registry = _registry()
@@ -135,7 +135,7 @@ def check_si(name, value, quantity, *, above=None, least=None, most=None, why=""
     Raises
     ------
     TypeError, ValueError
-        As of `si_value`, or if the value is outside the bounds.
+        As in `si_value`, or if the value is outside the bounds.
     """
     number, unit = si_value(name, value, quantity), QUANTITIES[quantity].unit
     if (
@@ -161,7 +161,7 @@ def with_unit(value, unit) -> str:
 def physical(quantity, **others):
     """Return a dataclass field for a physical quantity.
 
-    `others` are bounds as of `check_si`, in SI units, and `default`.
+    `others` are bounds as in `check_si`, in SI units, and `default`.
     """
     default = {key: others.pop(key) for key in ("default",) if key in others}
     return field(metadata={"quantity": quantity, "bounds": others}, **default)
@@ -175,7 +175,7 @@ def convert(part) -> None:
     Raises
     ------
     TypeError, ValueError
-        As of `check_si`.
+        As in `check_si`.
     """
     for each in fields(part):
         value = getattr(part, each.name)

@@ -3,7 +3,10 @@
 From the resonance branch the damper is switched on and off again, until the free oscillator
 settles on its non-resonance branch. The damper is switched on as described in `damper_release`. It
 is switched off after its motion has settled, at a phase drawn uniformly over the period of that
-motion; if the motion has not settled within a longest hold, in the forcing period after that.
+motion. If the motion has not settled after `longest_hold` forcing periods, the damper is switched
+off in the next one.
+
+A strobe is the phase W T = pi/2 of the forcing, with frequency W, in each forcing period.
 """
 
 import numpy as np
@@ -15,9 +18,10 @@ from impact_damper.migration.damper_release import destination, kinds
 from impact_damper.motions.records import MOTION, NEVER, trace
 from impact_damper.system.packed import FREQUENCY
 
-# A course begins and ends this number of forcing periods before and after the run.
+# A course, Z1 against time, begins this number of forcing periods before the run, and ends as many
+# after it.
 MARGIN = 10
-# Samples of a course in a forcing period.
+# Samples of a course per forcing period.
 SAMPLES = 40
 SWITCHING = np.dtype(
     [
@@ -33,7 +37,7 @@ SWITCHING = np.dtype(
 
 
 def draw(seed, switchings):
-    """Draw phases and places of one run, shape (switchings, 3), uniformly from 0 to 1.
+    """Draw the random numbers of one run, shape (switchings, 3), uniformly from 0 to 1.
 
     The first rows do not depend on the number of switchings.
     """
@@ -41,7 +45,7 @@ def draw(seed, switchings):
 
 
 def blank(shape):
-    """Return a log of a shape whose switchings have not taken place."""
+    """Return a log of the given shape in which no switching has taken place."""
     log = np.zeros(shape, SWITCHING)
     for name in SWITCHING.names:
         if SWITCHING[name].kind == "f":
@@ -58,7 +62,7 @@ def control(case, draws, longest_hold, settling, periods, stop=NEVER):
     case : ReleaseCase
     draws : array, shape (n, 3)
         For each switching the phase of switching on, the place of the loose mass and the phase of
-        release, as from `draw`. Phases are shares of the period of the motion before.
+        release, as from `draw`. A phase is a share of the period of the motion before it.
     longest_hold : int
         Forcing periods after which the damper is switched off though its motion has not settled.
     settling : Settling
@@ -133,7 +137,7 @@ def course(case, path, log, tolerance):
 
 
 def switching_data(logs, case):
-    """Return registered variables of the switchings, over (..., switching)."""
+    """Return registered variables of the switchings, with dimensions (..., switching)."""
     period = 2 * np.pi / case.on[FREQUENCY]
     kind = kinds(logs["released_period"], logs["released_displacement"], case.known)
     absent = logs["destination"] == FREE_MOTION["none"]

@@ -35,7 +35,7 @@ DESTINATIONS = list(FREE_MOTION)[1:]
 
 
 class ReleaseCase(NamedTuple):
-    """Parameters, the start, and the known free motions at one frequency.
+    """What releases at one frequency need: parameters, start, and the known free motions.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class ReleaseCase(NamedTuple):
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Return a record of a free period-1 motion at a frequency, or None.
+    """Return the record of a motion of period 1 without the damper at a frequency, or None.
 
     The motion is settled at the frequency `start` from the solution of harmonic balance with the
     index `which`, on the curve through the peak, and followed from there.
@@ -70,9 +70,10 @@ def _free_motion(oscillator, frequency, start, which, settling):
 
 
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
-    """Return the free oscillator on its resonance branch, followed upward, and the goal of release.
+    """Return the case of a damper: start on the free resonance branch, and the goal of release.
 
-    The goal is the non-resonance motion, followed downward.
+    The resonance motion is followed upward in frequency. The goal, the non-resonance motion, is
+    followed downward.
 
     Raises
     ------
@@ -99,9 +100,10 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return flags of damped motions by period and max |Z1|; `known` as in `ReleaseCase`.
+    """Return flags that classify damped motions by their period and displacement max |Z1|.
 
-    A motion of period 1 is quiet if it is smaller than half the free resonance motion.
+    A motion of period 1 is quiet if it is smaller than half the free resonance motion; `known` is
+    as in `ReleaseCase`.
     """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
@@ -109,7 +111,7 @@ def kinds(period, displacement, known):
 
 
 def destination(known, record):
-    """Return the flag of the free motion of a record; `known` as in `ReleaseCase`."""
+    """Return the flag that says which free motion a record is; `known` as in `ReleaseCase`."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:
@@ -121,9 +123,9 @@ def destination(known, record):
 
 
 def _release(case, state, wait, settling, path, entry, stop=NEVER):
-    """Switch the damper off `wait` forcing periods after a strobe, and fill the entry of a release.
+    """Switch the damper off `wait` forcing periods after a strobe, and fill `entry`.
 
-    The entry gets phase and state of the release and the free motion that is reached.
+    The entry gets phase and state of the release, and the free motion that is reached.
     """
     records = np.zeros(1, MOTION)
     legs.leg(
@@ -185,12 +187,12 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
         Forcing periods of a run at most.
     settling : Settling
     workers, progress
-        As of `ensemble.settle`.
+        As in `ensemble.settle`.
 
     Returns
     -------
     lives : numpy.ndarray, shape (n,)
-        Forcing periods before the runs are captured, or `lifetime`.
+        Forcing periods before each run is captured by an orbit (`legs.CAPTURE`), or `lifetime`.
     motions : numpy.ndarray of records.MOTION, shape (n,)
         Motions on which they settle.
     entries : numpy.ndarray of RELEASE, shape (n,)
@@ -238,7 +240,7 @@ def transient_data(lives, motions, lifetime, known):
 
 
 def release_data(case, motions, entries, settling):
-    """Return registered variables of releases, of the unsettled motion and of each settled one.
+    """Return registered variables of the releases from the unsettled and each settled motion.
 
     Settled motions are released at phases spread evenly over their period, as many as there are
     `entries` for the unsettled motion. In flight the primary moves as without the damper, so all

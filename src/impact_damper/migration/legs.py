@@ -1,7 +1,7 @@
 """Legs of a run of migration control: stretches between two switchings of the damper.
 
-A leg begins where the damper is switched, at any phase of the forcing; Z1 and Z1' are continuous
-there. It ends at the first strobe (`motions.strobe_map`) at which the motion is near a stable
+A leg begins where the damper is switched, at any phase of the forcing; Z1 and Z1' stay continuous.
+A leg ends at the first strobe (`motions.strobe_map`) at which the motion is near a stable
 orbit, or after a limit. The state is not moved onto that orbit, so that a run is one continuous
 motion.
 """
@@ -30,7 +30,7 @@ class Stopped(Exception):
 
 
 def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
-    """Run until near a stable orbit, or for `limit` strobes.
+    """Run a motion until it is near a stable orbit, or for `limit` strobes.
 
     Parameters
     ----------
@@ -41,12 +41,12 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
     ahead : float
         Forcing periods from the start to the first strobe.
     strobe : float
-        Number of the first strobe.
+        Number of the first strobe, counted over all legs of a run.
     tolerance : float
         Local error allowed.
     limit : int
     path : array, shape (limit + 2, 5)
-        Gets rows (forcing periods, state), one at the start and one at each strobe.
+        Gets rows (time in forcing periods, state), one at the start and one at each strobe.
     out : records.MOTION
         Gets outcome, period and periods_run, and the state on the orbit if the motion settled.
     stop : array of bool, shape (1,)
@@ -76,9 +76,9 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Go on with `run` from one strobe to before another.
+    """Go on with `run` from strobe `first` until before strobe `last`.
 
-    Returns the wall in contact, and how near an orbit the motion must come.
+    Returns the wall in contact, and the distance within which the motion must come of an orbit.
     """
     work = workspace()
     none = np.empty((0, 4))

@@ -1,7 +1,7 @@
 """Run many motions on several threads, with a progress bar.
 
-Kernels release the interpreter lock, so threads run in parallel. Each motion is computed by
-itself, so results do not depend on the number of threads.
+Kernels, the compiled functions, release the interpreter lock, so threads run in parallel. Each
+motion is computed by itself, so results do not depend on the number of threads.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -30,8 +30,8 @@ def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     progress : str or None
         Title of a progress bar.
     stop : array of bool, shape (1,)
-        Set to true by an error or Ctrl-C, which do not wait for slices that have been begun. `work`
-        and the kernels that it calls must then end soon.
+        Set to true by an error or Ctrl-C; the call then returns without waiting for slices that
+        have been begun. `work` and the kernels that it calls must end soon once it is true.
     size : int
         Length of a slice.
     """
@@ -59,10 +59,11 @@ def settle(
     parameters : array, shape (m, packed.COUNT)
         Packed parameters of each motion.
     states : array, shape (m, 4)
-        First states Z1, Z1', Z2, Z2', at T = 0 or, with `from_strobe`, at W T = pi/2.
+        First states Z1, Z1', Z2, Z2', at the time T = 0 or, with `from_strobe`, at the strobe, the
+        phase W T = pi/2 of the forcing with frequency W.
     settling : Settling, optional
     from_strobe : bool
-        Whether the states are given at W T = pi/2.
+        Whether the states are given at the strobe.
     workers : int
         Threads.
     progress : str, optional
@@ -114,10 +115,10 @@ def settle(
 
 
 def collide(parameters, states, limit, tolerance):
-    """Return the forcing periods from T = 0 to the first contact of each motion, shape (m,).
+    """Return the number of forcing periods from T = 0 to each motion's first contact, shape (m,).
 
     Infinite without a contact within `limit` periods; 0 for a state at or beyond a wall. Runs in
-    another thread, so that Ctrl-C is heard. The other arguments are as of `settle`.
+    another thread, so that Ctrl-C is heard. The other arguments are as in `settle`.
     """
     waits, stop = np.empty(len(states)), np.zeros(1, bool)
 

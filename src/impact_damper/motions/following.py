@@ -1,8 +1,8 @@
 """Follow an orbit from one value of a parameter to another, by prediction and correction.
 
-All following over given values is done here; `orbits.continuation` follows a branch by its
-arclength, past folds. A step predicts the state at the next value and corrects it by Newton's
-method, which the caller supplies. A step that fails is halved.
+This module steps towards a given value of the parameter and stops at folds; `orbits.continuation`
+steps along the branch itself and passes folds. A step predicts the state at the next value and
+corrects it by Newton's method, which the caller supplies. A step that fails is halved.
 """
 
 import math
@@ -16,9 +16,9 @@ from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_sooner
 
 GROWTH = 1.5
-# Stable orbits: largest correction of a predicted state, and correction of the first state.
+# Stable orbits: largest correction of a predicted state, and of the first state.
 REACH, NUDGE = 0.03, 1e-3
-# The end of a branch of stable orbits is located to this, in units of the parameter.
+# Accuracy to which the end of a branch of stable orbits is located, in units of the parameter.
 RESOLUTION = 1e-8
 
 
@@ -28,8 +28,8 @@ class Followed(NamedTuple):
     Attributes
     ----------
     values : (float, float)
-        Parameter of the last orbit but one and of the last. Both are the start if no step
-        succeeded.
+        Values of the parameter at the last orbit but one and at the last. Both are the start if no
+        step succeeded.
     orbits : tuple of two
         These orbits.
     status : str
@@ -55,7 +55,7 @@ class Followed(NamedTuple):
 
 
 class StrobeOrbit(NamedTuple):
-    """An orbit by its state at the strobe.
+    """An orbit, given by its state at the strobe, the phase W T = pi/2 of the forcing.
 
     Attributes
     ----------
@@ -97,12 +97,13 @@ def follow(
     growth : float
         Factor by which a step grows after success.
     reach : float
-        A step also fails if Z1, Z1' or Z2 changes by as much: it may lead to another orbit.
+        A step also fails if Z1, Z1' or Z2 changes by this or more: it may lead to another orbit.
     extrapolating : bool
         Whether predictions extrapolate the last two orbits; otherwise the prediction is the state
         of the last orbit.
     behind : optional
-        Orbit at 2 start - target, with which the first prediction extrapolates too.
+        Orbit at the value 2 start - target, on the other side of the start. Given this orbit, the
+        first prediction extrapolates too.
 
     Returns
     -------
@@ -131,7 +132,7 @@ def follow(
 
 @kernel
 def extrapolate(state, before, ratio):
-    """Add to a state `ratio` times its change since the one before, in place."""
+    """Add to a state, in place, `ratio` times its difference from the state `before`."""
     state += (state - before) * ratio
 
 
@@ -147,12 +148,12 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
     state : array, shape (4,)
         State of the orbit at W T = pi/2.
     periods : int
-        Its period in forcing periods.
+        Period of the orbit in forcing periods.
     parameter : int
         Place in the packed parameters, as `packed.FREQUENCY`.
     target : float
     resolution : float
-        The value at which following ends is located to this, in units of the parameter.
+        Accuracy to which the value where following ends is located, in units of the parameter.
 
     Returns
     -------
@@ -185,9 +186,9 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Record of a stable orbit followed to a value of one parameter, or None if it ends before.
+    """Return the record of a stable orbit followed to a value, or None if it ends before.
 
-    Arguments as of `follow_stable`; `tolerance` is the local error allowed in the measurement.
+    Arguments as in `follow_stable`; `tolerance` is the local error allowed in the measurement.
     """
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

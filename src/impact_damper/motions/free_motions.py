@@ -1,4 +1,7 @@
-"""The free motions at one frequency, without the damper: what a search must at least cover."""
+"""The free motions, those without the damper, at one frequency.
+
+A search for motions with the damper must cover at least their displacements and speeds.
+"""
 
 from functools import lru_cache
 from typing import NamedTuple
@@ -11,8 +14,8 @@ from impact_damper.theory.free_oscillator import free_solutions, main_solutions,
 
 # Phases at which free motions are started with the amplitudes of harmonic balance.
 PHASES = 6
-# Samples a forcing period from which the largest speed of a motion is taken, and most states of one
-# motion, which may be chaotic.
+# Samples per forcing period from which the largest speed of a motion is taken, and most states that
+# are kept of one motion, which may be chaotic.
 SAMPLES = 256
 MOST_STATES = 5
 
@@ -23,9 +26,9 @@ class FreeMotions(NamedTuple):
     Attributes
     ----------
     states : numpy.ndarray, shape (k, 2)
-        Z1, Z1' at T = 0 of each distinct motion, for each forcing period of its period.
+        Z1, Z1' of each distinct motion at T = 0, and at every later forcing period of its period.
     displacement, speed : float
-        Largest |Z1| and |Z1'| of all of them.
+        Largest |Z1| and |Z1'| of all these motions.
     """
 
     states: np.ndarray
@@ -35,10 +38,11 @@ class FreeMotions(NamedTuple):
 
 @lru_cache(1024)
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
-    """Find the free motions at one frequency: the resonance, the other ones, and the rest.
+    """Find the free motions at one frequency, by running start states until they settle.
 
-    They are settled from the amplitudes of harmonic balance and of the peak, each at PHASES phases,
-    so that also those near a fold are found that harmonic balance does not predict there.
+    Starts are the state of rest, and the amplitudes of harmonic balance and of the resonance peak,
+    each at PHASES phases. Thus motions near a fold are found that harmonic balance does not
+    predict.
 
     Parameters
     ----------
@@ -71,7 +75,7 @@ def free_motions(oscillator, frequency, settling) -> FreeMotions:
 def balance_amplitudes(oscillator, frequency):
     """Return the amplitudes of free motions by harmonic balance, ascending.
 
-    Those of a softening spring without a peak are left out but for the smallest.
+    For a softening spring without a resonance peak only the smallest amplitude is returned.
     """
     try:
         return main_solutions(oscillator, frequency).amplitude
@@ -80,7 +84,7 @@ def balance_amplitudes(oscillator, frequency):
 
 
 def _peak_amplitude(oscillator):
-    """Return the amplitude of the peak of the free response, no number if there is none."""
+    """Return a list with the amplitude of the resonance peak, empty if there is no peak."""
     try:
         return [maximum_response(oscillator).amplitude]
     except ValueError:
@@ -88,7 +92,7 @@ def _peak_amplitude(oscillator):
 
 
 def _course(p, state, periods):
-    """Return samples of a free motion over forcing periods from a state at the strobe."""
+    """Return samples of a free motion during some forcing periods from a state at the strobe."""
     begin = strobe_map.strobe_time(p)
     period = 2 * np.pi / p[FREQUENCY]
     times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES

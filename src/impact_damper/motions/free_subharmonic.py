@@ -23,8 +23,8 @@ class FreeSubharmonic(NamedTuple):
     Attributes
     ----------
     parameters, states : numpy.ndarray, shapes (n, packed.COUNT) and (n, 4)
-        Packed parameters at the frequencies where the motion was found, and its states there at
-        W T = pi/2; empty if it was not found.
+        Packed parameters at the frequencies where the motion was found, and its states at these
+        frequencies at the phase W T = pi/2 of the forcing; empty if it was not found.
     ends : numpy.ndarray, shape (2,)
         Frequencies between which the motion exists, NaN if it was not found.
     events : numpy.ndarray, shape (2,)
@@ -60,12 +60,12 @@ def free_subharmonic(
     first, last : float
         Frequencies W.
     starts, radius, seed, settling, workers
-        As of `stages.response.frequency_response`.
+        As in `stages.response.frequency_response`.
 
     Returns
     -------
     FreeSubharmonic
-        Of several branches the one found at most frequencies.
+        If there are several branches, the one found at most frequencies.
     """
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
@@ -95,7 +95,7 @@ def free_subharmonic(
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Return states after the damper was switched on during the subharmonic, at random times.
+    """Return states after the damper was switched on at random times during the subharmonic.
 
     Parameters
     ----------

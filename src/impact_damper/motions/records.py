@@ -1,4 +1,7 @@
-"""Measurements of motions: largest |Z1|, contacts, harmonics, sampled states, first collisions."""
+"""Measurements of motions: largest |Z1|, contacts, harmonics, sampled states, first collisions.
+
+A record is an element of an array of the type MOTION; it holds what is known of one motion.
+"""
 
 import math
 
@@ -11,12 +14,13 @@ from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_o
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Below this share of the first harmonic of Z1 another one is rounding and has no phase.
+# A first harmonic below this share of the first harmonic of Z1 is rounding and has no phase.
 PHASELESS = 1e-9
+# Samples per forcing period from which harmonics are computed.
 SAMPLES = 64
 # Steps of a trace in one call of its kernel, a fraction of a second.
 STEPS_AT_ONCE = 50_000
-# For `measure` where nothing stops it.
+# Argument `stop` of runs that no other thread can stop.
 NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
@@ -67,7 +71,7 @@ def extremum(c, order, length, start):
 def series_of_step(work, side, y, t):
     """Return Z1, Z1', Z2 and Z2' at the time t within a step from y.
 
-    In contact the third is the penetration with the sign of the wall in place of Z2.
+    In contact (side not 0) the third number is not Z2 but the penetration, signed as the wall.
     """
     if side == 0:
         x, v = polynomial(work[X:], FLIGHT_ORDER, t)
@@ -79,7 +83,7 @@ def series_of_step(work, side, y, t):
 
 @inlined
 def measure_one(p, y, periods, tolerance, out, stop):
-    """`measure` for one motion, over a number of forcing periods."""
+    """Do the same as `measure`, for one motion and a given number of forcing periods."""
     work = workspace()
     none = np.empty((0, 4))
     period = 2.0 * math.pi / p[FREQUENCY]
@@ -135,17 +139,17 @@ def measure_nothing(out):
 
 @kernel
 def measure(parameters, tolerance, watched, out, stop):
-    """Complete records by measurements from their states at the strobe.
+    """Complete the records `out` by measurements that start from their states at the strobe.
 
     A motion that has diverged or escaped is infinitely large. Each other motion is integrated over
     its `period`, or over `watched` forcing periods if that is 0.
 
     - maximum_displacement: largest |Z1|;
-    - contacts: number a forcing period;
-    - asymmetry: distance of the state half the time later from the mirrored first state, zero for
-      a symmetric motion of odd period;
+    - contacts: number per forcing period;
+    - asymmetry: distance between the mirrored first state and the state half the measured time
+      later, zero for a symmetric motion; NaN for an even number of periods;
     - harmonic_displacement, harmonic_relative: complex amplitudes c of Re(c exp(i W T)) in Z1 and
-      Z2, by the trapezoidal rule over SAMPLES a period.
+      Z2, by the trapezoidal rule with SAMPLES samples per forcing period.
 
     Once `stop[0]` is true, set by another thread, the rest is left as it is.
     """
@@ -158,7 +162,7 @@ def measure(parameters, tolerance, watched, out, stop):
 
 
 def measured(p, y, periods, tolerance):
-    """Return a record with only the fields of `measure`, over `periods` from a state y."""
+    """Return a record with only the fields of `measure`, for `periods` from a state y."""
     records = np.zeros(1, MOTION)
     records["state"] = y
     measure(p[None], tolerance, periods, records, NEVER)
@@ -205,7 +209,7 @@ def trace(p, y, t, times, tolerance, states, log):
 
 @kernel
 def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
-    """Go on with `trace` for STEPS_AT_ONCE steps at most: Ctrl-C waits for the end of a kernel.
+    """Go on with `trace` for at most STEPS_AT_ONCE steps, since Ctrl-C waits for a kernel to end.
 
     Returns the time, the wall in contact, and the numbers of samples and contacts so far.
     """
@@ -248,7 +252,7 @@ def record_beginning(log, contacts, side, t, speed):
 
 @kernel
 def first_collisions(parameters, states, limit, tolerance, periods, stop):
-    """Write the forcing periods from T = 0 to the first contact of each motion to `periods`.
+    """Write to `periods` the number of forcing periods from T = 0 to each motion's first contact.
 
     Infinite without a contact within `limit` periods. Once `stop[0]` is true, set by another
     thread, the rest is meaningless.
@@ -268,13 +272,13 @@ def first_collisions(parameters, states, limit, tolerance, periods, stop):
 
 
 def phase_of(harmonic, reference):
-    """Phase of complex amplitudes to others, radian, NaN where the others are rounding only."""
+    """Return phases relative to those of `reference`, radian; NaN where `reference` is rounding."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
 
 def tabulate(records):
-    """Registered variables, by name, of an array of motion records of any shape."""
+    """Return registered variables, keyed by name, of an array of records of any shape."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
     return {
         "outcome": records["outcome"],

@@ -1,4 +1,4 @@
-"""Run motions until they settle on a stable orbit, and measure how chaotic those are that do not.
+"""Run motions until they settle on a stable orbit; measure how chaotic the others are.
 
 States n periods apart approach each other geometrically as a motion settles. Once the sum of the
 remaining geometric series is small, Newton's method on the n-period map, with its exact
@@ -45,8 +45,9 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # Longest period looked for, in forcing periods, and number of strobe states kept for it.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# Lyapunov exponent: periods in a batch, recent batches that must still grow, standard errors by
-# which the exponent must be positive, and below which value per unit time it is weak.
+# Lyapunov exponent: forcing periods of a batch, a stretch of motion that gives a sample of growth;
+# number of recent batches that must still grow; number of standard errors by which the exponent
+# must be positive; and value per unit time below which it is weak.
 BLOCK = 10
 RECENT = 5
 CONFIDENCE = 4.0
@@ -54,12 +55,12 @@ WEAK = 0.05
 # Distance from an orbit at which Newton's method is first tried, and at which it is tried last.
 NEAR = 1e-4
 NEAREST = 1e-9
-# A free motion is at rest once its energy is below this share of that at the first strobe.
+# Without forcing a motion is at rest once its energy is below this share of the first energy.
 REST = 1e-9
-# State of the watch over one motion: its index, the number of strobes and of periods without
-# contact so far, the distance at which Newton's method is tried next, and without forcing the
-# energy at the first strobe; for its tangent the number of periods, the growth in the present
-# batch, and mean, squares and last values of batches.
+# What is remembered of one motion while it runs: its index; the number of strobes and of periods
+# without contact so far; the distance from an orbit at which Newton's method is tried next; without
+# forcing the energy at the first strobe. Of its tangent vector, for the Lyapunov exponent: periods,
+# logarithmic growth in the present batch, and mean, squares and last values of complete batches.
 SEEN = np.dtype(
     [
         ("index", "i8"),
@@ -125,7 +126,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Normalise a tangent after a period, and add the logarithm of its growth to the batch.
+    """Normalise a tangent vector after a period; add the logarithm of its growth to the batch.
 
     Mean and sum of squares over complete batches, of BLOCK periods, follow Welford's recurrence.
     """
@@ -150,7 +151,7 @@ def follow_tangent(tangent, growth):
 def exponent(growth):
     """Return mean growth of a batch, its standard error, and whether recent batches grow too.
 
-    Recent batches must grow by more than half the mean.
+    Recent batches grow if their average growth is above half the mean.
     """
     count = growth.periods // BLOCK
     recent = 0.0
@@ -162,7 +163,7 @@ def exponent(growth):
 
 @inlined
 def begin_watch(seen, index, out):
-    """Reset the watch `seen` and the record `out` for the motion with an index."""
+    """Reset `seen` and the record `out` before the motion `index` is run."""
     seen.index, seen.strobes, seen.quiet, seen.near = index, 0, 0, NEAR
     seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
     out.outcome, out.period = UNRESOLVED, 0
@@ -172,7 +173,7 @@ def begin_watch(seen, index, out):
 
 @kernel_only
 def watch_free(p, y, seen, out):
-    """Judge a motion without forcing, as `watch`; a motion at rest is moved onto the rest."""
+    """Judge a motion without forcing as `watch` does; set a motion at rest exactly to rest."""
     left = energy(p, y)
     if seen.strobes == 0:
         seen.energy = left
@@ -192,9 +193,9 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     It is stopped
 
     - when it has settled, diverged or escaped, or at `limit`;
-    - as at rest when it is free, without forcing, and its energy is below the share REST of that
-      at the first strobe: it can only lose energy. A free motion is stopped for no other reason
-      than this, an escape, or `limit`;
+    - as at rest when there is no forcing and its energy, which can only fall, is below the share
+      REST of that at the first strobe. A motion without forcing is stopped for no other reason
+      than this, an escape, a divergence, or `limit`;
     - as non-colliding when it has settled without contacts, or when the loose mass has touched no
       wall for `patience` periods and would drift by less than 1 % of the clearance until `limit`;
     - as chaotic after `patience` periods if the largest Lyapunov exponent is positive by
@@ -303,7 +304,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if it exists, into the place m of the pool."""
+    """Put motion i, if it exists, into place m of the pool of motions that run together."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])

@@ -1,4 +1,8 @@
-"""Simulate one motion, from a given state or a random one."""
+"""Simulate one motion, from a given state or a random one.
+
+A state is Z1, Z1', Z2, Z2': the displacement Z1 of the primary mass, its displacement Z2 relative
+to the loose mass, and the velocities of both.
+"""
 
 import numpy as np
 
@@ -128,10 +132,10 @@ def simulate(
     Returns
     -------
     xarray.Dataset
-        The state over `time`, and over `contact` the log of contacts: wall, beginning, end,
-        and Z2' at both (NaN for an end after the last sample). With a softening spring also
-        `escape_time`, from which on the state is NaN, since the motion has gone over a barrier of
-        the spring and reaches infinity in a finite time; NaN if it has not.
+        With the dimension `time` the state; with the dimension `contact` the log of contacts:
+        wall, beginning, end, and Z2' at both (NaN for an end after the last sample). With a
+        softening spring also `escape_time`, from which on the state is NaN, since the motion has
+        gone over a barrier of the spring and reaches infinity in a finite time; NaN if it has not.
 
     Raises
     ------

@@ -1,9 +1,9 @@
 """Start states from which motions are searched for: random ones, and on known free motions.
 
-Without a radius a search is as wide as the machine. Its scales are the largest displacement and
-speed of the free motions at the frequency (`free_motions`). They are those of settled motions, not
-of harmonic balance, which only provides the states from which the free motions are settled. The
-starts are of two kinds:
+If no radius is given, a search is as wide as the machine: it is scaled by the largest displacement
+and speed of the motions without the damper (free motions) at the frequency. These motions are
+simulated until they settle (`free_motions`); harmonic balance only provides states to start them
+from. The starts are of two kinds:
 
 - random: the primary mass anywhere up to SPREAD times these scales, with sizes spread evenly over
   their logarithm, so that small and large motions are tried alike;
@@ -13,7 +13,7 @@ starts are of two kinds:
   ramp a motion stays on its branch, so that ramps reach the violent motions of weakly damped
   machines, whose basins are so small that hardly a random start lies in them.
 
-With a radius all starts are random, uniform in a ball as in the paper (section 3, iii).
+If a radius is given, all starts are random, uniform in a ball as in the paper (section 3, iii).
 """
 
 import math
@@ -31,21 +31,22 @@ from impact_damper.system.packed import FORCE, FREQUENCY, UNBALANCE, pack
 from impact_damper.theory.free_oscillator import free_folds
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Largest random start over the largest free motion, and smallest over largest random start.
+# Ratios: largest random start to largest free motion, and smallest to largest random start.
 SPREAD = 3.0
 SMALLEST = 0.01
-# Places of the loose mass over the clearance, and its velocities relative to the primary mass over
-# the speed of the free motion or, if that is faster, of one crossing of the gap in half a period.
+# Placed starts: Z2 divided by the clearance, and Z2' divided by the speed of the free motion or, if
+# larger, by the speed that crosses the gap in half a forcing period.
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
 NO_STARTS = np.empty((0, 4))
-# Ramps: relative change of a parameter in one step, forcing periods of a step, beginning over the
-# outermost fold, and beginning of the force over its value.
+# Ramps: relative change of a parameter in one step; forcing periods per step; ratio of the first
+# frequency to the lowest fold (its inverse for the highest fold); ratio of the first force to the
+# last.
 STEP = 0.0125
 PERIODS = 20
 BELOW = 0.9
 RAISED = 5.0
-# Random starts that all miss a motion leave, at 95 %, a share of at most RULE_OF_THREE/n for it.
+# If n random starts all miss a motion, its share of starts is, at 95 %, at most RULE_OF_THREE/n.
 RULE_OF_THREE = 3.0
 
 
@@ -57,11 +58,11 @@ class Search(NamedTuple):
     random : numpy.ndarray, shape (n, m, 4)
         Random starts at T = 0.
     placed : list of numpy.ndarray, shape (k, 4)
-        Placed starts at T = 0 of each system; none with a radius.
+        Placed starts at T = 0 of each system; none if a radius is given.
     displacement, speed : numpy.ndarray, shape (n,)
         Largest |Z1| and |Z1'| of a random start.
     free_displacement, free_speed : numpy.ndarray, shape (n,)
-        Largest |Z1| and |Z1'| of the free motions; with a radius by harmonic balance.
+        Largest |Z1| and |Z1'| of the free motions; by harmonic balance if a radius is given.
     """
 
     random: np.ndarray
@@ -72,7 +73,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return the registered variables of how wide the search was, over a dimension or not."""
+        """Return registered variables on how wide the search was, along `dimension` if given."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
@@ -88,12 +89,12 @@ def describe_search(starts, radius, seed) -> dict:
 
 
 def missed_share(starts) -> float:
-    """Return the bound, at 95 %, on the share of random starts that lead to a motion never seen."""
+    """Return the bound, at 95 %, on the share of starts that lead to a motion never seen."""
     return min(1.0, RULE_OF_THREE / starts) if starts else 1.0
 
 
 def search_starts(oscillator, systems, count, radius, seeds, settling) -> Search:
-    """Return the starts of a search, and warn as `warn_if_narrow` if there is a radius.
+    """Return the starts of a search; if a radius is given, warn as `warn_if_narrow` does.
 
     Parameters
     ----------
@@ -105,7 +106,7 @@ def search_starts(oscillator, systems, count, radius, seeds, settling) -> Search
     radius : float or None
         Radius of the ball of random starts; None for a search as wide as the machine.
     seeds : sequence
-        Seed of each system, an integer or several.
+        Seed of each system, an integer or a sequence of integers.
     settling : Settling
         How free motions are settled.
 
@@ -131,9 +132,9 @@ def search_starts(oscillator, systems, count, radius, seeds, settling) -> Search
 
 
 def warn_if_narrow(oscillator, frequencies, radius) -> dict:
-    """Return displacement and speed of the largest free motion by frequency, and warn.
+    """Return displacement and speed of the largest free motion, keyed by frequency, and warn.
 
-    They are those of harmonic balance, in which the speed is W times the displacement.
+    Both follow from harmonic balance, in which the speed is W times the displacement.
 
     Warns
     -----
@@ -155,7 +156,7 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return what `Search` has of one system, for a search as wide as the machine."""
+    """Return one system's values of the fields of `Search`, in their order, without a radius."""
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
     crossing = 0.0 if damper is None else 2 * damper.clearance * frequency / math.pi

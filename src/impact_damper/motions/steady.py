@@ -12,7 +12,7 @@ from impact_damper.system.settling import check_settling
 
 
 def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
-    """The steady motion that a state at T = 0 leads to.
+    """Return the steady motion that a state at T = 0 leads to.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, 
     Returns
     -------
     xarray.Dataset
-        Scalars: outcome, period (in forcing periods), contacts per forcing period, extremum of
+        Scalars: outcome, period (in forcing periods), contacts per forcing period, largest
         |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent; and `state`,
         a state of the motion at W T = pi/2.
 
@@ -46,7 +46,7 @@ def steady_motion(oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, 
 
 
 def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=None):
-    """One period, sampled, of the steady motion that a state at T = 0 settles to.
+    """Return one period, sampled, of the steady motion that a state at T = 0 settles to.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
     Returns
     -------
     xarray.Dataset
-        As of `simulate`, from W T = pi/2 on.
+        As from `simulate`, from W T = pi/2 on.
 
     Raises
     ------

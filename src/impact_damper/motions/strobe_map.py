@@ -1,7 +1,7 @@
 """The strobe map, from one forcing period to the next, and Newton's method for its periodic orbits.
 
-The strobe is the phase W T = pi/2, midway between the contacts of a damper at its design point,
-which fall near 0 and pi.
+The strobe is the phase W T = pi/2 of the forcing, with frequency W: midway between the contacts of
+a damper at its design point, which fall near 0 and pi.
 """
 
 import math
@@ -82,7 +82,7 @@ def flow_map(p, y, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` after a strobe, its derivative (4, 4), and the contacts begun."""
+    """Return the state `periods` after a strobe, its derivative (4, 4), and number of contacts."""
     half = np.bool_(False)  # for a literal the map would be compiled once more
     state, tangents = y.copy(), np.eye(4)
     contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
@@ -141,7 +141,7 @@ def dominant(values):
 
 @kernel
 def polish(p, y, periods, reach, tolerance):
-    """Newton's method for a fixed point of the map over `periods` from a state y near it.
+    """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
     Without contacts the loose mass keeps its place and only Z1 and Z1' are unknown. Returns whether
     the method converged to an orbit within `reach` of y (Z2' not counted), the residual, and the

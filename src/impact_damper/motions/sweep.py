@@ -1,4 +1,4 @@
-"""All motions along a sweep of one parameter that starts and following reach.
+"""Find the motions along a sweep of one parameter, from start states and by following.
 
 At each value motions are run from the starts of a search. Each settled motion is then followed by
 Newton's method to the next value, upward and downward, so that motions with small basins of
@@ -47,8 +47,8 @@ class Catalogue:
     numbers : list of int
         Numbers of the motions, unique over the sweep.
     origins : list of int
-        Flags of `origin`: reached from a random start, else from a placed one, or by following
-        only.
+        Flags of `origin`: how each motion was first reached, from a random start, from a placed
+        one, or by following only.
     shares : list of int
         Numbers of random starts that lead to the motions.
     """
@@ -121,7 +121,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of one catalogue to the next value of the parameter.
+    """Follow all motions of the catalogue `source` to the next value of the parameter.
 
     Motions reached are entered in the catalogue `target`; `links` gets pairs of numbers of
     motions on one branch, `ends` a dictionary for each branch that ends on the way.
@@ -161,14 +161,14 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _branches(catalogues, links):
-    """Return the branch of each motion by number: the connected components of the links."""
+    """Return the branch of each motion, indexed by number: connected components of the links."""
     size = sum(len(catalogue.records) for catalogue in catalogues)
     pairs = np.array(links or [(0, 0)]).T
     return connected_components(coo_array((np.ones(len(pairs[0])), pairs), (size, size)), False)[1]
 
 
 def _tables(catalogues, branches, dimension):
-    """Return variables over (dimension, motion), the larger motions first, padded by 'absent'."""
+    """Return variables with dimensions (dimension, motion), largest first, padded by 'absent'."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -225,8 +225,8 @@ def sweep(parameters, index, dimension, states, settling, *, placed=None, worker
     Returns
     -------
     dict
-        Registered variables with their dimensions: over (dimension, motion) the distinct
-        motions, over (dimension, start) the outcomes of the runs, over `end` the ends of branches.
+        Registered variables: with the dimensions (dimension, motion) the distinct motions, with
+        (dimension, start) the outcomes of the runs, with `end` the ends of branches.
     """
     size, starts = states.shape[:2]
     placed = placed or [NO_STARTS] * size
@@ -286,5 +286,5 @@ def sweep(parameters, index, dimension, states, settling, *, placed=None, worker
 
 
 def reached(data):
-    """Return where the motions of a `sweep` are reached from a random or a placed start."""
+    """Return which motions of a `sweep` are reached from a random or a placed start."""
     return (data["share"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))

@@ -1,4 +1,4 @@
-"""Bifurcations and changes of contact on a step between two points of a branch, located.
+"""Locate bifurcations and changes of contact on a step between two points of a branch.
 
 A bifurcation is located as the zero of a test function along the step, a change of contact as
 the place where the sequence of walls that an orbit touches changes.
@@ -42,34 +42,35 @@ class Event(NamedTuple):
 
 
 def _fold(point):
-    """Component of the tangent along the parameter."""
+    """Return the component of the tangent along the parameter, zero at a fold."""
     return point.tangent[-1]
 
 
 def _symmetry(point):
-    """det(root + 1), for symmetric orbits only: zero where the root has the multiplier -1."""
+    """Return det(root + 1) (`Orbit.root`), zero for a multiplier -1; 1 if not symmetric."""
     root = point.orbit.root
     n = point.orbit.active
     return 1.0 if root is None else np.linalg.det(root[:n, :n] + np.eye(n))
 
 
 def _doubling(point):
-    """det(monodromy + 1), for orbits that are not symmetric, since only these can double."""
+    """Return det(monodromy + 1), zero for a multiplier -1; 1 if symmetric: it cannot double."""
     orbit = point.orbit
     n = orbit.active
     return 1.0 if orbit.root is not None else np.linalg.det(orbit.monodromy[:n, :n] + np.eye(n))
 
 
 def _pairs(point):
-    """Product of mu_i mu_j - 1 over all pairs; it vanishes where a pair lies on the unit circle."""
+    """Return the product of mu_i mu_j - 1 of all pairs, zero for a pair on the unit circle."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = np.triu_indices(len(values), 1)
     return float(np.prod(values[first] * values[second] - 1).real)
 
 
-# For each kind of bifurcation a test function of a point, zero there, and the tolerance on the
-# place of the zero, in branch length. A fold needs less: the parameter changes with the square of
-# the distance from the fold, and Newton's method becomes singular closer to it.
+# For each kind of bifurcation a function of a point that is zero at the bifurcation, and the
+# tolerance on the place of the zero, in branch length. A fold needs less accuracy: the parameter
+# changes with the square of the distance from the fold, and Newton's method becomes singular closer
+# to it.
 TESTS = {
     "fold": (_fold, 1e-7),
     "symmetry_breaking": (_symmetry, 1e-12),
@@ -95,7 +96,7 @@ def events_between(problem, start, end, length):
         In order along the step. Two real multipliers whose product passes 1 are no
         Neimark-Sacker bifurcation and are left out.
     lost : int
-        Number of events whose place Newton's method did not reach.
+        Number of events that were not located, since Newton's method failed.
     """
     located, lost = [], 0
 

@@ -1,4 +1,4 @@
-"""A branch of periodic orbits, followed from one orbit in both directions of a parameter."""
+"""Follow a branch of periodic orbits from one orbit in both directions of a parameter."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -22,7 +22,7 @@ MOST_POINTS = 2000
 SAME = 1e-5
 # `Branch.holds` compares states only where max |Z1| on the step comes so close to the orbit's.
 NEARBY = 0.02
-# A branch whose last contact, slower than this, disappears has come to a motion without contacts.
+# If contacts slower than this disappear, the branch has come to a motion without contacts.
 WEAK = 0.02
 # Distance along the tangent at which a lost branch is examined for a new contact.
 GLANCE = 1e-4
@@ -130,7 +130,7 @@ def follow_branch(family, orbit, value, span) -> Branch:
 
 
 def _reversed(event):
-    """The event as met in the other direction."""
+    """Return the event as met in the other direction."""
     return event._replace(before=event.after, after=event.before)
 
 
@@ -173,7 +173,7 @@ def _walk(problem, first, span) -> Branch:
 
 
 def _end_at(problem, point, ahead, first, span, count):
-    """Reason why a branch ends at the point ahead, the last of `count`, or ""."""
+    """Return why a branch ends at the point `ahead`, its `count`-th one, or "" if it goes on."""
     if ahead.value in span:
         return "range_ends"
     if count > 3 and _passes(problem, point, ahead, first):
@@ -182,10 +182,11 @@ def _end_at(problem, point, ahead, first, span, count):
 
 
 def _deviation(orbit: Orbit):
-    """Difference, shape (4,), of an orbit from one of more symmetry.
+    """Return the difference, shape (4,), of an orbit from one of more symmetry.
 
-    Two branches meet where it changes sign. For odd n the other orbit is the symmetric one, for
-    even n one of half the period. A symmetric orbit has no such branch to meet: ones.
+    The branches of both orbits meet where the difference changes sign. The other orbit is the
+    symmetric one if the period n is odd, and one of half the period if n is even. A symmetric orbit
+    has no such branch to meet; the difference is then replaced by ones.
     """
     if orbit.root is not None:
         return np.ones(4)
@@ -215,7 +216,7 @@ def _next(problem, point, span, length):
 
 
 def _loss(problem, last):
-    """Reason why a branch ends at a point beyond which Newton's method finds no other.
+    """Return why a branch ends at a point beyond which Newton's method finds no other.
 
     At a grazing contact the branch turns so sharply that it is not followed further.
     """
@@ -227,13 +228,13 @@ def _loss(problem, last):
 
 
 def _is_too_unstable(orbit):
-    """Whether an orbit amplifies rounding so much that its stored digits would be wrong."""
+    """Return whether an orbit amplifies rounding so much that stored digits would be wrong."""
     matrix = orbit.monodromy if orbit.root is None else orbit.root
     return abs(orbit.multipliers[0]) > UNSTABLE or np.linalg.norm(matrix, 2) > AMPLIFYING
 
 
 def _passes(problem, point, ahead, first):
-    """Whether the first point of a branch lies on the step between two others."""
+    """Return whether the first point of a branch lies on the step between two others."""
     if (point.value - first.value) * (ahead.value - first.value) > 0:
         return False
     again = problem.at_value(point, first.value)

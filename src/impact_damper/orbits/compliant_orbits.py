@@ -1,4 +1,4 @@
-"""Symmetric orbits of period 1 with two compliant contacts, by Newton's method at the strobe.
+"""Symmetric orbits of period 1 with two compliant contacts, by Newton's method.
 
 The counterpart with rigid impacts is `contact.rigid_orbits`.
 """
@@ -15,14 +15,14 @@ SYMMETRIC = 1e-6
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit with two contacts a forcing period, stable or not.
+    """A symmetric orbit with two contacts per forcing period, stable or not.
 
     Attributes
     ----------
     parameters : numpy.ndarray, shape (COUNT,)
         Packed parameters.
     state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at W T = pi/2.
+        Z1, Z1', Z2, Z2' at the strobe, W T = pi/2, where W is the forcing frequency.
     multiplier : complex
         Dominant Floquet multiplier, its imaginary part not negative.
     displacement : float
@@ -36,7 +36,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Newton's method onto a symmetric orbit with two contacts a forcing period.
+    """Find a symmetric orbit with two contacts per forcing period by Newton's method.
 
     Parameters
     ----------

@@ -68,7 +68,7 @@ class Problem:
     phase : float
         Phase W T at which their states are given, radian.
     loose : numpy.ndarray, shape (2,)
-        Z2 - Z1 and Z2' - Z1', kept constant without a damper, when they have no effect.
+        Z2 - Z1 and Z2' - Z1'. Without a damper they have no effect and are kept constant.
     damped : bool
         Whether the damper is on.
     symmetric : bool
@@ -96,7 +96,7 @@ class Problem:
         )
 
     def shoot(self, x):
-        """Return the `Orbit` at unknowns, without iteration, and its defect, shape (n,).
+        """Return the `Orbit` at the unknowns x, without iteration, and its defect, shape (n,).
 
         The defect is the state after the map less the state before.
         """
@@ -115,7 +115,7 @@ class Problem:
         return np.column_stack([matrix[:n, :n] - np.eye(n), by_parameter])
 
     def correct(self, x, border):
-        """Newton's method at right angles to a vector `border`; return a point, or None.
+        """Return the point that Newton's method reaches at right angles to `border`, or None.
 
         Where branches cross the matrix is singular: its smallest singular value is left out. The
         last corrections are then rounding errors, which no longer shrink, so convergence is

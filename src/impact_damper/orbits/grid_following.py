@@ -1,4 +1,4 @@
-"""Orbits over a grid of parameters, each followed from a neighbouring cell."""
+"""Orbits in the cells of a grid of parameters, each followed from a neighbouring cell."""
 
 from collections import deque
 
@@ -14,7 +14,7 @@ SHORTEST = 1 / 32
 def follow_line(
     correct, first, last, orbit, *, shortest=SHORTEST, extrapolating=False, behind=None
 ) -> Followed:
-    """Follow an orbit along the straight line from one point in the parameters to another.
+    """Follow an orbit along the straight line between two points in the space of parameters.
 
     Parameters
     ----------
@@ -28,10 +28,10 @@ def follow_line(
     shortest : float
         Shortest step tried, as a share of the distance.
     extrapolating : bool
-        Whether predictions extrapolate. Only then does a step grow again after a success, because
-        without it a longer step that has failed would fail again.
+        Whether predictions extrapolate the last two orbits. Only then does a step grow again after
+        a success, because without extrapolation a longer step that has failed would fail again.
     behind : optional
-        Orbit at 2 first - last, with which the first prediction extrapolates too.
+        Orbit at 2 first - last. Given this orbit, the first prediction extrapolates too.
 
     Returns
     -------
@@ -62,19 +62,19 @@ class Grid:
     points : array, shape (*shape, m)
         Parameters of the cells.
     correct, shortest
-        As of `follow_line`.
+        As in `follow_line`.
     axes : sequence of int, optional
         Axes of the grid in the order in which orbits are followed along them; by default the
         first axis first.
     extrapolating : bool
-        As of `follow_line`; the orbit behind is that of the cell on the other side.
+        As in `follow_line`; the orbit behind is that of the cell on the other side.
 
     Attributes
     ----------
     orbits : dict
-        Orbits by cell, a tuple of indices.
+        Orbits, keyed by cell, a tuple of indices.
     status : dict
-        Status of the search in each cell to which an orbit was followed.
+        Status of the search, keyed by cell, wherever an orbit was followed to.
     """
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
@@ -128,7 +128,7 @@ class Grid:
         )
 
     def flags(self, variable):
-        """Status of all cells as flags of a variable, not_attempted where there is none."""
+        """Return the status of all cells as flags of a variable, by default `not_attempted`."""
         flags = np.full(self.shape, flag(variable, "not_attempted"))
         for cell, status in self.status.items():
             flags[cell] = flag(variable, status)

@@ -1,4 +1,4 @@
-"""The quiet orbit, stable or not, over a grid of parameters.
+"""The quiet orbit, stable or not, on a grid of parameters.
 
 The quiet orbit has the period of the forcing, touches each wall once a period, and is its own
 mirror image half a period later. It is therefore a fixed point of the map over half a period with
@@ -18,7 +18,7 @@ from impact_damper.orbits.grid_following import Grid
 from impact_damper.orbits.shooting import STROBE, shoot
 from impact_damper.system import packed
 
-# Phase W T of the states, far from contacts: these lie between about -0.2 and pi/2, and half a
+# Phase W T of the states, far from contacts. Contacts lie between about -0.2 and pi/2, and half a
 # period later.
 PHASE = 0.75 * np.pi
 # Newton's method: number of corrections, and largest distance from the guess.
@@ -31,7 +31,7 @@ NEAR = 4
 
 
 class QuietOrbits(NamedTuple):
-    """Quiet orbits over a grid of rows and columns; NaN where there is none.
+    """Quiet orbits on a grid of rows and columns; NaN in cells without one.
 
     Attributes
     ----------
@@ -40,9 +40,9 @@ class QuietOrbits(NamedTuple):
     displacement, harmonic : numpy.ndarray, shape (rows, columns)
         Largest |Z1|, and amplitude of the first harmonic of Z1.
     end : numpy.ndarray, shape (rows, 2)
-        Columns, as decimals, between which a row has orbits.
+        Least and greatest column of each row's orbits, with decimals between two columns.
     end_event : numpy.ndarray, shape (rows, 2)
-        Reasons why they end there, flags of `quiet_end_event`.
+        Reasons why the orbits end there, flags of `quiet_end_event`.
     """
 
     multiplier: np.ndarray
@@ -56,8 +56,9 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
     """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
     In this limit, of rigid walls and high frequency, the equations of `straight_flight_ratio` give
-    W^2 d0/f = k sin(s) - cos(s) for the phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e),
-    the forcing amplitude f = F + U W^2, and for any rm. There is no solution beyond
+    W^2 d0/f = k sin(s) - cos(s) for the phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e) and
+    the forcing amplitude f = F + U W^2 of force F and unbalance U, whatever the mass ratio. There
+    is no solution beyond
     W^2 d0/f = sqrt(1 + k^2), where the forcing no longer supplies the energy that impacts
     dissipate.
 
@@ -86,7 +87,7 @@ def is_symmetric_pair(records):
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Quiet orbits in the cells of a grid, followed from the known ones to all cells they reach.
+    """Return the quiet orbits of a grid, followed from known ones to all cells they reach.
 
     Parameters
     ----------
@@ -128,7 +129,7 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
 
 
 def find_quiet_orbit(p, guess):
-    """Newton's method onto the quiet orbit near a guess of its state at W T = 3 pi/4.
+    """Find the quiet orbit near a guess of its state at W T = 3 pi/4 by Newton's method.
 
     Parameters
     ----------
@@ -159,14 +160,14 @@ def find_quiet_orbit(p, guess):
 
 
 def _dominant(orbit):
-    """Multiplier of the root of largest modulus, its imaginary part not negative."""
+    """Return the multiplier of the root of largest modulus, its imaginary part not negative."""
     values = np.linalg.eigvals(orbit.root)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
 
 def _row_ends(grid, row):
-    """Columns, as decimals, at which the orbits of a row end, and flags of `quiet_end_event`."""
+    """Return where the orbits of a row end, as columns with decimals, and flags of the reasons."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, [flag("quiet_end_event", "no_orbit")] * 2
@@ -181,7 +182,7 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    """Share of the way at which following ended, and the event there.
+    """Return the share of the way at which following ended, and the event at that place.
 
     Towards a fold, det(1 - root) falls with the square root of the distance from the fold. The
     event is a fold if this law, through the last two orbits, predicts one close to the last.

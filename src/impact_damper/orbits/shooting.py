@@ -1,7 +1,7 @@
 """Periodic orbits, stable or not, by Newton's method on the event-driven flow.
 
 The state of an orbit is given at a phase W T of the forcing at which the loose mass is in flight,
-far from contacts: there the map over the period is smooth and well scaled. Its derivative comes
+far from contacts, where the map over the period is smooth and well scaled. Its derivative comes
 from the variational equations, with saltation matrices where the dashpot's force jumps.
 """
 
@@ -25,7 +25,7 @@ MARGIN = 0.15
 RESIDUAL = 1e-12
 ITERATIONS = 20
 FAR = 10.0
-# Residual from which on an orbit is known well enough to move its phase.
+# Residual below which an orbit is known well enough to move its phase.
 NEAR = 1e-6
 # Largest number of contacts in a forcing period that are listed.
 CONTACTS = 64
@@ -42,9 +42,10 @@ class Orbit:
     periods : int
         Period n in forcing periods.
     phase : float
-        Phase W T of the state, radian.
+        Phase W T of the state, radian; W is the forcing frequency.
     state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at that phase.
+        Z1, Z1', Z2, Z2' at that phase; Z2 is the displacement of the primary mass, Z1, relative to
+        the loose mass.
     monodromy : numpy.ndarray, shape (4, 4)
         Derivative of the map over n periods.
     root : numpy.ndarray, shape (4, 4), or None
@@ -96,7 +97,7 @@ class Orbit:
 
     @property
     def liouville_error(self):
-        """Relative error of the determinant of the monodromy matrix.
+        """Return the relative error of the determinant of the monodromy matrix.
 
         By Liouville's theorem the determinant is exp(-h n 2 pi/W - c (1 + 1/rm) t_c), with the
         dashpot's coefficient c = 2 zeta_c sqrt(r1 rm) and the time in contact t_c.
@@ -139,7 +140,7 @@ class Orbit:
 
     @property
     def sequence(self):
-        """Walls touched in order, as "+-"; of its cyclic shifts the first in the alphabet."""
+        """Walls touched in order, such as "+-"; of all cyclic shifts the first in the alphabet."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -248,14 +249,14 @@ def shoot(p, state, periods, phase, *, symmetric=False):
 
 
 def find_orbit(p, state, periods=1, phase=STROBE):
-    """Newton's method from a state near an orbit, whose phase is then moved into flight.
+    """Find the orbit near a state by Newton's method, and move its phase into flight.
 
     Where no wall is touched only Z1 and Z1' are unknown, and the loose mass keeps its place.
 
     Parameters
     ----------
     p, state, periods, phase
-        As of `shoot`.
+        As in `shoot`.
 
     Returns
     -------

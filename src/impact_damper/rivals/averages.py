@@ -1,4 +1,8 @@
-"""Averages of a chaotic motion with their standard errors, from batches of forcing periods."""
+"""Averages of a chaotic motion with their standard errors, from batches of forcing periods.
+
+The forcing periods of a run are grouped into batches of successive periods. The average is the mean
+of the batch means, and its standard error follows from their scatter.
+"""
 
 import math
 
@@ -10,16 +14,19 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals.methods import STATISTICS
 from impact_damper.system.packed import DASHPOT, FREQUENCY
 
+# Tolerance of runs for Lyapunov exponents.
 EXPONENT_TOLERANCE = 1e-9
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return contacts a period and the mean of the largest |Z1| of a period, by batch.
+    """Return for each batch the contacts per period, and the mean of the largest |Z1| of a period.
+
+    `run` is a `runs.Run` from the time `begin`, `batch` the number of periods in a batch.
 
     Returns
     -------
     dict
-        Arrays (periods // batch,), by statistic.
+        Arrays (periods // batch,), keyed by the name of the statistic.
     """
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
@@ -35,7 +42,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch):
-    """Return the largest Lyapunov exponent per unit of time, by batch, by the Taylor series."""
+    """Return the largest Lyapunov exponent per unit of time in each batch, by the Taylor series."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -47,7 +54,7 @@ def exponents(p, start, tolerance, periods, batch):
 
 
 def rigid_exponents(restitution, p, start, tolerance, periods, batch):
-    """Return the largest Lyapunov exponent per unit of time, by batch, of the rigid model."""
+    """Return the largest Lyapunov exponent per unit of time in each batch, of the rigid model."""
     p = p.copy()
     p[DASHPOT] = 0.0
     y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[FREQUENCY]
@@ -65,7 +72,10 @@ def _renormalised(tangent):
 
 
 def estimates(batches):
-    """Return mean and standard error of each statistic, shape (2, 3), NaN for missing ones."""
+    """Return mean and standard error of each of STATISTICS, shape (2, 3), NaN for missing ones.
+
+    `batches` is a dictionary from the name of a statistic to its values in the batches.
+    """
     found = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

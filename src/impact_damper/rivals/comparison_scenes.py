@@ -1,4 +1,8 @@
-"""Motions on which methods are compared, and their references."""
+"""Test cases (scenes) of the stage `accuracy`: motions on which methods are compared.
+
+A motion that is not chaotic has a reference: the state at its end, its contacts and its amplitude
+from an 80-bit computation, taken as exact.
+"""
 
 from typing import NamedTuple
 
@@ -27,10 +31,10 @@ class ComparisonScene(NamedTuple):
         "steady" (an orbit of the forcing's period, which models of orbits compute as well),
         "transient" or "chaotic".
     accuracy : dict
-        `quantity` of `ERRORS`, or of `STATISTICS` if the motion is chaotic, and the largest error
-        `within` which a user wants it.
+        Accuracy that a user wants: under the key "quantity" one of `ERRORS`, or of `STATISTICS` if
+        the motion is chaotic, and under "within" its largest error.
     tolerance : float or None
-        Tolerance with which stages run motions like this one, if any do.
+        Tolerance with which other stages run such motions; None if none does.
     """
 
     name: str
@@ -50,7 +54,7 @@ class ComparisonScene(NamedTuple):
 
 
 def check_accuracy(motion, accuracy):
-    """Raise ValueError if the quantity of an accuracy does not belong to a kind of motion."""
+    """Raise ValueError if `accuracy["quantity"]` is not defined for this kind of motion."""
     allowed = STATISTICS if motion == "chaotic" else ERRORS
     if accuracy["quantity"] not in allowed:
         raise ValueError(
@@ -60,7 +64,7 @@ def check_accuracy(motion, accuracy):
 
 
 class Reference(NamedTuple):
-    """The exact values of a run; attributes as of `runs.Run`."""
+    """Values of a run that are taken as exact; the attributes are those of `runs.Run`."""
 
     state: np.ndarray
     contact_times: np.ndarray

@@ -1,7 +1,8 @@
-"""The equations of motion for integrators that evaluate the rate of the state, a tuple.
+"""The equations of motion for integrators that evaluate the rate (time derivative) of the state.
 
-Equations (3), (4) and (20) to (24). A contact acts while |Z2| exceeds the clearance, so it ends
-at zero penetration, and the dashpot's force jumps at both ends.
+Equations (3), (4) and (20) to (24); the state is a tuple (Z1, Z1', Z2, Z2'). A contact acts while
+|Z2| exceeds the clearance, so it ends at zero penetration, and the dashpot's force jumps both when
+it begins and when it ends.
 """
 
 from impact_damper.kernel.compiling import kernel, kernel_only
@@ -17,7 +18,7 @@ from impact_damper.system.packed import (
 
 @kernel
 def wall_at(p, z):
-    """Return the wall that acts at a position Z2: -1, 0 within the clearance, or 1."""
+    """Return the wall in contact at a position z = Z2: -1, 1, or 0 within the clearance."""
     if z > p[CLEARANCE]:
         return 1
     if z < -p[CLEARANCE]:
@@ -27,16 +28,16 @@ def wall_at(p, z):
 
 @kernel
 def rate(p, side, t, y):
-    """Return the rate of the state (Z1, Z1', Z2, Z2') while a wall acts.
+    """Return the rate of the state (Z1, Z1', Z2, Z2') at the time t.
 
-    `side` is the wall: -1, 0 for none, or 1.
+    `side` is the wall in contact: -1, 1, or 0 for none.
     """
     return rate_under(p, side, external_force(p, t), y)
 
 
 @kernel_only
 def rate_under(p, side, drive, y):
-    """Return the rate as `rate` does, with the forcing `drive` given."""
+    """Return the rate as `rate` does, given the forcing `drive` in place of the time."""
     x, v, z, w = y
     force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
     a = drive - p[DAMPING] * v - spring(p, x) - force
@@ -45,19 +46,22 @@ def rate_under(p, side, drive, y):
 
 @kernel_only
 def rate_by_position(p, drive, y):
-    """Return the rate with the wall that acts at the position, to integrate through the kink."""
+    """Return the rate with the wall chosen by the position Z2, to integrate through the kink."""
     return rate_under(p, wall_at(p, y[2]), drive, y)
 
 
 @kernel
 def moved(y, h, k):
-    """Return the state y + h k."""
+    """Return the state y + h k, with a step h and a rate k."""
     return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
 
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return the largest |Z1| over a step h, if Z1' changes linearly."""
+    """Return the largest |Z1| over a step h if Z1' changes linearly.
+
+    x, v are Z1, Z1' at the beginning of the step, x_end, v_end at its end.
+    """
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

@@ -1,6 +1,7 @@
 """Fixed-step methods through the kink: Heun, velocity Verlet, Runge-Kutta-4 and -Merson.
 
-Contacts are not located: each evaluation of the rate takes the contact force at its position.
+Contacts are not located ("through the kink" of the force): each evaluation of the rate adds the
+contact force if its position Z2 is beyond a wall.
 """
 
 import math
@@ -16,8 +17,9 @@ from impact_damper.system.packed import FREQUENCY
 NAMES = ("heun", "verlet", "runge_kutta_4", "merson")
 HEUN, VERLET, RUNGE_KUTTA_4, MERSON = range(4)
 
-# Largest h omega for which an undamped oscillator does not grow: where |R(i h omega)| = 1 for the
-# stability function R; for Merson's R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 + z^5/144.
+# Largest product h omega of step and frequency for which the computed motion of an undamped
+# oscillator does not grow. There |R(i h omega)| = 1 for the method's stability function R, which
+# for Merson's method is R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 + z^5/144.
 STABILITY_LIMIT = {
     "heun": 0.0,
     "verlet": 2.0,
@@ -26,7 +28,8 @@ STABILITY_LIMIT = {
 }
 # Sum |Z1| + |Z1'| + |Z2'| beyond which a run has diverged.
 BEYOND = 1e3
-# Steps in one call of a kernel, if a forcing period has no more: Ctrl-C waits for its end.
+# Steps in one call of a compiled function, which runs at least one forcing period. Ctrl-C is heard
+# only after a call.
 STEPS_AT_ONCE = 10**6
 
 
@@ -51,7 +54,10 @@ def heun_step(p, drives, h, y):
 
 @kernel_only
 def verlet_step(p, drives, h, y):
-    """Return the state after a step of velocity Verlet, order 2; forces take a predicted speed."""
+    """Return the state after a step of velocity Verlet, order 2.
+
+    Forces at the end of the step are computed with a speed extrapolated linearly.
+    """
     k1 = rate_by_position(p, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])
@@ -84,9 +90,9 @@ def merson_step(p, drives, h, y):
 
 @kernel
 def one_step(method, p, drives, h, y):
-    """Return the state after a step of the method with a number in `NAMES`.
+    """Return the state after a step of a method, given by its index in `NAMES`.
 
-    `drives` is the `forcing` of the step.
+    `drives` is what `forcing` returns for the step.
     """
     if method == HEUN:
         return heun_step(p, drives, h, y)
@@ -104,12 +110,13 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     Parameters
     ----------
     method : int
-        Number in `NAMES`.
+        Index in `NAMES`.
     p : array, shape (packed.COUNT,)
-        Packed parameters (`parameters.pack`).
+        Packed parameters (`packed.pack`).
     start : array, shape (4,)
+        Initial state.
     t : float
-        Time of the start.
+        Time of the initial state.
     steps : int
         Steps a forcing period.
     strobes, largest : array, shapes (n, 4) and (n,)
@@ -120,7 +127,7 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     y = (start[0], start[1], start[2], start[3])
     strobes[:] = np.nan
     largest[:] = np.nan
-    # The same in each period: computing cosines again would take half the time of a run.
+    # The forcing is the same in each period: computing it again would double the time of a run.
     drives = np.empty((steps, 4))
     for i in range(steps):
         drives[i, 0], drives[i, 1], drives[i, 2], drives[i, 3] = forcing(p, t + i * h, h)
@@ -140,7 +147,7 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
 
 @kernel
 def fixed_ends(method, p, start, t, step, ends):
-    """Fill `ends` (m, 5) with time and state at the ends of m equal steps."""
+    """Fill `ends` (m, 5) with time and state after each of m equal steps from `start`."""
     y = (start[0], start[1], start[2], start[3])
     for i in range(len(ends)):
         y = one_step(method, p, forcing(p, t + i * step, step), step, y)
@@ -154,6 +161,7 @@ class FixedStep(Integrator):
     Parameters
     ----------
     name : str
+        One of `NAMES`.
     """
 
     def __init__(self, name):
@@ -185,7 +193,7 @@ class FixedStep(Integrator):
         return self._seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
     def _seen(self, p, ends, time):
-        """Return |Z2| at the ends of steps (n, 5), and at a time, by a step that ends there."""
+        """Return |Z2| at the ends of steps (n, 5), and at `time`, by a step that ends then."""
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)

@@ -1,8 +1,8 @@
-"""Runge-Kutta-Merson with step control, the paper's method, with or without located contacts.
+"""Runge-Kutta-Merson with step control, the method of the paper, with or without locating contacts.
 
 Merson's estimate of the error, exact for linear equations, is kept below the tolerance times
-1 + |y| in each component. Contacts are located as in common codes: where the gap has changed its
-sign at the end of a step, the length of the step is reduced until the gap vanishes at its end.
+1 + |y| in each component y. Contacts are located as in common codes: if the gap has changed its
+sign at the end of a step, the step is shortened until the gap is zero at its end.
 """
 
 import math
@@ -17,23 +17,24 @@ from impact_damper.rivals.operations import operations
 from impact_damper.rivals.runs import read_off, stopped
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# The tolerance cannot be met if steps would have to be shorter.
+# A run fails if a step would have to be shorter than SHORTEST, or if one call of `advance_merson`
+# takes more than MOST_STEPS steps.
 SHORTEST = 1e-12
 MOST_STEPS = 10**6
-# Step ends that are kept of a forcing period, and of a flight.
+# Most ends of steps that are kept in a forcing period, and in a flight.
 MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
 # Length of the first step, in forcing periods.
 FIRST = 1e-3
-# Forcing periods in one call of a kernel: Ctrl-C waits for its end.
+# Forcing periods in one call of a compiled function. Ctrl-C is heard only after a call.
 PERIODS_AT_ONCE = 10
 
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state after one step, and its estimated error over the error allowed.
+    """Return the state after one step, and the ratio of its estimated error to the error allowed.
 
-    `side` is the wall that acts; with `by_position` each evaluation of the rate chooses the wall
-    by its position instead.
+    `side` is the wall in contact (-1, 1, or 0 for none). With `by_position` each evaluation of the
+    rate instead chooses the wall by its position Z2.
     """
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
@@ -54,7 +55,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def ahead(p, side, y):
-    """Return the distance from the next event: the gap in flight, the penetration in contact."""
+    """Return what is zero when a contact begins or ends: gap in flight, penetration in contact."""
     if side == 0:
         return p[CLEARANCE] - abs(y[2])
     return side * y[2] - p[CLEARANCE]
@@ -62,10 +63,10 @@ def ahead(p, side, y):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return the length of step that ends at the event, the state there, and the steps tried.
+    """Return the step that ends at an event, the state at its end, and the number of steps tried.
 
-    The event lies within the step h. The step is halved until it ends before the event; then
-    regula falsi (Illinois) finds the length.
+    The event, beginning or end of a contact, lies within the step h. The step is halved until it
+    ends before the event; then regula falsi (Illinois) finds its length.
     """
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
@@ -105,11 +106,11 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     Parameters
     ----------
     p, y : array
-        Packed parameters and the state, which is replaced.
+        Packed parameters, and the state at t, which is replaced by that at the end.
     side : int
-        Wall in contact; unused without `locate`.
+        Wall in contact, -1 or 1, or 0 for none; unused without `locate`.
     t, end, h, tolerance : float
-        h is the length of the first step.
+        Times of beginning and end, length of the first step, and tolerance.
     locate : bool
         Whether contacts are located.
     ends : array, shape (m, 5)
@@ -118,9 +119,10 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     Returns
     -------
     side, h, steps, contacts, largest, tries
-        Wall in contact and next step; accepted steps, -1 if the tolerance could not be met in
-        `MOST_STEPS` steps or the run diverged (`BEYOND`); contacts begun, as seen at the ends of
-        steps; largest |Z1|; all steps computed, of five evaluations each.
+        Wall in contact at the end; length of the next step; number of accepted steps, -1 if the
+        tolerance could not be met in `MOST_STEPS` steps or the run diverged (`BEYOND`); number of
+        contacts begun, as seen at the ends of steps; largest |Z1|; number of steps computed,
+        rejected ones included, of five evaluations of the rate each.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, contacts, largest, tries = 0, 0, 0.0, 0
@@ -165,8 +167,8 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
 def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
     """Run over forcing periods; return the periods run, the wall in contact and the next step.
 
-    `side` is the wall in contact at the start, h the first step; the other arguments are as of
-    `fixed_step.run_fixed`.
+    `side` is the wall in contact at the start, h the length of the first step. `tolerance` and
+    `locate` are as in `advance_merson`, the other arguments as in `fixed_step.run_fixed`.
     """
     y = start.copy()
     none = np.empty((0, 5))
@@ -194,7 +196,7 @@ class Merson(FixedStep):
         super().__init__("merson")
 
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None):
-        """Return the run; its work is that of the steps tried, those of locating included."""
+        """Return the run; its work counts all steps tried, also those to locate contacts."""
         y, period = start.copy(), 2 * math.pi / p[FREQUENCY]
         side, h, tries = side_of(p, y), FIRST * period, 0
         times, states = [np.array([begin])], [start[None]]

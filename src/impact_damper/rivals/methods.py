@@ -17,15 +17,15 @@ class Method(NamedTuple):
     ----------
     title : str
     colour : str
-        Of matplotlib's colour cycle, where the stage `accuracy` compares the integrator.
+        Colour of matplotlib's cycle, if the stage `accuracy` compares the integrator.
     tolerances : str
         Key, in the section `comparison` of the configuration, of the tolerances with which the
         stage `accuracy` runs the integrator.
     fixed : bool
         Whether the stages set the number of steps in a forcing period in place of a tolerance.
     slow : bool
-        Whether stages give up a run after a number of evaluations of the rate, and run fewer
-        tolerances and, of chaotic motions, fewer periods.
+        Whether runs are given up after a number of evaluations of the rate, and fewer tolerances
+        and, for chaotic motions, fewer periods are run.
     implicit : bool
         Whether the stage `missed_contacts` runs only the first `implicit_passages` passages.
     """
@@ -78,13 +78,14 @@ COMPARED = {
     ),
 }
 
-# Stage `method_verdicts`: number of last states of a run that must repeat, the longest period after
-# which they may, and forcing periods of a run, enough to compare them.
+# Stage `method_verdicts` looks for the period of a run. LAST: how many of the last states, one for
+# each forcing period, must repeat. LONGEST_PERIOD: longest period looked for.
+# VERDICT_PERIODS_RANGE: forcing periods of a run, enough for this.
 LAST, LONGEST_PERIOD = 6, 6
 VERDICT_PERIODS_RANGE = PERIODS_RANGE | {"least": LAST + LONGEST_PERIOD}
 
-# Stage `accuracy`: quantities whose error is asked of a motion that can be followed, and averages
-# that are asked of a chaotic one.
+# Stage `accuracy`: quantities whose errors are compared for a motion that integrators can follow to
+# its end, and averages that are compared for a chaotic motion.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
@@ -98,11 +99,12 @@ ORBIT_MODELS = (
     "shooting",
 )
 
-# Highest harmonic of the balance from which shooting and rigid impacts start.
+# Highest harmonic of the harmonic balance whose solution is the first guess of the models
+# "shooting", "rigid" and "rigid_mended".
 START_HARMONICS = 15
 
-# Keys of the section `comparison` of the configuration: of lists of tolerances, and of
-# `evaluations`, at which runs of slow integrators are given up.
+# Keys in the section `comparison` of the configuration. TOLERANCE_KEYS: of lists of tolerances.
+# LIMITED: of `evaluations`, the number of evaluations after which a run of each is given up.
 TOLERANCE_KEYS = tuple(
     dict.fromkeys(each.tolerances for each in METHODS.values() if each.tolerances)
 )
@@ -110,18 +112,18 @@ LIMITED = tuple(name for name, each in METHODS.items() if each.tolerances and ea
 
 
 def name_and_mode(label):
-    """Return the name in `METHODS` of a label, and whether contacts are located.
+    """Return the name in `METHODS` that a label contains, and whether contacts are located.
 
-    A label is a name, and "_located" after it if the integrator locates the beginnings and ends of
-    contacts. Otherwise it integrates through the kink of the force there, which "_kink" may say.
-    The Taylor series always locates contacts.
+    A label is a name followed by "_located" if the integrator locates the beginnings and ends of
+    contacts. If it does not, but integrates through the kinks of the force, the name is followed by
+    "_kink" or by nothing. The Taylor series always locates contacts.
     """
     name = label.removesuffix("_located").removesuffix("_kink")
     return name, label.endswith("_located") or name == "taylor"
 
 
 def title_with_mode(label):
-    """Return the title of a label with what is done at contacts: "Merson, located"."""
+    """Return the title for a label, with its treatment of contacts: "Merson, located"."""
     name, located = name_and_mode(label)
     method = METHODS[name]
     if method.fixed or name == "taylor":
@@ -130,7 +132,7 @@ def title_with_mode(label):
 
 
 def integrators():
-    """Return the integrators, instances of `runs.Integrator`, by their names in `METHODS`."""
+    """Return a dictionary from the names in `METHODS` to instances of `runs.Integrator`."""
     from impact_damper.rivals.fixed_step import FixedStep
     from impact_damper.rivals.merson import Merson
     from impact_damper.rivals.scipy_methods import SciPy

@@ -1,9 +1,10 @@
-"""Counted work: the number of floating-point operations of a function, read from its source.
+"""Counted work: the number of floating-point operations of a function, counted in its source code.
 
-Unlike time, it is the same on every machine. An addition, subtraction, product, quotient or square
-root counts as one operation; sines, logarithms and other elementary functions as ELEMENTARY; signs,
-absolute values, comparisons and subscripts as none. An operation on a pair of numbers counts twice.
-Of two branches the longer one counts, unless the arguments determine which is taken.
+Unlike computing time, this number is the same on every machine. An addition, subtraction, product,
+quotient or square root counts as one operation; sines, logarithms and other elementary functions as
+ELEMENTARY; signs, absolute values, comparisons and subscripts as none. An operation on a pair of
+numbers counts twice. Of two branches of an `if` the one with more operations counts, unless the
+arguments determine which is taken.
 """
 
 import ast
@@ -22,7 +23,7 @@ class _Returned(Exception):
 
 @cache
 def operations(function, rounds=1, without=(), **arguments):
-    """Return the floating-point operations of one call.
+    """Return the number of floating-point operations of one call of a function.
 
     Parameters
     ----------
@@ -65,12 +66,12 @@ def _body(function):
 
 
 class _Counter(ast.NodeVisitor):
-    """Counts the operations of statements.
+    """Visits statements and counts their operations in `count`.
 
     Parameters
     ----------
     known : dict
-        Values of names: of the function's module, and of its arguments as far as given.
+        Values keyed by name: of the globals of the function, and of its arguments if given.
     rounds, without
         As of `operations`.
     pairs : iterable of str

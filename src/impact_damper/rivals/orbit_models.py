@@ -1,8 +1,8 @@
 """Models of a steady motion, and the operations that each takes.
 
-Most of them solve for an orbit instead of integrating from a state. If a balance has several
-solutions, the one nearest to the scene's state is taken, in the model's favour. The work, in
-floating-point operations:
+Most models solve for an orbit instead of integrating from a state. If a harmonic balance has
+several solutions, the one nearest to the initial state of the test case (scene) is taken, in the
+model's favour. The work is counted in floating-point operations:
 
 - rigid balance (14): eigenvalues of the companion matrices of a polynomial of degree 6 and of its
   derivative, 10 n^3 for n eigenvalues, and a root by bracketing between extrema;
@@ -44,11 +44,12 @@ from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
+# Largest distance of a rigid orbit from the first guess.
 REACH = 10.0
 
 
 class Model(NamedTuple):
-    """A steady motion by some model.
+    """A steady motion computed by a model.
 
     Attributes
     ----------
@@ -57,7 +58,7 @@ class Model(NamedTuple):
     operations : float
         Counted work.
     state : numpy.ndarray, shape (4,)
-        At the strobe W T = pi/2.
+        Z1, Z1', Z2, Z2' at W T = pi/2.
     contact_phases : numpy.ndarray
         W T in [0, 2 pi) at which contacts begin.
     displacement : float
@@ -72,10 +73,10 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the run of the rigid-impact model, from the strobe on.
+    """Return the run of the rigid-impact model from the state `start` at W T = pi/2, time t.
 
-    Flights take the steps of the Taylor series. A peak is the largest |Z1| of a period, and its
-    time the middle of the period.
+    Flights are integrated by the Taylor series. The peaks of the run are the largest |Z1| in each
+    forcing period, and their times the middles of the periods.
     """
     p = p.copy()
     p[DASHPOT] = 0.0
@@ -102,12 +103,12 @@ def rigid(p, restitution, start, t, periods, tolerance):
 
 
 def without(status, work=0.0):
-    """Return a model without a motion."""
+    """Return a `Model` without a motion, with a status that says why."""
     return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
 
 
 def of_coefficients(balance, coefficients, work):
-    """Return the model with the Fourier coefficients of a balance."""
+    """Return the `Model` of a harmonic-balance solution, given by its Fourier coefficients."""
     state = state_of(Solution(balance, coefficients, "", 0, 0.0))
     rows = balance.contacts(coefficients)
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
@@ -116,12 +117,12 @@ def of_coefficients(balance, coefficients, work):
 
 
 def nearest(models, state):
-    """Return the model whose Z1, Z1' is nearest to a state's, None if there are no models."""
+    """Return the model whose Z1, Z1' is nearest to that of `state`; None if there are no models."""
     return min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the single-term solution of (13) and (14), for rigid walls."""
+    """Return the model by (13) and (14): single-term balance with rigid walls."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     work = 10 * (6**3 + 5**3) + 6 * 10 * 12
@@ -155,7 +156,7 @@ def single_terms(oscillator, damper, frequency):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the single-term solution of (7), or of the cubic of the free oscillator."""
+    """Return the model by (7), or without a damper by the cubic equation: single-term balance."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -166,9 +167,9 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the coefficients of the single-term solution nearest to a state, and the work.
+    """Return the coefficients of the single-term solution nearest to `state`, and the work.
 
-    The coefficients are None if there is no solution.
+    The coefficients are None if there is no solution. The work is that of the search of all.
     """
     work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
     if damper is None:
@@ -183,9 +184,10 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return models by harmonic balance, by their highest harmonic 3, 7, 15, ... up to `highest`.
+    """Return a dictionary of models by harmonic balance, keyed by their highest harmonic.
 
-    Newton's method starts from the last one that converged, at first from a single-term solution.
+    The highest harmonics are 3, 7, 15, ... up to `highest`. Newton's method starts from the last
+    solution that converged, and at first from a single-term solution.
     """
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
@@ -217,7 +219,9 @@ def _transform(samples):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return orbits with rigid walls, and with walls corrected to the order 1/r1, by name.
+    """Return a dictionary of two models: "rigid" walls, and corrected walls ("rigid_mended").
+
+    The correction (`contact.rigid_orbits`) makes the error of order 1/r1.
 
     Newton's method starts from the model `start`.
     """
@@ -250,7 +254,7 @@ def _phases(p, run):
 
 
 def shooting(oscillator, damper, frequency, start):
-    """Return the orbit by shooting with the Taylor series, started from the model `start`."""
+    """Return the model by shooting with the Taylor series; its first guess is the model `start`."""
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
     begin = strobe_time(p)

@@ -1,8 +1,8 @@
-"""Passages: free flights whose largest |Z2| is known, to place a wall near that.
+"""Passages: free flights whose largest |Z2| is known, so that a wall can be placed close to it.
 
-A wall a little nearer than the largest |Z2| is touched once, for a short time; a wall a little
-further away is not touched. A method that checks the gap only at the ends of its steps can hardly
-distinguish the two.
+|Z2| is the distance of the loose mass from the middle of the gap. A wall a little nearer than the
+largest |Z2| is touched once, for a short time; a wall a little further away is not touched. A
+method that checks the gap only at the ends of its steps can hardly distinguish the two cases.
 """
 
 import math
@@ -15,6 +15,7 @@ from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, polynomial, step, workspace
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
+# Parts of a step in which extrema are looked for, and tolerance of the flights.
 PIECES = 16
 TOLERANCE = 1e-15
 
@@ -40,13 +41,13 @@ class Passage(NamedTuple):
 def largest_of_flight(p, y, t, end):
     """Return time, value and |second derivative| of the largest |Z2| of a flight over [t, end].
 
-    Changes of sign of Z2' bracket the extrema in each of `PIECES` parts of a step of the Taylor
-    series; bisection of Z2' finds them to rounding. If |Z2| is largest at an end of the flight, the
-    second derivative is returned as 0. y is replaced by the state at the end.
+    An extremum lies in each of the `PIECES` parts of a step of the Taylor series in which Z2'
+    changes its sign; bisection finds it to rounding. If |Z2| is largest at an end of the flight,
+    the second derivative is returned as 0. y, the state at t, is replaced by that at the end.
     """
     work = workspace()
     none = np.empty((0, 4))
-    flight = np.int64(0)  # a literal would have the step compiled for it alone
+    flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)
     at, largest, bend = t, abs(y[2]), 0.0
     while t < end:
@@ -80,7 +81,7 @@ def largest_of_flight(p, y, t, end):
 
 
 def free_flight(p):
-    """Return a copy of the packed parameters without walls."""
+    """Return a copy of the packed parameters with the walls infinitely far away."""
     free = p.copy()
     free[CLEARANCE] = math.inf
     return free
@@ -89,16 +90,18 @@ def free_flight(p):
 def draw_passages(p, count, radius, deepest, seed):
     """Return random passages over one forcing period, and the number of flights drawn to find them.
 
-    The initial states are uniform in a ball. Flights are kept if |Z2| at both ends is at least
-    `deepest` below its largest value, which then is an extremum, and if the flight begins and ends
-    within a wall that is `deepest` nearer.
+    The initial states are uniform in a ball of the given radius. A flight is kept as a passage if
+    |Z2| at its beginning and end is at least `deepest` below the largest |Z2|. The latter is then
+    an extremum, and a wall up to `deepest` nearer is not yet touched at both ends.
 
     Parameters
     ----------
     p : numpy.ndarray, shape (packed.COUNT,)
-        Packed parameters; only those of the oscillator count.
+        Packed parameters; those of the damper have no effect.
     count : int
+        Number of passages wanted.
     radius, deepest : float
+        Radius of the ball, and largest depth of a passage beyond a wall.
     seed : int
 
     Returns

@@ -1,4 +1,4 @@
-"""What an integrator offers to the stages, and the contacts and peaks seen at the ends of steps."""
+"""The interface of integrators, and contacts and peaks found from the ends of their steps."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from impact_damper.system.bounds import METHOD_TOLERANCE_RANGE, STEPS_RANGE, che
 from impact_damper.system.checks import check_increasing, check_numbers
 from impact_damper.system.packed import CLEARANCE
 
-# Halvings that find a root.
+# Halvings of an interval with which a root is located.
 HALVINGS = 54
 
 
@@ -24,11 +24,11 @@ class Run(NamedTuple):
     operations : float
         Counted work, in floating-point operations.
     state : numpy.ndarray, shape (4,)
-        At the end.
+        State at the end of the run.
     contact_times : numpy.ndarray
-        When contacts begin.
+        Times at which contacts begin.
     peak_times, peaks : numpy.ndarray
-        When |Z1| is largest, and the values there; those at the ends of the run count.
+        Times of the local maxima of |Z1|, and the maxima. Both ends of the run are included.
     displacement : float
         Largest |Z1|.
     """
@@ -49,11 +49,11 @@ def stopped(status, work):
 
 
 class Integrator:
-    """What the stages ask of an integrator.
+    """The interface that the stages of the workflow use.
 
-    A subclass implements the functions of the stages that compare it (`methods.COMPARED`).
-    Arguments: `p` packed parameters; `start` state (4,) at the time `begin`; `periods` forcing
-    periods to run; `locate` whether contacts are located.
+    A subclass implements the methods for those stages that compare it (`methods.COMPARED`); each
+    method names its stage. Arguments: `p` packed parameters; `start` state (4,) at time `begin`;
+    `periods` number of forcing periods to run; `locate` whether contacts are located.
 
     Attributes
     ----------
@@ -65,28 +65,31 @@ class Integrator:
     stability_limit = 0.0
 
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations) -> Run:
-        """Return the run; slow integrators give up after `most_evaluations`. For `accuracy`."""
+        """Return the run, for the stage `accuracy`.
+
+        Slow integrators give up after `most_evaluations` evaluations of the rate.
+        """
         raise NotImplementedError
 
     def strobes(self, p, start, begin, periods, resolution, locate) -> np.ndarray:
         """Return states (periods, 4) after each forcing period, NaN from a failure on.
 
-        `resolution` is a tolerance, or a number of steps in a forcing period. For
-        `method_verdicts` and, at the last period, the benchmarks.
+        `resolution` is a tolerance, or a number of steps in a forcing period. For the stage
+        `method_verdicts` and, by `end`, for the benchmarks.
         """
         raise NotImplementedError
 
     def flight(self, p, state, end, resolution, time):
         """Return |Z2| at the ends of steps of a flight over [0, end], and |Z2| at a time in it.
 
-        None if the run fails. For `missed_contacts`.
+        None if the run fails. For the stage `missed_contacts`.
         """
         raise NotImplementedError
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return the largest |Z1| (periods,) in each period, with fixed steps.
+        """Return the largest |Z1| in each forcing period, shape (periods,), with fixed steps.
 
-        NaN from the period on in which the run diverges. For `stable_steps`.
+        NaN from the period on in which the run diverges. For the stage `stable_steps`.
         """
         raise NotImplementedError
 
@@ -96,20 +99,20 @@ class Integrator:
 
 
 def check_resolutions(tolerances, steps):
-    """Return increasing tolerances, and the steps a forcing period that stand in their places.
+    """Return tolerances, and the steps per forcing period that replace them for fixed steps.
 
     Parameters
     ----------
     tolerances : sequence of float
         Increasing.
     steps : sequence of int
-        As many, increasing.
+        Numbers of steps, as many as tolerances, increasing.
 
     Returns
     -------
     numpy.ndarray, list of int
-        The tolerances, and the steps in reverse order: the fewest in the place of the largest
-        tolerance.
+        The tolerances, and the numbers of steps in decreasing order: the fewest steps replace the
+        largest tolerance.
 
     Raises
     ------
@@ -126,10 +129,10 @@ def check_resolutions(tolerances, steps):
 
 
 def read_off(p, work, times, ends):
-    """Return the run that times (n,) and states (n, 4) at the ends of steps show.
+    """Return the `Run` given times (n,) and states `ends` (n, 4) at the ends of its steps.
 
-    Contacts begin, and |Z1| is largest, on a polynomial of degree 5 through the states and rates
-    at both ends of a step.
+    Beginnings of contacts and maxima of |Z1| within a step are found on the polynomial of degree 5
+    that has the states and rates at both ends of the step.
     """
     if not np.isfinite(ends).all():
         return stopped("failed", work)
@@ -139,7 +142,10 @@ def read_off(p, work, times, ends):
 
 
 def beginnings(p, times, ends):
-    """Return when contacts begin: between a state within the walls and one at or beyond a wall."""
+    """Return the times at which contacts begin.
+
+    A contact begins in each step from a state within the walls to one at or beyond a wall.
+    """
     place, gap = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (gap > 0) | ((gap == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
@@ -150,7 +156,7 @@ def beginnings(p, times, ends):
 
 
 def turning_points(p, times, ends):
-    """Return when Z1' vanishes, and |Z1| there, the first and the last state included."""
+    """Return the times at which Z1' is zero, and |Z1| then; first and last state are included."""
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = quintics(p, times, ends, 0, steps)
     share = root(polyder(course), 0.0, 1.0)
@@ -163,9 +169,10 @@ def turning_points(p, times, ends):
 
 
 def quintics(p, times, ends, index, steps):
-    """Return coefficients (6, m) of a component of the state over m steps, each from 0 to 1.
+    """Return coefficients (6, m) of polynomials for a component of the state in m steps.
 
-    Hermite's interpolation: value, first and second derivative agree at both ends.
+    The variable of each polynomial goes from 0 to 1 over the step. Hermite's interpolation: value,
+    first and second derivative agree with the state and its rate at both ends.
     """
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])

@@ -1,4 +1,4 @@
-"""SciPy's integrators, through the kink or with contacts as events; the rate is compiled."""
+"""SciPy's integrators with a compiled rate, through the kink or with contacts located as events."""
 
 import math
 
@@ -12,22 +12,24 @@ from impact_damper.rivals.operations import operations
 from impact_damper.rivals.runs import Integrator, read_off, stopped
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
+# Components of the state.
 SIZE = 4
-# Operations, beside those of the rate, for each evaluation. A stage of DOP853 adds on average 6
-# products to each of the 4 components, and a twelfth of its 12 new values and 2 estimates 4 more.
-# LSODA updates and predicts an array of about 6 derivatives, 21 additions a component, and a
-# solution by the factors, 2 n^2. An iteration of Radau has 3 evaluations, 9 products a
-# component to transform them and back each, and solutions of a real and a complex system.
+# Operations for each evaluation of the rate, beside those of the rate. A stage of DOP853 adds on
+# average 6 products to each of the 4 components, and a twelfth of its 12 new values and 2 estimates
+# 4 more. LSODA updates and predicts an array of about 6 derivatives, 21 additions per component,
+# and solves with the factors, 2 n^2. An iteration of Radau has 3 evaluations, 9 products per
+# component to transform them and 9 back, and solves a real and a complex system.
 COMBINING = {
     "DOP853": SIZE * 2 * (6 + 4),
     "LSODA": SIZE * 2 * 21 + 2 * SIZE**2,
     "Radau": SIZE * 2 * 6 + (2 + 8) * SIZE**2 // 3,
 }
-# Operations of a factorisation, 2/3 n^3; of Radau the mean of a real and a complex one.
+# Operations of a factorisation, 2/3 n^3; for Radau the mean of a real and a complex one.
 FACTORISING = {"DOP853": 0, "LSODA": 2 * SIZE**3 // 3, "Radau": (2 + 8) * SIZE**3 // 3 // 2}
-# Side that has the position choose the wall.
+# Value of `side` in place of a wall: the position Z2 chooses the wall in contact.
 BY_POSITION = 2
-# Evaluations of the rate after which a run is given up: a forcing period, and in a timed run.
+# Evaluations of the rate after which a run is given up: EVALUATIONS times its forcing periods, or
+# MOST_TIMED in all for a run of the benchmarks.
 EVALUATIONS, MOST_TIMED = 2000, 200_000
 UNLIMITED = 2**62
 
@@ -36,7 +38,8 @@ UNLIMITED = 2**62
 def derivative(t, y, p, side, left):
     """Return the rate of the state, and count `left` (1,) down by one.
 
-    `side` is the wall that acts, or BY_POSITION. Raises OverflowError if `left` is 0.
+    `side` is the wall in contact (-1, 1, or 0 for none), or BY_POSITION. `left` holds the number of
+    evaluations that may follow; if it is 0, OverflowError is raised.
     """
     left[0] -= 1
     if left[0] < 0:
@@ -48,7 +51,7 @@ def derivative(t, y, p, side, left):
 
 @kernel
 def ahead(t, y, p, side, left):
-    """Return the distance from the next event: the gap in flight, the penetration in contact."""
+    """Return what is zero when a contact begins or ends: gap in flight, penetration in contact."""
     return p[CLEARANCE] - abs(y[2]) if side == 0 else side * y[2] - p[CLEARANCE]
 
 
@@ -60,30 +63,31 @@ _event.terminal, _event.direction = True, -1
 
 
 def pieces(method, p, start, t, end, tolerance, locate, left, times=None):
-    """Yield results of `solve_ivp` that follow each other, one if contacts are not located.
+    """Yield results of `solve_ivp`, one after the other in time; only one without `locate`.
 
-    A located contact is an event, which ends a result. The next one begins there with the wall
-    that acts fixed. Otherwise each evaluation of the rate chooses the wall by its position.
+    With `locate` the beginning or end of a contact is an event, which ends a result; the next
+    result begins at the event, and its wall in contact is fixed. Without `locate` each evaluation
+    of the rate chooses the wall by its position Z2.
 
     Parameters
     ----------
     method : str
-        Of SciPy.
+        Name of the method in SciPy.
     p, start : array
         Packed parameters and a state.
     t, end, tolerance : float
-        Times of start and end; relative and absolute tolerance.
+        Times of start and end; tolerance, both relative and absolute.
     locate : bool
     left : array of int, shape (1,)
         Evaluations of the rate that may follow; counted down.
     times : array or None
-        Where states are returned, instead of at the ends of steps.
+        Times at which states are returned; None for the ends of steps.
 
     Raises
     ------
     OverflowError
-        After more evaluations. Started at a wall and with a loose tolerance, a method can step over
-        the end of a contact.
+        If more than `left` evaluations are needed. This happens since a method, started at a wall
+        with a loose tolerance, can step over the end of a contact.
     """
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
@@ -124,8 +128,8 @@ class SciPy(Integrator):
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations):
         """Return the run.
 
-        Its work is that of evaluations of the rate, Jacobians by differences included, with their
-        share of combining them (`COMBINING`), and of factorisations (`FACTORISING`).
+        Its work is that of all evaluations of the rate, also those for Jacobians by differences;
+        of combining them (`COMBINING` for each evaluation); and of factorisations (`FACTORISING`).
         """
         left, factorisations = np.array([most_evaluations]), 0
         times, ends, status = [np.array([begin])], [start[None]], "failed"
@@ -149,7 +153,7 @@ class SciPy(Integrator):
         return read_off(p, work, np.concatenate(times), np.concatenate(ends))
 
     def strobes(self, p, start, begin, periods, resolution, locate, most_evaluations=None):
-        """As of the base class; `most_evaluations` is EVALUATIONS a period by default."""
+        """Do as the base class; by default `most_evaluations` is EVALUATIONS times `periods`."""
         times = begin + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
         strobes, done = np.full((periods, 4), np.nan), 0
         left = np.array([most_evaluations or EVALUATIONS * periods])
@@ -164,7 +168,7 @@ class SciPy(Integrator):
         return strobes
 
     def flight(self, p, state, end, resolution, time):
-        """As of the base class; |Z2| at the time by SciPy's interpolant."""
+        """Do as the base class; |Z2| at `time` comes from SciPy's interpolant."""
         with np.errstate(all="ignore"):
             found = solve_ivp(
                 derivative,
@@ -179,7 +183,7 @@ class SciPy(Integrator):
         return (np.abs(found.y[2]), abs(found.sol(time)[2])) if found.success else None
 
     def end(self, p, start, begin, periods, tolerance, locate):
-        """As of the base class, without the states after each period, which take time."""
+        """Do as the base class, but save the time to store the states after each period."""
         left, end = np.array([MOST_TIMED]), begin + periods * 2 * math.pi / p[FREQUENCY]
         locate = locate and p[CLEARANCE] < math.inf
         try:

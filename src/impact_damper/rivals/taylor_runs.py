@@ -1,9 +1,9 @@
 """Runs by the event-driven Taylor series, with series of any orders, and their counted work.
 
-The work of a run is the number of its steps of each kind (in flight, in flight until a contact, in
-contact) times the operations of such a step, the generated series included
-(`operations.operations`). The search for an unexpected contact and the loops of searches are left
-out, since few steps need them.
+There are three kinds of steps: in flight, in flight until a contact begins, and in contact. The
+work of a run is the sum over the kinds of the number of steps times the operations of such a step
+(`operations.operations`), those of the generated code of the series included. Left out are the
+search for an unexpected contact and the loops of searches, since few steps need them.
 """
 
 import math
@@ -36,19 +36,20 @@ from impact_damper.system.packed import FREQUENCY
 # Kinds of steps: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# Steps computed by one call, a row each: time at the beginning, length, wall in contact before and
-# after, and from column SERIES on the coefficients of Z1.
+# ROWS: most steps computed by one call of `take_steps`, which writes a row for each: time at its
+# beginning, its length, wall in contact before and after it, and from column SERIES on the
+# coefficients of the Taylor series of Z1.
 ROWS, SERIES = 4096, 4
-# Parts of a step, in each of which Z1' is taken to vanish once at most.
+# Parts of a step. In each of them Z1' is assumed to be zero at most once.
 PARTS = 8
 
 
 @kernel
 def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps from t on, up to `end`. Return their number, the time and the wall.
+    """Fill `rows` with steps from t to `end`; return their number, and time and wall after them.
 
-    `made` is an array of `steps_of`; y is replaced by the state after the steps. Rows may lack the
-    coefficients.
+    `made` is the array that `steps_of` returns; y, the state at t, is replaced by that after the
+    steps. If rows are shorter, coefficients are left out.
     """
     work = aligned(made[3])
     a, count = pointer(work), 0
@@ -75,8 +76,8 @@ def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order,
 def steps_of(orders):
     """Return the first argument of `take_steps` for series of these orders.
 
-    An array: the addresses of a step in flight, of a step in contact and of the function that fills
-    the kept series, and the size of a workspace.
+    It is an array: the addresses of three compiled functions (a step in flight, a step in contact,
+    and the one that fills the series that are kept), and the size of a workspace.
     """
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.kept_series
@@ -84,12 +85,12 @@ def steps_of(orders):
 
 
 def name_of(orders):
-    """Return the label of the Taylor series with further orders, in flight and in contact."""
+    """Return the label of the Taylor series with other `orders`, in flight and in contact."""
     return "taylor_{}_{}".format(*orders)
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return the steps over forcing periods from a state at t, as rows (`ROWS`), and the end state.
+    """Return the steps of a run from a state at t, as rows (see ROWS), and the state at its end.
 
     The state is NaN if steps become too short for the time to advance.
     """
@@ -121,7 +122,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points_of_series(rows):
-    """Return when Z1' vanishes within steps, and |Z1| there."""
+    """Return the times at which Z1' is zero within steps, and |Z1| at these times."""
     c = rows[:, SERIES:].T
     slopes = c[1:] * np.arange(1, len(c))[:, None]
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
@@ -134,20 +135,20 @@ def turning_points_of_series(rows):
 
 
 def counted(rows):
-    """Return the numbers of steps of each kind."""
+    """Return the number of steps of each kind: FLIGHT, MEETING and CONTACT."""
     before, after = rows[:, 2] != 0, rows[:, 3] != 0
     kinds = np.where(before, CONTACT, np.where(after, MEETING, FLIGHT))
     return tuple(int(np.count_nonzero(kinds == kind)) for kind in (FLIGHT, MEETING, CONTACT))
 
 
 def steps_work(counts, tangents=0, orders=ORDERS):
-    """Return the operations of steps, given their number of each kind."""
+    """Return the operations of steps, given `counts`, the number of steps of each kind."""
     return sum(count * step_work(kind, tangents, orders) for kind, count in enumerate(counts))
 
 
 @cache
 def step_work(kind, tangents=0, orders=ORDERS):
-    """Return the operations of one step of a kind with some number of tangents."""
+    """Return the operations of one step of a kind, with a number of variational `tangents`."""
     made = instance(1, *orders)
     unexpected = made.search_contact, made.guess_contact, made.meet_expected
     if kind == CONTACT:

@@ -1,10 +1,11 @@
-"""Error against counted work: every method and model on a scene, at several settings.
+"""Error and counted work of every method and model on a test case (scene), at several settings.
 
-The reference of a scene is a run in 80-bit arithmetic, by another program than those compared. No
-method can follow a chaotic motion to its end. There averages with their standard errors are
-compared; the reference is the Taylor series at its tightest tolerance over LONGER times as many
-periods. Contacts of a chaotic motion count as missed or invented if their rate deviates by a share
-CONTACTS_OFF of the reference's and by SURE standard errors more.
+Errors are taken against a reference: a run in 80-bit arithmetic by a program that is not among
+those compared. Work is counted in floating-point operations. No method can follow a chaotic motion
+to its end. For such a motion, averages with their standard errors are compared, and the reference
+is a longer run (LONGER) of the Taylor series at its tightest tolerance. The contacts of a method
+then count as missed or invented if its number of contacts per period differs too much from that of
+the reference (CONTACTS_OFF, SURE).
 """
 
 import numpy as np
@@ -27,31 +28,36 @@ from impact_damper.system.bounds import PERIODS_RANGE, check_count
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.parameters import describe
 
+# Length of the reference run of a chaotic motion, divided by the length of the compared runs.
 LONGER = 4
-# Tolerances, the loosest ones, with which slow integrators run a chaotic motion.
+# Slow integrators run a chaotic motion with this number of their tolerances, the loosest ones.
 SHORT = 1
+# Contacts per period of a chaotic motion are right if they differ from the reference's by at most
+# the share CONTACTS_OFF of the latter plus SURE standard errors of the compared run.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
 def error_against_work(scene, settings, stored=None):
-    """Return errors and counted work of each method on a scene.
+    """Return errors and counted work of each method on a test case (scene).
 
     Parameters
     ----------
     scene : ComparisonScene
     settings : dict
-        Decreasing tolerances by `methods.TOLERANCE_KEYS`; `orders`: further pairs of orders of the
-        Taylor series, in flight and in contact; `evaluations`: evaluations of the rate in a
-        forcing period after which a slow integrator gives up, by `methods.LIMITED`; `harmonics`:
-        highest harmonic of a balance; `batch`: forcing periods of a batch of a chaotic motion;
-        `scipy_periods`: forcing periods of a chaotic motion by slow integrators.
+        For each key of `methods.TOLERANCE_KEYS` a list of decreasing tolerances; `orders`: further
+        pairs of orders of the Taylor series, in flight and in contact; `evaluations`: for each name
+        in `methods.LIMITED`, the number of evaluations of the right-hand side per forcing period
+        after which a run is given up; `harmonics`: highest harmonic of harmonic balance; `batch`:
+        forcing periods in each part (batch) from whose averages standard errors are estimated;
+        `scipy_periods`: forcing periods for which slow integrators run a chaotic motion.
     stored : dict or None
-        Entry of the reference (`reference_of`), not needed if the scene is chaotic.
+        Stored reference record of this test case (`reference_of`); not needed if it is chaotic.
 
     Returns
     -------
     xarray.Dataset
-        Over `run`: method, setting, status, work, and errors, or averages of a chaotic motion.
+        For each `run`: method, setting, status, work, and errors, or averages if the motion is
+        chaotic.
 
     Raises
     ------
@@ -80,10 +86,10 @@ def error_against_work(scene, settings, stored=None):
 
 
 def integrations(scene, settings, slow_periods):
-    """Yield label, setting, run and forcing periods of all integrators and settings.
+    """Run each integrator at each setting; yield its label, the setting, the run and its periods.
 
-    Slow integrators run `slow_periods`, of chaotic motions with the SHORT loosest tolerances. After
-    one has given up, its tighter tolerances are left out.
+    Slow integrators run for `slow_periods` forcing periods, and only with their loosest tolerances
+    (SHORT) if the motion is chaotic. Once a slow run is given up, tighter tolerances are left out.
     """
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
@@ -97,7 +103,7 @@ def integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     rivals = [(label, *name_and_mode(label)) for label in COMPARED["accuracy"] if label != "taylor"]
-    # without walls both modes are the same
+    # without walls there are no contacts to locate, so that both modes are the same
     for mode in (False, True) if scene.damper is not None else (False,):
         for label, name, locate in rivals:
             if locate == mode:
@@ -105,7 +111,7 @@ def integrations(scene, settings, slow_periods):
 
 
 def _at_tolerances(label, name, locate, scene, settings, slow_periods):
-    """Yield what `integrations` does of one integrator, in one mode, over its tolerances."""
+    """Yield what `integrations` yields, for one integrator in one mode, at each tolerance."""
     method, integrator = METHODS[name], integrators()[name]
     tolerances, periods, most = settings[method.tolerances], scene.periods, None
     if method.slow:
@@ -120,7 +126,7 @@ def _at_tolerances(label, name, locate, scene, settings, slow_periods):
 
 
 def _errors(scene, settings, reference):
-    """Return the data of a scene that has a reference."""
+    """Return the variables of the dataset for a test case that has a reference."""
     rows = [
         (label, setting, run, run.contact_times)
         for label, setting, run, _ in integrations(scene, settings, scene.periods)
@@ -172,12 +178,12 @@ def _named(rows, status, met):
 
 
 def _met(accuracy, errors):
-    """Return whether the accuracy is met; NaN does not meet it."""
+    """Return whether each error is within the required accuracy; NaN is not."""
     return np.abs(errors[accuracy["quantity"]]) <= accuracy["within"]
 
 
 def _orbits(scene, settings):
-    """Yield label, setting and model of the orbit of a steady scene."""
+    """Yield label, setting and result of each model that solves for a steady motion's orbit."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)
@@ -193,11 +199,12 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return when contacts of an orbit begin in a run over the reference's periods.
+    """Return the times at which contacts begin if the run of the reference were on a model's orbit.
 
-    Each contact of the orbit is compared with the nearest one of the reference's last period, and
-    this difference is taken in all periods. The times are NaN if two contacts have the same
-    nearest one.
+    Each contact in the last period of the reference is matched to the nearest contact of the orbit,
+    and the time between both is added to the reference's contacts of all periods. The times are NaN
+    if two reference contacts are matched to the same one. If the orbit has another number of
+    contacts per period, only the length of the returned array has a meaning.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
@@ -215,7 +222,7 @@ def _times(scene, model, reference):
 
 
 def _exponent(scene, method, tolerance, batch):
-    """Return batches of the exponent, if the method has variational equations."""
+    """Return the Lyapunov exponent in each batch, if the method has variational equations."""
     given = scene.p, np.array(scene.state, float), tolerance, scene.periods, batch
     if method == "taylor":
         return {"exponent": averages.exponents(*given)}
@@ -225,7 +232,7 @@ def _exponent(scene, method, tolerance, batch):
 
 
 def _averages(scene, settings):
-    """Return the data of a chaotic scene."""
+    """Return the variables of the dataset for a test case with a chaotic motion."""
     p, start = scene.p, np.array(scene.state, float)
     batch, begin = settings["batch"], strobe_time(scene.p)
     rows, found = [], []

@@ -1,9 +1,11 @@
-"""Where single-term harmonic balance fails: its verdicts against the true motions, as a map.
+"""Map of where single-term harmonic balance fails: its verdicts compared with the exact motions.
 
-Each cell answers two questions. Quiet: is the solution of (7) with the smallest |a| stable, by the
-slow flow (17) and by the Floquet multipliers of the true orbit? High: is there a stable solution as
-large as the free resonance, and which motion does a start there lead to? The balance describes
-elastic contact only: for e < 1 its verdict for e = 1 is taken.
+A cell of the map is one forcing frequency and one value of a parameter. Two questions are answered
+in each cell. Quiet: is the solution of (7) with the smallest amplitude |a| stable, according to the
+slow flow (17) and according to the Floquet multipliers of the exact orbit? High: is there a stable
+solution of at least half the free resonance amplitude, and which motion does a simulation started
+from this solution reach? Harmonic balance describes elastic contact only: for e < 1 its verdict for
+e = 1 is taken.
 """
 
 from dataclasses import replace
@@ -30,7 +32,8 @@ from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, NEAR, balance_cells
 
-# CHECKED chaotic high motions are rerun with LONG times the patience, to see if the chaos lasts.
+# At most this number (CHECKED) of chaotic high motions are run again, to see if the chaos lasts:
+# `Settling.patience` is multiplied by LONG.
 CHECKED = 50
 LONG = 10
 
@@ -46,16 +49,16 @@ class _Row(NamedTuple):
 def balance_map(
     parameter, values, frequency_ratios, fixed, *, settling=None, workers=1, progress=None
 ):
-    """Return verdicts of harmonic balance against true motions, over frequency and a parameter.
+    """Compare harmonic balance with exact motions as functions of frequency and one parameter.
 
     Parameters
     ----------
     parameter : str
         Parameter of the rows: damping (h), mass_ratio (rm), clearance (d0) or restitution (e).
     values : array_like, shape (n,)
-        Its increasing values.
+        Increasing values of this parameter, one for each row of the map.
     frequency_ratios : array_like, shape (m,)
-        Increasing forcing frequencies W/Wp, with the peak frequency Wp of the row.
+        Increasing forcing frequencies W, divided by the peak frequency Wp of the row.
     fixed : dict
         The other arguments of `Oscillator` and `Damper`. Without `clearance` each row has the
         clearance of rule (19), as a designer would choose.
@@ -68,9 +71,9 @@ def balance_map(
     Returns
     -------
     xarray.Dataset
-        Over (map_value, frequency_ratio), of the quiet and of the high motion: the verdict of the
-        balance, the truth, and the class of both together. Over map_value: the ends of the quiet
-        orbits.
+        In each cell (map_value, frequency_ratio), for the quiet and for the high motion: the
+        verdict of harmonic balance, the exact result, and a class for the pair of both. For each
+        map_value: the frequencies at which the branch of quiet orbits ends.
 
     Raises
     ------
@@ -170,7 +173,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Return records of the motions in their cells, absent where there is no start."""
+    """Return a record of the motion reached in each cell, "absent" where no start state exists."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -183,7 +186,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _long(parameters, starts, kinds, settling, workers):
-    """Return the outcomes of longer runs of chaotic high motions, evenly spread over the map."""
+    """Run some chaotic high motions, evenly spread over the cells, for longer; return outcomes."""
     cells = np.flatnonzero(kinds == flag("high_run_motion", "high_chaotic"))
     outcome = np.full(kinds.size, flag("high_long_outcome", "absent"))
     if len(cells):
@@ -214,7 +217,10 @@ def _kinds(records, resonance):
 
 
 def _truth(orbits):
-    """Return the flag `quiet_orbit`: absent only beyond an end of the orbit that was found."""
+    """Return the flag `quiet_orbit` of each cell.
+
+    It is "absent" only beyond a located end of the branch of orbits, otherwise "unresolved".
+    """
     values = orbits.multiplier
     columns = np.arange(values.shape[1])
     ended = np.isin(

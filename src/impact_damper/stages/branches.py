@@ -1,4 +1,6 @@
-"""Periodic orbits as labelled datasets: one orbit, a branch, and all branches of a response.
+"""Periodic orbits as labelled datasets: one orbit, one branch, or all branches of a response.
+
+A branch is a curve of orbits that is followed while one parameter varies.
 
 Orbits may be stable or not, of any period, and touch the walls in any sequence.
 """
@@ -21,8 +23,8 @@ from impact_damper.system.families import LINEAR, family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import describe
 
-# Relative speed at the beginning of a contact below which the 3/2-power term of the map at grazing
-# matters, so that multipliers are less accurate.
+# A contact that begins with a relative speed below this nearly grazes the wall: the 3/2-power term
+# of the map at grazing matters, and Floquet multipliers are less accurate.
 SLOW = 0.01
 
 
@@ -45,8 +47,8 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
     Returns
     -------
     xarray.Dataset
-        The orbit as one point of a dataset of `orbit_branch`, its state given at a phase in flight;
-        over `contact` walls, times and relative speeds of its contacts.
+        The orbit as the single point of a dataset as `orbit_branch` returns it; its state is given
+        at a phase where no wall is touched. For each `contact`: wall, times and relative speeds.
 
     Raises
     ------
@@ -70,12 +72,12 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
 
 
 def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequency", period=1):
-    """Follow the branch of orbits through the orbit near a state, in one parameter.
+    """Find the orbit near a state, and follow its branch while one parameter varies.
 
     Parameters
     ----------
     oscillator, damper, frequency, state, period
-        As of `periodic_orbit`, the state at W T = pi/2.
+        As in `periodic_orbit`, with the state at W T = pi/2.
     span : tuple of float
         Least and greatest value of the parameter.
     parameter : str
@@ -85,12 +87,12 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     Returns
     -------
     xarray.Dataset
-        Over `point` the orbits in order along the branch: parameter, largest displacement,
+        For each `point`, in order along the branch, an orbit: parameter, largest displacement,
         stability, multipliers, contacts, state and its phase, status, residual, error of
-        Liouville's determinant. Over `event` folds, symmetry breakings, period doublings,
-        Neimark-Sacker bifurcations, and changes of contact, which are grazing (a contact appears in
-        flight) or merging (two contacts with a wall become one). Over (branch, edge) the reasons
-        why the branch ends.
+        Liouville's determinant. For each `event`: fold, symmetry breaking, period doubling,
+        Neimark-Sacker bifurcation, or change of contacts, which is grazing (a contact appears in
+        flight) or merging (two contacts with a wall become one). For each (branch, edge): the
+        reason why the branch ends.
 
     Raises
     ------
@@ -112,7 +114,7 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
 
 
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
-    """Follow all branches of orbits over frequency on which settled motions lie.
+    """Follow, while the frequency varies, every branch of orbits on which a settled motion lies.
 
     Parameters
     ----------
@@ -124,13 +126,13 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
         Results of `frequency_response` or `subharmonic_suppression` for this oscillator and
         damper.
     progress : str, optional
-        Title of a progress bar and of a summary on stderr; neither is shown without.
+        Title of a progress bar and of a summary on stderr; without it neither is shown.
 
     Returns
     -------
     xarray.Dataset
         As from `orbit_branch`, for all branches; `seeds`, the number of settled motions, and
-        `seeds_lost`, the number of those from which Newton's method led to no orbit. Mirror
+        `seeds_lost`, the number of those motions from which Newton's method found no orbit. Mirror
         images count as one branch. Motions without contacts are left out if there is a damper,
         because they are those of the free oscillator.
 
@@ -183,7 +185,7 @@ def _summary(branches, seeds, lost):
 
 
 def _checked_orbit(oscillator, damper, frequency, state, period, phase):
-    """Check arguments and return the orbit near a state; errors as of `periodic_orbit`."""
+    """Check arguments and return the orbit near a state; raises as `periodic_orbit` does."""
     check_count("period", period, most=1000)
     check_number("phase", phase, least=-1e6, most=1e6)
     p = pack(oscillator, damper, frequency)
@@ -197,7 +199,7 @@ def _checked_orbit(oscillator, damper, frequency, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of the settled motions of datasets."""
+    """Yield period, frequency, max |Z1| and state of each settled motion in the datasets."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:
@@ -221,7 +223,7 @@ def _status(orbit):
 
 
 def _orbits(pairs):
-    """Return registered variables over `point` of pairs of a parameter value and an orbit."""
+    """Return the variables of dimension `point` from pairs of a parameter value and an orbit."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = [orbit.record for orbit in orbits]
     first, second = (
@@ -258,7 +260,8 @@ def branches_dataset(branches, back, parameters, title):
     ----------
     branches : list of Branch
     back : callable
-        Maps the coordinate in which the branches were followed to the parameter.
+        Maps the coordinate in which the branches were followed (the parameter or its logarithm) to
+        the parameter.
     parameters : dict
         Parameters of the dataset, as from `describe`.
     title : str

@@ -1,8 +1,10 @@
-"""The contact model over restitution and load, and the contacts of simulated motions in it.
+"""Map of the contact model as a function of restitution and load; contacts of simulated motions.
 
-The restitution e by (25) is that of a contact without other forces that ends at zero penetration.
-Other forces load a contact, and walls that cannot pull end it sooner; the map gives the realised
-restitution with either. Contacts of simulated motions show in which part of the map a damper works.
+Equation (25) gives the dashpot for which a contact has the restitution e, if no other force acts
+and the contact ends at zero penetration. Other forces accelerate the primary mass towards the wall
+by g: the load is G = g/(wn v0), with the natural frequency wn of the contact and the approach speed
+v0. Walls that cannot pull end the contact sooner. The map gives the restitution that is realised
+with load, for both rules for the end. Contacts of simulated motions show the loads that occur.
 """
 
 from dataclasses import replace
@@ -31,9 +33,10 @@ from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# Load up to which the loads of the map are spread evenly.
+# Up to about this |load| the loads of the map are evenly spaced, above it logarithmically.
 LINEAR = 1e-3
-# Variables over all contacts: indices of their motion, and quantities of `logged_contacts`.
+# Variables with one value per logged contact: three indices of the motion that the contact belongs
+# to, and, keyed by the quantity of `logged_contacts`, the names under which they are stored.
 LOG = ("contact_used", "contact_row", "contact_size")
 LOGGED = {
     "load": "contact_load",
@@ -57,13 +60,13 @@ def contact_model(
     seed=1995,
     settling=None,
 ):
-    """Map the contact model over restitution and load, and log the contacts of simulated motions.
+    """Compute the contact for each restitution and load, and log contacts of simulated motions.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
-        Its restitution is replaced by those of `used`.
+        Its restitution is replaced by each of those in `used`.
     frequencies : sequence of float
         Increasing forcing frequencies W of the motions, dimensionless.
     restitutions, loads : sequence of float
@@ -80,8 +83,9 @@ def contact_model(
     Returns
     -------
     xarray.Dataset
-        Over (exit_rule, load, restitution) the closed form; over `used` the closed form without
-        load; over (used, frequency, size) the motions; and over `contact` all contacts.
+        For each (exit_rule, load, restitution) the contact in closed form; for each restitution
+        `used` the same without load; for each (used, frequency, size) a simulated motion, the
+        smallest or the largest one; and for each `contact` its load, restitution and duration.
 
     Raises
     ------
@@ -118,14 +122,14 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest, spread evenly below LINEAR, by logarithm above."""
+    """Return loads from -largest to largest, evenly spaced near 0, logarithmically above LINEAR."""
     check_number("largest", largest, **LOAD_RANGE)
     check_count("count", count, **POINTS_RANGE)
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
 def contact_map(restitutions, loads):
-    """Return registered variables of the contact in closed form, over rule, load and restitution.
+    """Return the contact in closed form for each exit rule, load and restitution.
 
     Parameters
     ----------
@@ -135,8 +139,9 @@ def contact_map(restitutions, loads):
     Returns
     -------
     dict
-        Realised restitution (NaN where there is none), time in contact over that of an elastic
-        contact (NaN if it does not end), the verdict on each cell, and how much the walls pull.
+        Variables of the dataset: realised restitution (NaN if the mass is not released), time in
+        contact divided by that of an elastic contact (NaN if the contact does not end), the verdict
+        on each cell (`_verdict`), and impulse and peak of the wall's pull relative to its push.
     """
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, duration = np.empty(shape), np.empty(shape)
@@ -159,7 +164,7 @@ def contact_map(restitutions, loads):
 
 
 def _verdict(found, restitution):
-    """Return the outcome of a contact, or a word for the error of its restitution if released."""
+    """Return the outcome of a contact; if released, a word for the error of its restitution."""
     if found.outcome != "released":
         return found.outcome
     error = abs(found.departure / restitution - 1)
@@ -167,7 +172,7 @@ def _verdict(found, restitution):
 
 
 def unloaded_table(restitutions):
-    """Return registered variables of contacts without load, by (25), over the restitution."""
+    """Return the variables of contacts without load, one value for each restitution."""
     ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
     pulls = [tension(e, 0.0) for e in restitutions]
     return {
@@ -181,7 +186,7 @@ def unloaded_table(restitutions):
 
 
 def _motions(oscillator, dampers, frequencies, starts, periods, seed, settling):
-    """Return registered variables of the motions and of all their contacts."""
+    """Return the variables of the simulated motions and of all their contacts."""
     shape = len(dampers), len(frequencies), len(SIZES)
     table = {
         name: np.zeros(shape, np.int64) if name in COUNTED else np.full(shape, np.nan)

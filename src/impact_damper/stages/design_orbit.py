@@ -1,8 +1,9 @@
-"""The exact quiet orbit at a design point, stable or not.
+"""The exact quiet orbit at the design point (peak frequency Wp) of a damper, stable or unstable.
 
-Harmonic balance designs a damper for the peak frequency. The orbit that its solution approximates
-may be unstable, so that no simulation finds it. With heavy damping every motion settles on the
-orbit, which is then followed down to the damping h of the oscillator.
+The quiet orbit has the period of the forcing and two contacts per period; harmonic balance
+approximates it to design the damper. It may be unstable, so that no simulation reaches it. With
+heavy damping, motions settle on the quiet orbit, which is then followed down to the damping h of
+the oscillator.
 """
 
 from dataclasses import replace
@@ -22,7 +23,7 @@ from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 
-# Heavy damping h, or if this is more twice that of the oscillator, or this share of Wp.
+# The heavy damping h is the largest of HEAVY, twice the h of the oscillator, and HEAVY_SHARE Wp.
 HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
@@ -34,17 +35,17 @@ def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settl
     oscillator : Oscillator
     damper : Damper
     starts, radius
-        Starts as of `response.frequency_response`.
+        Number and radius of the random starts, as in `response.frequency_response`.
     seed : int
     settling : Settling, optional
 
     Returns
     -------
     xarray.Dataset
-        As from `branches.orbit_branch` in the damping, from that of the oscillator up to the heavy
-        one; `design_orbit_status`, whether the orbit was found and followed to the oscillator; over
-        `design_start` the outcomes of the same starts with the damping of the oscillator; and
-        `peak_frequency`.
+        As from `branches.orbit_branch` with the damping as parameter, from the h of the oscillator
+        up to the heavy one; `design_orbit_status`, whether the orbit was found and followed down to
+        the h of the oscillator; for each `design_start` the outcome of the same start with this h;
+        and `peak_frequency`.
 
     Raises
     ------

@@ -1,8 +1,9 @@
-"""Accuracy of each rule for the clearance: its prediction against the optimum of the exact motion.
+"""Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The quiet motion is computed by Newton's method on its exact orbit, stable or unstable, started from
-the state that `theory.straight_flight` predicts. Clearances are given as rm W^2 d0/f, which is 1 by
-rule (18), and displacements as W^2 Z1/f, with the forcing amplitude f.
+The optimum is that of the quiet motion, which is symmetric and has the period of the forcing and
+two contacts per period. Newton's method finds its exact orbit, stable or unstable, from the state
+that `theory.straight_flight` predicts. Clearances are given as the ratio rm W^2 d0/f with the
+forcing amplitude f, which is 1 by rule (18), and displacements as W^2 Z1/f.
 """
 
 import itertools
@@ -29,10 +30,11 @@ SAME = 1e-4
 STEP = 0.02
 MOST_STEPS = 40
 PRECISION = 1e-8
-# Step from a minimum that decides on its kind: as the step is halved, the rise of the displacement
-# falls to a quarter at a smooth minimum and to half at a kink. KINK lies in between.
+# A minimum is smooth or a kink. Both are told apart by a small step (CLOSE) away from it: as the
+# step is halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at
+# a kink. KINK lies in between.
 CLOSE, KINK = 1e-3, 0.36
-# Displacement where the motion does not exist, because the search needs a number.
+# Displacement assigned where the motion does not exist, because the search needs a number.
 ABSENT = 1e3
 IMPULSES = 400
 
@@ -40,7 +42,7 @@ IMPULSES = 400
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Find optimum clearances over a grid of dampers and frequencies, and the errors of rules.
+    """Find the optimum clearance of each damper and frequency of a grid, and the errors of rules.
 
     Parameters
     ----------
@@ -53,13 +55,13 @@ def design_rules(
     Returns
     -------
     xarray.Dataset
-        For two criteria, the least max |Z1| and the least first harmonic of Z1: rm W^2 d0/f at the
-        optimum, what is least there in units of f/W^2, the kind of minimum, and the largest
-        Floquet multiplier's modulus and stability of the motion. Over `rule` what each rule
-        predicts, and the excess of max |Z1| at its clearance over the least:
+        For each criterion, the least max |Z1| or the least first harmonic of Z1: rm W^2 d0/f at the
+        optimum, the least value in units of f/W^2, the kind of minimum, and of the motion the
+        stability and the largest modulus of a Floquet multiplier. For each `rule`: the ratio
+        rm W^2 d0/f that it predicts, and by which share max |Z1| there exceeds the least max |Z1|:
 
         - balance, equation (18): 1;
-        - gap_harmonic, pi^2/8: as (18), the loose mass crossing the gap in straight lines;
+        - gap_harmonic, pi^2/8: as (18), but the loose mass crosses the gap in straight flight;
         - straight_flight: rigid walls, neither damping nor stiffness;
         - elastic: `straight_flight.elastic_ratios`, explicit, absent for e < 1;
         - flight: `straight_flight.Flight` with all corrections.
@@ -97,7 +99,7 @@ def design_rules(
 
 
 def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
-    """Return the registered variables of one damper and frequency."""
+    """Return the variables of the dataset for one damper and frequency."""
     damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
     rules = rule_ratios(oscillator, damper, frequency)
     motion = QuietMotion(oscillator, damper, frequency)
@@ -120,7 +122,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The symmetric motion of period 1 with two contacts, over the ratio rm W^2 d0/f.
+    """The symmetric motion of period 1 with two contacts, as a function of the ratio rm W^2 d0/f.
 
     Parameters
     ----------
@@ -147,9 +149,9 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return W^2/f times max |Z1| and |first harmonic of Z1|, and |dominant multiplier|.
+        """Return max |Z1| and |first harmonic of Z1|, in units of f/W^2, and |dominant multiplier|.
 
-        Without such a motion at the ratio, infinity, infinity and NaN.
+        If the motion does not exist at this ratio: infinity, infinity and NaN.
         """
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
@@ -183,8 +185,8 @@ class QuietMotion:
         ratio : float
             NaN if there is no motion at the guess.
         kind : str
-            "smooth" or "kink"; "edge" if MOST_STEPS do not lead to a minimum, "jump" if the motion
-            ends before it, "not_found".
+            "smooth" or "kink"; "edge" if the search reaches no minimum in MOST_STEPS steps; "jump"
+            if the motion ends next to the least value; "not_found" without a motion at the guess.
         """
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
@@ -216,8 +218,8 @@ class QuietMotion:
 def first_harmonic(p, y) -> complex:
     """Return the complex amplitude c of Re(c exp(i W T)) in Z1.
 
-    It is computed from SAMPLES of a period by the trapezoidal rule, whose error for a kink in Z1
-    is of second order: below 1e-5 of the contribution of an impact.
+    It is computed from samples of one period by the trapezoidal rule. Where Z1 has a kink the error
+    is of second order in the step: below 1e-5 of the contribution of an impact.
 
     Parameters
     ----------

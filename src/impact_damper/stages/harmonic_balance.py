@@ -1,4 +1,8 @@
-"""Design of an elastic impact damper by single-term harmonic balance (section 3)."""
+"""Design of an elastic impact damper by single-term harmonic balance (section 3).
+
+Single-term: the displacements Z1 of the primary mass and Z2, relative to the loose mass, are
+approximated by one harmonic of the forcing, with the amplitudes a and b.
+"""
 
 from typing import NamedTuple
 
@@ -14,7 +18,8 @@ from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# Rows of the dataset; no more than six impacting solutions have been found at a frequency.
+# Largest numbers, per frequency, for which the dataset has room: of solutions, free motions and
+# roots of (14). No more than six solutions with impacts have been found at a frequency.
 MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6
 SEARCH_STEP = 0.005
 SEARCHED = (0.2, 2.0)
@@ -42,7 +47,7 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
 
 
 def harmonic_balance(oscillator, damper, frequencies):
-    """Return `harmonic_balance_response`, with a damper merged with its `suppression_band`."""
+    """Return `harmonic_balance_response`; if there is a damper, with its `suppression_band`."""
     response = harmonic_balance_response(oscillator, damper, frequencies)
     if damper is None:
         return response
@@ -64,11 +69,11 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     Returns
     -------
     xarray.Dataset
-        On (frequency, free_solution) the motions without the damper. With a damper
-        also, on (frequency, solution), the solutions of (7) and those in which the
-        loose mass rests (judged by the free slow flow: the place of the loose mass is
-        neutral), and on (frequency, root) the roots of (14). Missing entries are NaN or
-        flagged absent, and counted.
+        For each (frequency, free_solution) a motion without the damper. With a damper also, for
+        each (frequency, solution), a solution of (7) or a motion in which the loose mass rests,
+        whose stability is that of the free slow flow because the place of the loose mass is
+        neutral; and for each (frequency, root) a root of (14). Unused entries are NaN or flagged
+        absent; the number of used entries is given for each frequency.
 
     Raises
     ------
@@ -188,11 +193,12 @@ def suppression_band(oscillator, damper):
     Returns
     -------
     xarray.Dataset
-        Edges on `edge` (lower, upper) with what ends the band there, its width, the
-        reduction of |a| at Wp and at the edges, and the frequency above Wp (below with a
-        softening spring) at which the quiet motion is no smaller than the smallest free one,
-        the band's end if the end of the resonance branch is disregarded. NaN and a flag where
-        there is none; all NaN, and the status no_peak, if the free response has no peak.
+        For each `edge` (lower, upper) its frequency and what ends the band there; the width of the
+        band; the reduction of |a| at Wp and at the edges; and `break_even_frequency`, above Wp
+        (below with a softening spring), where the quiet motion is no longer smaller than the
+        smallest free one: the end of the band if the end of the resonance branch is disregarded.
+        NaN and a flag where an edge is not found; all NaN, and the status no_peak, if the free
+        response has no peak.
 
     Raises
     ------
@@ -268,7 +274,10 @@ def _no_band():
 
 
 class _Look(NamedTuple):
-    """Number of solutions of (7) at a frequency, |a| of the stable ones, and free amplitudes."""
+    """Number of solutions of (7) at a frequency, |a| of the stable ones, and free amplitudes.
+
+    `resonance` is the amplitude of the free resonance branch, `least_free` the smallest free one.
+    """
 
     count: int
     stable: np.ndarray
@@ -314,7 +323,7 @@ def _edge(inside, peak, limit):
 
 
 def _event(inner, outer):
-    """Return the event that ends the band, by the motions on both sides of its edge."""
+    """Return the event that ends the band, by comparing the motions on both sides of its edge."""
     if np.isnan(outer.resonance):
         return "resonance_branch_ends"
     same = inner.count == outer.count

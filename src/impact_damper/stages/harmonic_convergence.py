@@ -1,4 +1,7 @@
-"""Harmonic balance with more and more harmonics, against the exact orbit of the true system."""
+"""Harmonic balance with more and more harmonics, compared with the exact periodic orbit.
+
+A balance is the system of equations for the coefficients of the harmonics 1, 3, ... N.
+"""
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -15,13 +18,13 @@ from impact_damper.theory.many_harmonics import Balance, refine, single_term, so
 
 SAMPLES = 2**14
 SAME = 1e-6
-# Errors below this are rounding and left out of the fits.
+# Errors below this are due to rounding; the fits of the decay leave them out.
 ROUNDING = 1e-12
 FINEST = 1e-14
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers of harmonics up to `highest`: all to 15, then three to an octave."""
+    """Return odd highest harmonics N up to `highest`: all to 15, then three in each octave."""
     check_count("highest", highest, **HARMONIC_RANGE)
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
@@ -31,9 +34,10 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return symmetric motions by harmonic balance, their stability by Hill's method, and errors.
 
-    Newton's method for the first balance starts from the single-term solution of (7) with e = 1 and
-    the least |a|, or without a damper from the one with the largest; then from the last balance
-    that converged. Newton's method for the exact orbit starts from the last of these.
+    Newton's method for the first balance starts from a single-term solution: the solution of (7)
+    for e = 1 with the smallest |a|, or without a damper the free solution with the largest |a|. For
+    each further balance it starts from the last balance that converged, and for the exact orbit
+    from the last one of all.
 
     Parameters
     ----------
@@ -44,15 +48,16 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     harmonics : sequence of int
         Increasing odd numbers N, each the highest of the harmonics 1, 3, ... N.
     cold : sequence of int
-        Those of `harmonics` that are also solved directly from the single-term solution.
+        Those of `harmonics` for which Newton's method is also started directly from the single-term
+        solution (cold start).
 
     Returns
     -------
     xarray.Dataset
-        Over `highest_harmonic`: status, steps and residual of Newton's method, largest
-        displacement, errors against the exact orbit (NaN if it was not found), Floquet
-        multipliers by Hill's method, and the result of the cold start; observed and predicted rates
-        at which the errors fall (`theory.convergence`).
+        For each `highest_harmonic` N: status, steps and residual of Newton's method, largest
+        displacement, errors relative to the exact orbit (NaN if it was not found), Floquet
+        multipliers by Hill's method, and the result of the cold start. For each error the observed
+        and predicted rates at which it decreases as N grows (`theory.convergence`).
 
     Raises
     ------
@@ -104,7 +109,10 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Return the result of a start from the single-term solution, as a flag `cold_status`."""
+    """Solve a balance from the single-term solution; return the result as a flag `cold_status`.
+
+    `warm` is the solution of the same balance reached from the balance before.
+    """
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -121,7 +129,7 @@ def hill_table(solutions, exact):
     period = 2 * np.pi / frequency
     trace = -oscillator.damping
     if damper is not None:
-        # in contact the dashpot adds its own rate to Liouville's theorem
+        # mean divergence of the flow (Liouville's theorem); in contact the dashpot adds to it
         trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.touching / period
     multipliers = np.full((len(solutions), 2 if damper is None else 4), complex(np.nan, np.nan))
     status = np.full(len(solutions), flag("hill_status", "not_tried"))
@@ -143,7 +151,7 @@ def hill_table(solutions, exact):
 
 
 def exact_table(exact, number):
-    """Return the variables of the exact orbit, with `number` multipliers."""
+    """Return the variables of the exact orbit, with `number` Floquet multipliers."""
     found = exact.converged and exact.active == number
     multipliers = exact.multipliers[:number] if found else np.full(number, complex(np.nan, np.nan))
     maximum = exact.record["maximum_displacement"]
@@ -157,7 +165,7 @@ def exact_table(exact, number):
 
 
 def errors(data, solutions, exact, p):
-    """Return errors against the exact orbit, shape (4, N), as in `convergence.MEASURES`."""
+    """Return errors relative to the exact orbit, shape (4, n): a row per `convergence.MEASURES`."""
     found = np.full((4, len(solutions)), np.nan)
     if data["exact_status"] == flag("exact_status", "not_found"):
         return found
@@ -173,7 +181,7 @@ def errors(data, solutions, exact, p):
         start=np.pi / (2 * balance.frequency),
         tolerance=FINEST,
     )
-    # the orbit begins a quarter of a forcing period late
+    # the samples begin at W T = pi/2, a quarter of a forcing period after T = 0
     coefficients = np.fft.rfft(np.roll(orbit["displacement"].values[:-1], SAMPLES // 4)) / SAMPLES
     for k, solution in enumerate(solutions):
         if solution.status == "converged":
@@ -191,7 +199,7 @@ def errors(data, solutions, exact, p):
 
 
 def _farthest(values, references):
-    """Return the largest distance in the pairing of values and references with least distances."""
+    """Pair values and references with the least sum of distances; return the largest distance."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
@@ -199,7 +207,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return the rates at which the errors fall from `convergence.asymptotic_harmonic` on."""
+    """Return rates at which errors decrease with N, from `convergence.asymptotic_harmonic` on."""
     measures = len(convergence.MEASURES)
     lowest = convergence.asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = convergence.decay(damper, p, exact.strobe_states[0])

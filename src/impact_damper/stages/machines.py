@@ -1,4 +1,7 @@
-"""A machine with its damper in SI units: responses, orbits, the best gap, and Hertz's contact."""
+"""A machine with its damper in SI units: responses, orbits, the best gap, and Hertz's contact.
+
+The gap is the full play of the loose mass, twice the clearance d0.
+"""
 
 import json
 from dataclasses import replace
@@ -23,10 +26,11 @@ _complete_branches, _sweep, _response, _simulate, _steady_motion = map(
     takes_machine,
     (complete_branches, clearance_sweep, frequency_response, simulate, steady_motion),
 )
-# Motions computed before a stiffness after Hertz is given up, and change at which it agrees.
+# Search for a stiffness after Hertz: largest number of motions computed, and relative change of the
+# stiffness below which the search has converged.
 MOST_MOTIONS = 30
 AGREED = 1e-6
-# Variables over the gap that a study keeps of a sweep.
+# Variables that `machine_study` keeps from `clearance_sweep`, as functions of the gap.
 SWEPT = (
     "quiet_displacement",
     "quiet_status",
@@ -59,7 +63,7 @@ def machine_study(
     workers=1,
     progress=None,
 ):
-    """Return what a damper does to a machine: over the frequency, and at one over the gap.
+    """Return motions of a machine with a damper, by frequency and, at one frequency, by gap.
 
     Parameters
     ----------
@@ -78,11 +82,11 @@ def machine_study(
     Returns
     -------
     xarray.Dataset
-        In SI units. The motions found and the branches of orbits on which they lie, with the damper
-        (`frequency_response`, `complete_branches`); over `bare_point` the orbits without it; over
-        `clearance` the quiet motion and the largest one, and the share of starts that end quiet;
-        the gap of the smallest quiet motion (`clearance_sweep`). The attribute `optimum` tells the
-        latter in words.
+        In SI units. The motions found with the damper and the branches of orbits on which they lie
+        (`frequency_response`, `complete_branches`); for each `bare_point` an orbit without the
+        damper; for each `clearance` the quiet and the largest motion, and the share of starts that
+        lead to the quiet one; the gap at which the quiet motion is smallest (`clearance_sweep`).
+        The attribute `optimum` gives this gap in words.
 
     Raises
     ------
@@ -106,14 +110,14 @@ def machine_study(
 
 
 def _labelled(name, values):
-    """Return a variable whose values are in the unit in which datasets show its quantity."""
+    """Return a variable, its attribute `units` being the unit in which datasets show it."""
     found, quantity = variable(name, values), QUANTITIES[VARIABLES[name].quantity]
     found.attrs["units"] = quantity.shown or quantity.unit or "1"
     return found
 
 
 def _over_gap(sweep, frequency):
-    """Return gaps as full plays, the frequency, and the shares of starts that end quiet."""
+    """Return gaps (full play), the frequency, and shares of starts that reach the quiet motion."""
     quiet = sweep["maximum_displacement"] == sweep["quiet_displacement"]
     counts = sweep["share"].where(quiet & is_settled(sweep), 0).max("motion")
     found = {
@@ -126,7 +130,7 @@ def _over_gap(sweep, frequency):
 
 
 def optimum_in_words(sweep, frequency) -> str:
-    """Return in words what a sweep of the clearance in SI units found.
+    """Return in words the optimum gap that a sweep of the clearance found.
 
     Parameters
     ----------
@@ -153,11 +157,12 @@ def optimum_in_words(sweep, frequency) -> str:
 
 
 def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
-    """Find the stiffness of a contact after Hertz at the impacts of the motion that has it.
+    """Find the linear contact stiffness that replaces Hertz's contact in a steady motion.
 
-    The stiffness of the spring with the largest compression of Hertz's contact grows with the
-    speed of impact, and the motion depends on the stiffness: both are computed in turn, from the
-    speed at which the loose mass would cross the gap in half a period, each motion from the last.
+    The linear spring has the same largest compression as Hertz's contact. Its stiffness grows with
+    the speed of impact, and this speed depends on the stiffness: stiffness and motion are computed
+    in turn until they agree. The first speed is that at which the loose mass crosses the gap in
+    half a forcing period; each motion starts from the state of the one before.
 
     Parameters
     ----------
@@ -228,7 +233,7 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
 def _fastest_impact(machine, damper, frequency, steady):
     """Return the largest speed of impact of a steady motion, m/s, and its state at time 0.
 
-    The steady state is that at a quarter of a forcing period.
+    The state in `steady` is that at a quarter of a forcing period.
     """
     run = _simulate(
         machine,

@@ -1,8 +1,9 @@
-"""Verdicts of each method by its tolerance: does the motion stay on an orbit, and of which period?
+"""Verdict on each method at each tolerance: does its motion settle on the right orbit?
 
-The truth of a scene comes from the event-driven Taylor series: the orbit, if there is one at the
-frequency, and its Floquet multipliers by Newton's method, and the motion that the start leads to
-at a tolerance of 1e-13. One rule judges all methods, from strobed states alone.
+A test case (scene) is a start near an orbit. Its truth is computed with the Taylor series that
+locates contacts, at a tolerance of 1e-13: by Newton's method the orbit, if it exists at the
+frequency, and its Floquet multipliers; by integration the motion that the start leads to. One rule
+judges all methods, from strobed states alone: the states at the phase W T = pi/2 of each period.
 """
 
 from typing import NamedTuple
@@ -26,9 +27,10 @@ from impact_damper.system.checks import check_frequency
 from impact_damper.system.packed import FREQUENCY, pack
 
 LABELS = COMPARED["method_verdicts"]
+# Tolerance with which the truth is computed.
 EXACT = 1e-13
-# A motion has settled if its last states repeat within REPEATS, and is on an orbit if the primary
-# mass comes within NEAR of it.
+# A motion has settled if its last strobed Z1 and Z1' repeat within REPEATS. A settled motion is on
+# an orbit if one of these states comes within NEAR of the orbit's.
 REPEATS, NEAR = 1e-3, 5e-3
 
 
@@ -39,18 +41,19 @@ class VerdictScene(NamedTuple):
     ----------
     parameters : numpy.ndarray, shape (packed.COUNT,)
     orbit, start : numpy.ndarray, shape (4,)
-        States at W T = pi/2; the orbit at the frequency where it was found, if it has ended.
+        States at W T = pi/2. If the orbit does not exist at the frequency of the scene, `orbit` is
+        its state at the frequency where it was found.
     period, periods : int
-        Of the orbit; forcing periods to run.
+        Period of the orbit, and length of a run, both in forcing periods.
     multiplier : float
-        Modulus of the dominant Floquet multiplier, NaN where there is no orbit.
+        Modulus of the dominant Floquet multiplier, NaN if the orbit does not exist.
     landing : numpy.ndarray, shape (n, 2)
         Strobed Z1, Z1' of the orbit that the motion settles on, none if it does not settle.
     stays : bool
         Whether the motion settles on the orbit near which it starts.
     scipy_every : int
-        SciPy's methods, a hundred times slower, are run at every `scipy_every`-th tolerance; at
-        none if 0.
+        SciPy's methods, a hundred times slower, are run at every `scipy_every`-th tolerance only;
+        0: at none.
     """
 
     parameters: np.ndarray
@@ -65,7 +68,7 @@ class VerdictScene(NamedTuple):
 
 
 def settled_period(states):
-    """Return the smallest period with which the last strobed states repeat, 0 if there is none."""
+    """Return the smallest period with which the last strobed states repeat, 0 if they do not."""
     for n in range(1, LONGEST_PERIOD + 1):
         last = states[-LAST:, :2]
         if np.abs(last - states[-LAST - n : -n, :2]).max() < REPEATS:
@@ -74,7 +77,7 @@ def settled_period(states):
 
 
 def is_on(states, points, period):
-    """Return whether a motion has settled with a period and passes near one of points (n, 2)."""
+    """Return whether a motion has settled with `period` and comes near one of `points` (n, 2)."""
     if settled_period(states) != period:
         return False
     away = np.abs(states[-period:, None, :2] - points).max(axis=2)
@@ -84,7 +87,7 @@ def is_on(states, points, period):
 def make_scene(
     oscillator, damper, frequency, *, near, period, offset, periods, orbit_frequency, scipy_every
 ):
-    """Return a scene with its truth.
+    """Return a `VerdictScene`: a start near an orbit, and the motion that it truly leads to.
 
     Parameters
     ----------
@@ -96,11 +99,11 @@ def make_scene(
         A state near the orbit at W T = pi/2.
     period : int
     offset : sequence of float
-        Start less the orbit's state.
+        Start state minus state of the orbit.
     periods : int
         Forcing periods to run.
     orbit_frequency : float
-        Where the orbit of reference is found; it may have ended at the scene's frequency.
+        Frequency W at which the orbit is searched for; at `frequency` it need not exist any more.
     scipy_every : int
         As in `VerdictScene`.
 
@@ -135,7 +138,7 @@ def make_scene(
 
 
 def judge(states, scene):
-    """Return the verdict on strobed states against the truth of the scene (flag `verdict`)."""
+    """Compare strobed states of a method with the truth of the scene; return a flag `verdict`."""
     if not np.isfinite(states).all():
         return "failed"
     found, landed = settled_period(states), len(scene.landing)
@@ -151,13 +154,16 @@ def judge(states, scene):
 
 
 def right_from(right):
-    """Return the index from which on all of a row are right, its length if the last is wrong."""
+    """Return the first index from which on all entries are True; the length if the last is not."""
     wrong = np.flatnonzero(~right)
     return wrong[-1] + 1 if len(wrong) else 0
 
 
 def _by_resolution(label, scene, tolerances, steps):
-    """Return a method's verdict at each tolerance, or steps, and `right_from` of `verdicts`."""
+    """Return a method's verdict at each tolerance or number of steps, and its `right_from`.
+
+    The latter is described in `verdicts`.
+    """
     name, locate = name_and_mode(label)
     method, integrator = METHODS[name], integrators()[name]
     resolutions = steps if method.fixed else tolerances
@@ -176,24 +182,24 @@ def _by_resolution(label, scene, tolerances, steps):
 
 
 def verdicts(scenes, tolerances, steps):
-    """Return the verdict of each method on each scene, by tolerance or steps a forcing period.
+    """Judge each method on each scene, at each tolerance or number of steps per forcing period.
 
     Parameters
     ----------
     scenes : dict of VerdictScene
-        By name.
+        Keyed by name.
     tolerances : sequence of float
         Increasing.
     steps : sequence of int
-        Increasing, as many: steps a forcing period of the fixed-step methods, the fewest in the
-        place of the largest tolerance.
+        Increasing numbers of steps per forcing period for fixed-step methods, as many as there are
+        tolerances; the fewest steps take the place of the largest tolerance.
 
     Returns
     -------
     xarray.Dataset
-        `verdict` over (scene, verdict_method, method_tolerance), and over (scene, verdict_method)
-        `right_from`: the largest tolerance, or smallest number of steps, from which on all are
-        right; NaN if the strictest is not.
+        `verdict` for each (scene, verdict_method, method_tolerance). `right_from` for each (scene,
+        verdict_method): the largest tolerance, or smallest number of steps, from which on all
+        verdicts are right; NaN if the verdict at the strictest one is not.
 
     Raises
     ------

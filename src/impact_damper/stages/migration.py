@@ -1,4 +1,8 @@
-"""Migration control: the controller of figure 17, from resonance to non-resonance branch."""
+"""Migration control: the controller of figure 17, from the resonance to the non-resonance branch.
+
+The controller switches the damper on and off (release) until the free oscillator, on its resonance
+branch at first, settles on its non-resonance branch. See `migration.controller`.
+"""
 
 import numpy as np
 
@@ -34,12 +38,12 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# Forcing periods within which the paper's controller reaches the goal.
+# Forcing periods within which the paper's controller reaches the non-resonance branch.
 PAPER_CYCLES = 350
 
 
 def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
-    """Return the case and the parameters of the dataset, or raise for a bad argument."""
+    """Return the `ReleaseCase` and the parameters of the dataset, or raise for a bad argument."""
     check_damper(damper)
     pack(oscillator, damper, frequency)
     check_count("longest_hold", longest_hold, **PERIODS_RANGE)
@@ -72,13 +76,13 @@ def migrate(
     oscillator : Oscillator
     damper : Damper
     frequency : float
-        Forcing frequency at which both free period-1 motions exist, dimensionless.
+        Forcing frequency W, dimensionless; both free motions of period 1 must exist there.
     seed : int or numpy.random.SeedSequence
         Seed of the switching phases and of the places of the loose mass.
     longest_hold : int
-        Forcing periods after which the damper is switched off though its motion has not settled.
+        Forcing periods after which the damper is switched off even if the motion has not settled.
     periods : int
-        Forcing periods after which no switching begins.
+        Forcing periods after which the damper is not switched on any more.
     switchings : int
         Largest number of switchings.
     settling : Settling, optional
@@ -87,9 +91,10 @@ def migrate(
     Returns
     -------
     xarray.Dataset
-        Over `time` (T, dimensionless) the displacement of the primary; over `switching` the
-        instants T of switching on and off and of the end of the free run, the damped motion
-        released from and the free one reached; and the totals of the run in forcing periods.
+        For each `time` T (dimensionless) the displacement of the primary mass; for each `switching`
+        the times T of switching on, of switching off and of the end of the free run, the damped
+        motion before the release and the free motion after it; and totals of the run, in forcing
+        periods.
 
     Raises
     ------
@@ -113,7 +118,10 @@ def migrate(
 
 
 def _example(totals):
-    """Return the first run with the median number of switchings of the runs that reach the goal."""
+    """Return the number of an example: the first run with the median number of switchings.
+
+    Only runs that reach the non-resonance branch count; 0 if none does.
+    """
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -122,7 +130,7 @@ def _example(totals):
 
 
 def _summary(logs_data, totals):
-    """Return registered shares and counts over all runs."""
+    """Return shares of all runs, and counts of releases by damped motion and destination."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     number = len(reached)
     count = [
@@ -159,7 +167,10 @@ def trials(
     workers=1,
     progress=None,
 ):
-    """Run the controller many times, release damped motions, and time the violent motion.
+    """Run the controller many times, and find where releases of damped motions lead.
+
+    After switching on, a violent motion comes first, which has not settled; the time until it
+    settles, its life, is measured as well.
 
     Parameters
     ----------
@@ -168,9 +179,9 @@ def trials(
     trials : int
         Runs of the controller.
     releases : int
-        Releases of each damped motion, and runs watched for the life of the violent one.
+        Number of releases of each damped motion, and of runs in which the life is measured.
     lifetime : int
-        Forcing periods for which these are watched.
+        Forcing periods for which these runs are watched at most.
     seed : int
     workers : int
         Threads; the result does not depend on it.
@@ -180,10 +191,10 @@ def trials(
     Returns
     -------
     xarray.Dataset
-        As of `migrate` with a dimension `trial`, and the trace of the run `example`; shares that
-        arrive; over (damped, release) where releases of each damped motion lead, the first
-        row being the motion before it settles; over `run` the life of that motion, and over
-        `age` its survival.
+        As from `migrate` for each `trial`, with the displacement of the run `example` only; shares
+        of runs that reach the non-resonance branch; for each (damped, release) the free motion that
+        a release leads to, where the first of the damped motions is the one that has not settled
+        yet; for each `run` the life of that motion, and for each `age` the share that survives.
 
     Raises
     ------

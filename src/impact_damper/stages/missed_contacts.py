@@ -1,10 +1,11 @@
-"""Contacts that integrators miss near grazing, counted over random passages.
+"""Contacts near grazing that integrators miss, counted in random passages.
 
-A passage is a free flight whose largest |Z2| is known. If the wall is nearer than that by some
-depth, a contact begins; if it is as much further away, none does. Integrators other than the
+A passage is a flight without contact whose largest |Z2| is known, where Z2 is the displacement of
+the primary mass relative to the loose mass. If the wall is placed nearer than this |Z2| by some
+depth, a contact begins; if it is placed as much further away, none does. Integrators other than the
 Taylor series find the contact if a step ends beyond the wall, whether they integrate through the
-kink or have events as SciPy's. Their steps up to there do not depend on the wall, so one run gives
-the outcome at all depths.
+kink of the force or locate events as SciPy does. Their steps before the contact do not depend on
+the wall, so that one run gives the outcome at all depths.
 """
 
 import math
@@ -27,14 +28,14 @@ OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 
 def _counts(integrator, p, passages, depths, resolution):
-    """Return what an integrator makes of passages, at each depth.
+    """Count the contacts that an integrator finds and misses in passages, at each depth.
 
     Returns
     -------
     touching : array of int, shape (depth, outcome)
-        Outcomes with the wall nearer.
+        Number of passages with each of OUTCOMES if the wall is nearer by the depth.
     spurious : array of int, shape (depth,)
-        Contacts reported with the wall further away.
+        Number of contacts reported if the wall is further away by the depth.
     error, steps : float
         Median error of the largest |Z2| and mean number of steps, NaN if all runs failed.
     """
@@ -64,7 +65,7 @@ def _counts(integrator, p, passages, depths, resolution):
 def _taylor_counts(p, passages, depths, tolerance):
     """Return `touching`, `spurious` and `error` of `_counts` for the event-driven Taylor series.
 
-    It runs with the wall at every depth until its first contact.
+    The series is run again for the wall at each depth, until its first contact.
     """
     states = np.array([passage.state for passage in passages])
     extrema = np.array([passage.extremum for passage in passages])
@@ -89,7 +90,7 @@ def _taylor_seen(p, states, clearances, tolerance):
 
 
 def _taylor_largest(p, passage, tolerance):
-    """Return |Z2| of the Taylor series, without walls, at the time of the true extremum."""
+    """Return |Z2| by the Taylor series without walls, at the time of the true largest |Z2|."""
     times = np.array([passage.time, 2 * math.pi / p[FREQUENCY]])
     states = np.empty((2, 4))
     trace(free_flight(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
@@ -108,7 +109,7 @@ def missed_contacts(
     implicit_passages,
     seed=1995,
 ):
-    """Contacts near grazing that each method finds and misses, by depth and tolerance.
+    """Count contacts near grazing that each method finds and misses, by depth and tolerance.
 
     Parameters
     ----------
@@ -118,28 +119,29 @@ def missed_contacts(
     passages : int
         Random passages for each method and tolerance, the same for all.
     radius : float
-        Of the ball from which their states at T = 0 are drawn.
+        Radius of the ball from which the states of the passages at T = 0 are drawn.
     depths : sequence of float
         Increasing distances by which the wall is nearer than the largest |Z2|, or further away.
     tolerances : sequence of float
         Increasing relative and absolute tolerances of methods with step control.
     steps : sequence of int
-        Increasing, as many as there are tolerances: steps in a forcing period of fixed-step
-        methods, the fewest in the place of the largest tolerance.
+        Increasing numbers of steps per forcing period for fixed-step methods, as many as there are
+        tolerances; the fewest steps take the place of the largest tolerance.
     implicit_passages : int
-        Number of passages, the first ones, for implicit methods, which are slow.
+        Implicit methods, which are slow, run only this number of the passages, the first ones.
     seed : int
 
     Returns
     -------
     xarray.Dataset
-        `passage_count` over (integrator, method_tolerance, depth, contact_outcome). Outcomes:
-        found; unseen (the method's own motion passes the wall between two ends of steps); not
-        reached (the error of its motion exceeds the depth); failed (the run did not reach its
-        end). `spurious_count`: contacts reported where there is none. `motion_error`: the median
-        error of the largest |Z2|; like `mean_steps` over the passages that did not fail, NaN if
-        all did. `expected_unseen`, for fixed steps h that end at random times: the mean of
-        max(0, 1 - b/h) with the time beyond the wall b = 2 sqrt(2 depth/|Z2''|).
+        `passage_count` for each (integrator, method_tolerance, depth, contact_outcome). Outcomes:
+        found; unseen (the computed motion passes the wall between the ends of two steps); not
+        reached (the computed motion does not reach the wall, since its error exceeds the depth);
+        failed (the run did not reach its end). `spurious_count`: contacts reported where none
+        exists. `motion_error`, the median error of the largest |Z2|, and `mean_steps` are taken
+        from the passages that did not fail, NaN if all did. `expected_unseen`: the share expected
+        to go unseen if fixed steps h end at random times, the mean of max(0, 1 - b/h) with the time
+        beyond the wall b = 2 sqrt(2 depth/|Z2''|).
 
     Raises
     ------
@@ -179,9 +181,9 @@ def missed_contacts(
 
 
 def _count_table(p, passages, totals, depths, tolerances, steps):
-    """Return registered variables over integrator and tolerance.
+    """Return the counts and errors of each integrator at each tolerance or number of steps.
 
-    `totals` are the numbers of passages, the first ones, that the integrators run.
+    `totals` holds, for each integrator, how many of the passages (the first ones) it runs.
     """
     free, methods, found = free_flight(p), integrators(), []
     for name, total in zip(LABELS, totals, strict=True):
@@ -200,7 +202,7 @@ def _count_table(p, passages, totals, depths, tolerances, steps):
 
 
 def _passage_table(passages, depths, steps, period):
-    """Return registered variables of the passages, and the share expected to go unseen."""
+    """Return time, size and curvature of each passage, and shares expected to go unseen."""
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
     expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps]

@@ -1,7 +1,8 @@
-"""Largest displacement against clearance, and its minimum (figures 6, 7 and 11).
+"""Largest displacement as a function of the clearance, and its minimum (figures 6, 7 and 11).
 
 The displacement is that of the quiet motion, which has the period of the forcing, is symmetric and
-has two contacts a period. Its branch is the one at the clearance nearest to rule (18).
+has two contacts a period. If there are several branches of such motions, the one that exists at the
+clearance nearest to rule (18) is taken.
 """
 
 from typing import NamedTuple
@@ -46,7 +47,7 @@ def clearance_sweep(
     workers=1,
     progress=None,
 ):
-    """Find all motions over a sweep of the clearance, and the optimum clearance.
+    """Find all motions at each clearance of a sweep, and the optimum clearance.
 
     Parameters
     ----------
@@ -63,15 +64,15 @@ def clearance_sweep(
     Returns
     -------
     xarray.Dataset
-        Over (clearance, motion) all motions found, as in a frequency response. Over `clearance`
-        the largest displacement of the quiet motion, of all motions that starts reach,
-        and |a| of the quietest stable solution of (7). Scalars: the optimum and what kind of
-        minimum it is, both for the motion and for (7); rules (18) and (19), the latter NaN if
-        the free response has no peak; rm W^2 d0/f, with the forcing amplitude f, at the
-        optimum and which shares of its excess over 1 two corrections of (18) explain: that
-        of the first harmonic for a loose mass that flies straight, pi^2/8, and
-        `optimum_clearance.straight_flight_ratio`. Over `edge` the range of clearance within 10 % of
-        the minimum.
+        For each (clearance, motion) a motion found, as in a frequency response. For each
+        `clearance` max |Z1| of the quiet motion, the largest max |Z1| of all motions that starts
+        reach, and |a| of the stable solution of (7) with the smallest |a|. Scalars: the optimum and
+        the kind of minimum, both for the quiet motion and for (7); the clearances of rules (18) and
+        (19), the latter NaN if the free response has no peak; at the optimum rm W^2 d0/f, with the
+        forcing amplitude f, and the shares of its excess over 1 that two corrections of (18)
+        explain: pi^2/8, the first harmonic for a loose mass in straight flight, and
+        `optimum_clearance.straight_flight_ratio`. For each `edge` an end of the range of clearance
+        in which max |Z1| is within 10 % of its minimum.
 
     Raises
     ------
@@ -150,9 +151,9 @@ class _Branch(NamedTuple):
     ----------
     parameters : numpy.ndarray, shape (n, packed.COUNT)
     states : numpy.ndarray, shape (n, 4)
-        State of the motion, NaN where it is absent.
+        State of the motion at W T = pi/2, NaN where the motion is absent.
     displacements : numpy.ndarray, shape (n,)
-        max |Z1|, NaN where it is absent.
+        max |Z1|, NaN where the motion is absent.
     """
 
     parameters: np.ndarray
@@ -160,7 +161,10 @@ class _Branch(NamedTuple):
     displacements: np.ndarray
 
     def follow(self, start, clearance):
-        """Follow from the point nearest to `start` to a clearance; return as `follow_stable`."""
+        """Follow the motion from the known point nearest to `start` to a clearance.
+
+        Returns what `follow_stable` returns.
+        """
         away = np.abs(self.parameters[:, CLEARANCE] - start)
         k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
         return follow_stable(self.parameters[k], self.states[k], 1, CLEARANCE, clearance)
@@ -173,10 +177,10 @@ class _Branch(NamedTuple):
         return measured(p, orbit.state, 1, POLISH_TOLERANCE)["maximum_displacement"]
 
     def limit(self, clearance, step):
-        """Return the next clearance of the sweep in a direction (-1 or 1), and "crossed".
+        """Return the next clearance of the sweep in the direction `step` (-1 or 1), and "crossed".
 
-        If the branch ends before it, its end and "branch_ends"; at the end of the sweep, the
-        clearance itself and "sweep_ends".
+        If the branch ends before that clearance: the end of the branch and "branch_ends". If the
+        sweep has no further clearance: the given clearance and "sweep_ends".
         """
         grid = self.parameters[:, CLEARANCE]
         beyond = grid[grid > clearance][:1] if step > 0 else grid[grid < clearance][-1:]
@@ -191,7 +195,7 @@ class _Branch(NamedTuple):
 def _quiet_branch(data, parameters, rule):
     """Return the branch of the quiet motion nearest to the clearance `rule`.
 
-    It is absent everywhere if there is no quiet motion.
+    If there is no quiet motion, all its states and displacements are NaN.
     """
     table = {
         name: data[name][1]
@@ -239,13 +243,13 @@ def _quiet_table(branch):
 
 
 def _largest(data):
-    """Return the largest max |Z1| of the motions that starts reach, over the clearance."""
+    """Return, for each clearance, the largest max |Z1| of the motions that starts reach."""
     sizes = np.where(reached(data), data["maximum_displacement"][1], -np.inf)
     return np.max(sizes, axis=1)
 
 
 def _optimum_table(branch):
-    """Return registered variables of the minimum of max |Z1|, its kind, and the range near it."""
+    """Return the minimum of max |Z1|, its kind, and the range of clearance near the minimum."""
     if not np.isfinite(branch.displacements).any():
         return {
             "optimum_clearance": np.nan,
@@ -280,8 +284,8 @@ def _optimum_table(branch):
 def _kind(branch, best, least, longest):
     """Return "smooth" or "kink" for a minimum.
 
-    When a step away from it is halved, max |Z1| rises by a quarter at a smooth minimum, by half
-    at a kink. No step is longer than `longest`, because the branch may end beyond.
+    When a step away from the minimum is halved, the rise of max |Z1| falls to a quarter at a smooth
+    minimum and to half at a kink. No step exceeds `longest`, because the branch may end beyond.
     """
     rises = [
         branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
@@ -293,7 +297,8 @@ def _kind(branch, best, least, longest):
 def _near(branch, best, level, step):
     """Return the clearance where max |Z1| reaches a level on one side of the optimum.
 
-    It comes with "crossed"; if branch or sweep ends before, the end and the event of `limit`.
+    The second value is "crossed". If the branch or the sweep ends before the level is reached, the
+    end and its event are returned, as from `_Branch.limit`.
     """
     outside, event = best, "crossed"
     while event == "crossed":

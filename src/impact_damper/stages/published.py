@@ -1,7 +1,7 @@
-"""Our numbers beside published ones, and closed forms beside our orbits and motions.
+"""Numbers computed here compared with published numbers and closed forms.
 
-Each group of numbers is compared by a function of the room `comparisons`; what is published stands
-in the room `literature`. All groups together take some ten seconds.
+Each group of numbers is compared by a function in the package `comparisons`; the published numbers
+are in the package `literature`. All groups together take some ten seconds.
 """
 
 from impact_damper.comparisons.duffing import basin_shares, jump_frequencies
@@ -26,23 +26,25 @@ GROUPS = {
 
 
 def published(settings, *, seed=1995, settling=None):
-    """Compare our numbers with published ones.
+    """Compare numbers computed by this package with published ones.
 
     Parameters
     ----------
     settings : dict
-        For each group, a key of GROUPS, the arguments of its function without seed and settling.
+        Maps the key of each group in GROUPS to the arguments of its function, without seed and
+        settling.
     seed : int
-        Of the random starts.
+        Seed of the random starts.
     settling : Settling, optional
-        How motions from random starts are run.
+        How long and how accurately motions from random starts are run.
 
     Returns
     -------
     xarray.Dataset
-        Over `comparison` the published value and ours, where it is published, why they differ, the
-        order with which the difference falls, our value extrapolated to the limit of the closed
-        form, and the standard error of a difference of random counts.
+        For each `comparison`: the published value, the value computed here, the publication, the
+        reason why both differ, the order with which the difference falls, the computed value
+        extrapolated to the limit in which the closed form holds, and the standard error of the
+        difference if both values are shares of random samples.
 
     Raises
     ------

@@ -1,4 +1,7 @@
-"""Motions to which releases of the damper lead, over frequency."""
+"""Free motions to which releases of the damper lead, at each frequency of a scan.
+
+A release switches the damper off (`migration.damper_release`).
+"""
 
 import numpy as np
 
@@ -22,7 +25,7 @@ from impact_damper.system.settling import check_settling
 def _scan_records(response):
     """Return records of the settled motions at one frequency of a frequency response.
 
-    Only the fields that `release_data` reads are set; the smallest motion comes first.
+    Only the fields that `release_data` reads are set. The smallest motion comes first.
     """
     keep = response["outcome"].values == flag("outcome", "settled")
     found = np.zeros(np.sum(keep), records.MOTION)
@@ -32,7 +35,7 @@ def _scan_records(response):
 
 
 def _padded(values, length):
-    """Return an array whose first axis is extended to a length by NaN, or by -1 for integers."""
+    """Return `values`, its first axis extended to a length with NaN, or with -1 for integers."""
     missing = np.full(
         (length - len(values), *values.shape[1:]),
         np.nan if values.dtype.kind == "f" else -1,
@@ -64,13 +67,13 @@ def release_scan(
     frequencies : sequence of float
         Increasing forcing frequencies at which both free period-1 motions exist.
     starts : int
-        Random starts a frequency; the motions found are followed in frequency as well.
+        Random starts at each frequency. The motions found are also followed to other frequencies.
     radius : float, optional
-        As of `response.frequency_response`.
+        As in `response.frequency_response`.
     releases : int
-        Releases of each motion.
+        Number of releases of each motion.
     lifetime : int
-        Forcing periods within which the motion that has not settled is released.
+        The motion that has not settled is released within this number of forcing periods.
     seed : int
     settling : Settling, optional
     workers, progress
@@ -79,13 +82,14 @@ def release_scan(
     Returns
     -------
     xarray.Dataset
-        Over (frequency, damped) the damped motions, first the one that has not settled, and
-        over (frequency, damped, free_motion, bound) the shares of their releases.
+        For each (frequency, damped) a motion with the damper, first the one that has not settled;
+        for each (frequency, damped, free_motion, bound) the share of its releases that lead to a
+        free motion, or a confidence bound of this share.
 
     Raises
     ------
     ValueError
-        If the free oscillator has not both motions at a frequency, or an argument is out of range.
+        If a free motion of period 1 is missing at a frequency, or an argument is out of range.
     """
     settling = check_settling(settling)
     check_count("releases", releases, **RUNS_RANGE)

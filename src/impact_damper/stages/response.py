@@ -1,4 +1,4 @@
-"""All motions over frequency, and the share of random starts that lead to a collision."""
+"""All motions at each frequency, and the share of random starts that lead to a collision."""
 
 import numpy as np
 
@@ -27,7 +27,9 @@ def frequency_response(
     workers=1,
     progress=None,
 ):
-    """Find all motions at each frequency, from many starts and by following (section 3).
+    """Find all motions at each frequency, from many starts and from neighbouring frequencies.
+
+    Each motion found is followed to the other frequencies at which it exists (section 3).
 
     Parameters
     ----------
@@ -38,9 +40,9 @@ def frequency_response(
     starts : int
         Random starts at each frequency.
     radius : float, optional
-        Radius of a ball in which they are uniform, within the gap (`random_states`); 2 in the paper
-        (section 3, iii). Without it the search is as wide as the machine: the random starts are
-        scaled by its free motions, and further starts are placed on them
+        Random starts are uniform in a ball of this radius, within the gap (`random_states`); 2 in
+        the paper (section 3, iii). Without it the search is as wide as the free motions: the random
+        starts are scaled by the free motions, and further starts are placed on them
         (`motions.start_states`).
     seed : int
     settling : Settling, optional
@@ -52,11 +54,11 @@ def frequency_response(
     Returns
     -------
     xarray.Dataset
-        Over (frequency, motion) the distinct motions with outcome, period, contacts, extremum of
+        For each (frequency, motion) a distinct motion with outcome, period, contacts, extremum of
         |Z1|, phases, multiplier, Lyapunov exponent, branch, and number of the random starts that
-        lead there; over (frequency, start) outcome and length of each run; over `end` the ends
-        of branches; over `frequency` how wide the starts and the free motions are; and the bound
-        on the share of a motion that no random start reached.
+        lead to it; for each (frequency, start) outcome and length of a run; for each `end` the end
+        of a branch; for each `frequency` how large the starts and the free motions are; and an
+        upper bound on the share of starts that lead to a motion which no random start reached.
 
     Raises
     ------
@@ -103,7 +105,9 @@ def collisions(
     periods=200,
     tolerance=1e-9,
 ):
-    """Count the random starts that lead to a collision, in the literal ball and within the gap.
+    """Count the random starts that lead to a collision, in the whole ball and within the gap.
+
+    The whole (literal) ball of the paper extends beyond the walls.
 
     Parameters
     ----------
@@ -113,21 +117,22 @@ def collisions(
     frequency : float
         Forcing frequency W, dimensionless.
     starts : int
-        Starts in each ball, at T = 0.
+        Number of starts at T = 0 in each ball.
     radius : float, optional
         Radius of the ball; 2 in the paper (section 3, iii). Without it the largest displacement or
         speed of the free motions, whichever is larger.
     seed : int
     periods : int
-        Forcing periods within which a collision counts.
+        Forcing periods of a run; only collisions within them count.
     tolerance : float
-        Local error allowed.
+        Local error allowed in a step of the integrator.
 
     Returns
     -------
     xarray.Dataset
-        Over `ball` (literal, within the gap): shares of starts that lie beyond a wall, that
-        collide within the given forcing periods, and the longest wait for the first collision.
+        For each `ball` (literal, within the gap): the share of starts that lie beyond a wall, the
+        share that collide within the given forcing periods, and the longest time before a first
+        collision.
 
     Raises
     ------

@@ -1,8 +1,9 @@
-"""Errors of rigid impacts against compliant contact, over contact stiffness r1 and frequency.
+"""Errors of the rigid-impact model as functions of contact stiffness r1 and frequency.
 
-Compared are the orbits of the quiet motion, of period 1 with two symmetric contacts, whether stable
-or not. The orbit with compliant contact is followed over the whole grid, the orbit of the rigid
-model over frequency.
+The exact system has compliant contacts. The orbits of the quiet motion (period 1, two symmetric
+contacts) of both are compared, stable or unstable. The compliant orbit is followed through a grid
+of frequencies and r1. The rigid orbit does not depend on r1 and is followed in frequency; it is
+also computed with corrected walls (`mended`), which account for the penetration at finite r1.
 """
 
 from dataclasses import replace
@@ -20,9 +21,9 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# Errors of max |Z1| for which the stiffness needed is given.
+# Relative errors of max |Z1| for which the dataset gives the stiffness needed.
 THRESHOLDS = (0.01, 0.1)
-# Largest distance of an orbit from its prediction.
+# Largest distance of an orbit's state from the state predicted for it.
 REACH = 0.1
 # The order of the error in r1 is fitted from this r1 on, where contacts are short.
 STIFF = 1e4
@@ -31,14 +32,14 @@ STIFF = 1e4
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling=None
 ):
-    """Compare rigid impacts with compliant contact, over frequency and stiffness.
+    """Compare rigid impacts with compliant contact at each frequency and stiffness.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     frequency : float
-        W at which the quiet motion is searched for, with the r1 of the damper; dimensionless.
+        Frequency W at which the quiet motion is searched for, with the damper's own r1.
     frequencies, stiffnesses : sequence of float
         Increasing W and r1 of the grid, dimensionless; at least two each.
     starts : int
@@ -49,9 +50,10 @@ def rigid_limit(
     Returns
     -------
     xarray.Dataset
-        Over (frequency, stiffness) the compliant orbit, the mended rigid one, errors and
-        verdict; over `frequency` the rigid orbit, observed orders, and the stiffness above which
-        the error of max |Z1| is below each threshold; scalars for the r1 of the damper itself.
+        For each (frequency, stiffness) the compliant orbit, the rigid orbit with corrected walls
+        (`mended`), errors and verdict; for each `frequency` the rigid orbit, the orders with which
+        errors decrease as r1 grows, and the stiffness above which the error of max |Z1| is below
+        each threshold; errors at the damper's own r1 as scalars.
 
     Raises
     ------
@@ -111,7 +113,7 @@ def _quiet(oscillator, damper, frequency, starts, seed, settling):
 
 
 def _spread(correct, points, cell, own_point, orbit):
-    """Return the `Grid` of all orbits that are reached from the one at `own_point` by a cell."""
+    """Follow `orbit` from `own_point` into a cell and then to all cells; return the `Grid`."""
     grid = Grid(points, correct)
     followed = follow_line(correct, own_point, points[cell], orbit)
     grid.put(cell, _reached(followed, "frequencies"))
@@ -120,7 +122,10 @@ def _spread(correct, points, cell, own_point, orbit):
 
 
 def _reached(followed, key):
-    """Return the orbit at which following arrived; otherwise raise an error that names a grid."""
+    """Return the orbit at the end of a line if it was reached, otherwise raise an error.
+
+    The error names `key`, the axis of the grid.
+    """
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
     return followed.orbit
@@ -129,8 +134,8 @@ def _reached(followed, key):
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
     """Return the grids of compliant and of rigid orbits, and the rigid orbit at `frequency`.
 
-    The compliant orbits are followed from the orbit `quiet`, at the frequency and the r1 of the
-    damper. The rigid ones start from the compliant orbit at the greatest r1.
+    The compliant orbits are followed from the orbit `quiet` at `frequency` and the damper's own r1.
+    The rigid orbits are followed from the one near the compliant orbit of the greatest r1.
     """
 
     def compliant_at(point, guess):
@@ -155,7 +160,7 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
 
 
 def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
-    """Return the orbits of the mended rigid model by cell, and their status in all cells."""
+    """Return the rigid orbits with corrected walls, keyed by cell, and the status of each cell."""
     orbits = {}
     flags = np.full((len(frequencies), len(stiffnesses)), flag("mended_status", "not_attempted"))
     for (i,), orbit in rigid.items():
@@ -169,7 +174,7 @@ def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
 
 
 def _columns(name, found, status):
-    """Return registered variables of a model from its orbits by cell."""
+    """Return the variables of a model; `found` maps cells of the grid to its orbits."""
     displacement, multiplier = np.full(status.shape, np.nan), np.full(status.shape, np.nan + 0j)
     for cell, orbit in found.items():
         displacement[cell], multiplier[cell] = orbit.displacement, orbit.multiplier
@@ -211,7 +216,7 @@ def _errors(data):
 
 
 def _needed(stiffnesses, errors):
-    """Return the stiffness above which |error| stays below each threshold, interpolated."""
+    """Return the stiffness, interpolated, above which |error| stays below each threshold."""
     shape = len(THRESHOLDS), len(errors)
     needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
     for j, row in enumerate(np.abs(errors)):

@@ -1,8 +1,9 @@
-"""The largest steps with which fixed-step methods keep the quiet motion, over the stiffness r1.
+"""The largest steps with which fixed-step methods keep the quiet motion, for each stiffness r1.
 
-Every run starts on the exact quiet orbit and integrates through the kinks with equal steps, a whole
-number of them in a forcing period. The linear stability of a method limits h omega_c, where
-omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an undamped contact.
+The quiet motion has the period of the forcing and two contacts per period. Every run starts on its
+exact orbit and integrates through the kinks of the force with equal steps h, a whole number of them
+in a forcing period. The linear stability of a method limits h omega_c, where the natural frequency
+of an undamped contact is omega_c = sqrt(r1 (1 + 1/rm)).
 """
 
 import itertools
@@ -31,22 +32,25 @@ from impact_damper.system.settling import Settling
 from impact_damper.theory.free_oscillator import main_solutions
 
 LABELS = COMPARED["stable_steps"]
+# A run keeps the quiet motion if max |Z1| of every period is within such a share of the exact one.
 ACCURACIES = (0.01, 0.1)
-# Following in r1: factor of r1 in one step, and how far an orbit may move in one.
+# Orbits are followed in r1: largest factor between neighbouring r1, and largest distance of an
+# orbit's state from the state predicted for it.
 FACTOR = 10.0**0.0625
 REACH = 0.2
-# Local error allowed in the orbits, with which runs are compared.
+# Local error allowed in the exact orbits, with which the runs are compared.
 EXACT = 1e-13
-# A stable step is reported only if this many tested steps, down to the smallest, hold.
+# A stable step is reported only if at least this number of tested steps, down to the smallest one,
+# keep the quiet motion.
 CONFIRMED = 4
-# The slope in r1 is fitted from here on, where contacts are short against the forcing period.
+# The slope is fitted at r1 from this value on, where contacts are much shorter than a period.
 STIFF = 1e3
 
 
 def quiet_state(p):
-    """Return the state at W T = pi/2 of the quiet motion, or None if none is reached.
+    """Return the state at W T = pi/2 of the quiet motion, or None if the run does not reach it.
 
-    The start has the primary mass at rest and the loose mass in straight flight between the walls.
+    At the start of the run the primary mass is at rest and the loose mass crosses the gap.
     """
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
     record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]
@@ -56,7 +60,7 @@ def quiet_state(p):
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
-    """Quiet orbits at increasing stiffnesses r1, followed from the quiet motion of the damper.
+    """Return quiet orbits at increasing r1, followed from the quiet motion at the damper's own r1.
 
     Parameters
     ----------
@@ -70,7 +74,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     Returns
     -------
     list of CompliantOrbit or None
-        None where following ended before.
+        One for each stiffness; None where the orbit could not be followed so far.
 
     Raises
     ------
@@ -102,7 +106,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own` and then all targets in order, with steps between by at most FACTOR."""
+    """Return `own`, then all targets in order, with values between them at most FACTOR apart."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -111,7 +115,10 @@ def _in_steps(own, targets):
 
 
 def _verdict(largest, exact, bound):
-    """Return the largest deviation of the largest |Z1| of a period, and the name of a verdict."""
+    """Compare the largest |Z1| of each period with the exact one.
+
+    Returns the largest relative deviation and the name of a verdict.
+    """
     if not np.isfinite(largest).all():
         return np.inf, "diverged"
     deviation = np.abs(largest / exact - 1).max()
@@ -124,7 +131,10 @@ def _verdict(largest, exact, bound):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step from which on all smaller ones hold, NaN if fewer than CONFIRMED."""
+    """Return the largest step that holds together with all smaller tested steps.
+
+    NaN if these steps are fewer than CONFIRMED. `held` tells which steps keep the quiet motion.
+    """
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -132,9 +142,9 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Return the slope of log(1/step) over log r1 and its standard error.
+    """Fit log(1/step) as a linear function of log r1; return its slope and standard error.
 
-    NaN with fewer than three points.
+    Both are NaN if there are fewer than three points.
     """
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
@@ -146,7 +156,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return how fixed-step methods keep the quiet motion, over stiffness and step.
+    """Return whether fixed-step methods keep the quiet motion, for each stiffness and step.
 
     Parameters
     ----------
@@ -160,21 +170,21 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     scaled_steps : sequence of float
         Increasing values of h omega_c; the number of steps in a forcing period is rounded up.
     most_steps : int
-        Cells that take more steps than this in a forcing period are not run.
+        Runs that would take more steps than this in a forcing period are left out.
     periods : int
         Forcing periods of a run.
 
     Returns
     -------
     xarray.Dataset
-        Over (fixed_method, contact_stiffness, scaled_step): `step_verdict`, and `step_deviation`,
-        the largest relative deviation of max |Z1| in a period from the exact one, NaN if the cell
-        was not run. A run has escaped if |Z1| exceeds half the largest free amplitude of harmonic
-        balance at W. Over (fixed_method, contact_stiffness, accuracy): `stable_step`, the largest
-        step h such that it and all smaller ones keep the accuracy, if these are at least
-        CONFIRMED; `largest_holding_step`, the largest h that keeps the accuracy, whether or not
-        all smaller ones do. `step_slope` and its error: slope of log(1/h) over log r1 for
-        r1 >= 1000.
+        For each (fixed_method, contact_stiffness, scaled_step): `step_verdict`, and
+        `step_deviation`, the largest relative deviation of a period's max |Z1| from the exact one,
+        NaN if not run. A run has escaped if |Z1| exceeds half the largest free amplitude of
+        harmonic balance at W. For each (fixed_method, contact_stiffness, accuracy): `stable_step`,
+        the largest step h for which this and all smaller tested steps keep the accuracy, NaN if
+        these are too few (CONFIRMED); `largest_holding_step`, the largest h that keeps the
+        accuracy, even if a smaller one does not. `step_slope` and its error: slope of log(1/h) as a
+        function of log r1 for r1 >= 1000.
 
     Raises
     ------
@@ -239,7 +249,7 @@ def _cells(methods, orbits, counts, tested, bound, periods):
 
 
 def _step_data(deviations, tested, sizes, stiffnesses):
-    """Return the largest steps that hold, by accuracy, and their slope over the stiffness."""
+    """Return the largest steps that keep each accuracy, and their slopes as functions of r1."""
     held = np.stack([deviations <= accuracy for accuracy in ACCURACIES], axis=-1)
     stable = np.array(
         [
@@ -261,5 +271,5 @@ def _step_data(deviations, tested, sizes, stiffnesses):
 
 
 def _of(found, name):
-    """Return an attribute of each orbit, NaN where there is no orbit."""
+    """Return the attribute `name` of each orbit, NaN in place of a missing orbit."""
     return np.array([np.nan if orbit is None else getattr(orbit, name) for orbit in found])

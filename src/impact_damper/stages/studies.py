@@ -1,9 +1,9 @@
-"""Studies: motions from random starts over a grid of dampers and frequencies, chunk by chunk.
+"""Studies: motions from random starts in each cell of a grid of dampers and frequencies.
 
-The cells of a grid are numbered in the order of `AXES`, the last axis fastest, and a chunk is a
-range of these numbers. Starts are drawn by seed and number of the cell, so the results do not
-depend on the division into chunks. Runs are summed up a few cells at a time, so the memory of a
-chunk hardly grows with its size.
+The cells are numbered in the order of `AXES`, the last axis fastest, and a chunk of a study is a
+range of these numbers. The seed and the number of a cell determine its random starts, so that
+the results do not depend on the division into chunks. Runs are reduced to a few numbers per cell
+as soon as a few cells are computed, so that the memory of a chunk hardly grows with its size.
 """
 
 import math
@@ -67,9 +67,9 @@ def study_chunk(
     Returns
     -------
     xarray.Dataset
-        Over `cell`: largest displacement of all motions that the starts lead to, displacement of
-        the quiet motion (period 1, two symmetric contacts), numbers of random starts that lead to
-        the quiet motion and to each outcome. The coordinates include the axes of the whole grid.
+        For each `cell`: largest displacement of all motions that the starts lead to, displacement
+        of the quiet motion (period 1, two symmetric contacts), numbers of random starts that lead
+        to the quiet motion and to each outcome. The coordinates include the axes of the whole grid.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def study_chunk(
         return random_states(starts, radius, damper, [seed, cell]), NO_STARTS
 
     check_count("seed", seed, **SEED_RANGE)
-    # values out of range are so at an end of an axis: raise before hours of work
+    # a value out of range is at an end of an axis: check the ends now, not after hours of work
     for end in (0, -1):
         _, damper = system([end] * len(AXES))
         if radius is not None:
@@ -115,7 +115,7 @@ def study_chunk(
         for k, of_cell in enumerate(np.split(runs, ends[:-1]), part.start):
             found[k] = _condensed(of_cell, starts)
 
-    # enough cells at a time to fill the lanes; the memory does not depend on the chunk
+    # so many cells at a time that their random starts number about `ensemble.CHUNK`
     together = max(1, ensemble.CHUNK // starts)
     ensemble.run_chunks(work, last - first, workers, progress, stop, size=together)
     data = {

@@ -1,4 +1,8 @@
-"""The chunks of a study as one file over its grid, with one chunk in memory at a time."""
+"""Write the chunks of a study into one file, with one chunk in memory at a time.
+
+A study computes motions in each cell of a grid of dampers and frequencies; a chunk holds a range of
+cells (`stages.studies`).
+"""
 
 import math
 
@@ -12,23 +16,24 @@ from impact_damper.data.whole_files import DELETE, BrokenFileError, whole_netcdf
 
 
 def gather_chunks(paths, path) -> None:
-    """Write the chunks of a study, in their order, into one file over its grid.
+    """Write the chunks of a study, in their order, into one file.
 
-    The file has the variables of a chunk, over the axes in place of `cell`. It also has, over mass
-    ratio, frequency and restitution, the clearance of the grid at which the largest displacement
-    is least, and the clearance of rule (18).
+    The file has the variables of a chunk, with the axes of the grid as dimensions in place of
+    `cell`. It also has, for each mass ratio, frequency and restitution, the clearance of the grid
+    at which the largest displacement is least; and, for each mass ratio and frequency, the
+    clearance of rule (18).
 
     Parameters
     ----------
     paths : sequence of str or pathlib.Path
-        Files of all chunks, as `study_chunk` made them.
+        Files of all chunks, each with a dataset of `study_chunk`.
     path : str or pathlib.Path
-        File to write; it appears only when it is whole.
+        File to write; it appears only once it is complete.
 
     Raises
     ------
     BrokenFileError
-        If a chunk is not a whole file of a run, does not begin where the chunk before it ended, or
+        If the file of a chunk is incomplete, does not begin where the chunk before it ended, or
         belongs to another study.
     """
     chunk = load(paths[0])
@@ -57,7 +62,7 @@ def gather_chunks(paths, path) -> None:
 
 
 def _place(file, chunk, first, shape):
-    """Write a chunk to its cells, from the number `first` on, and return their number."""
+    """Write a chunk to its cells, from cell number `first` on, and return how many they are."""
     count = chunk.sizes["cell"]
     for cells, block in blocks(first, first + count, shape):
         lengths = [index.stop - index.start for index in block]
@@ -114,7 +119,7 @@ def blocks(first, last, shape):
 
 
 def _write_clearances(file, axes, oscillator):
-    """Write the best clearance of the grid and that of rule (18), one mass ratio at a time."""
+    """Write the clearance of least displacement and that of rule (18), by mass ratio."""
     dims = tuple(name for name in AXES if name != "clearance")
     _define(file, "best_clearance", dims, float)
     _define(file, "rule_clearance", ("mass_ratio", "frequency"), float)

@@ -1,7 +1,7 @@
 """The one-third subharmonic of the free oscillator, and its suppression by a damper.
 
-Without the damper the subharmonic is a symmetric motion of period 3. With the damper every motion
-whose period is a multiple of 3 counts as a subharmonic.
+Free means without the damper. The free subharmonic is a symmetric motion of period 3 (in forcing
+periods). With the damper, every motion whose period is a multiple of 3 counts as a subharmonic.
 """
 
 import numpy as np
@@ -23,8 +23,11 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
+# Margin of the frequencies beyond each end of the free subharmonic, as a share of its width.
 BEYOND = 0.1
+# A subharmonic counts as reduced if max |Z1| is below this share of that without the damper.
 REDUCED = 0.95
+# Motions, or outcomes, to which switching the damper on leads.
 SWITCHED_MOTIONS = (
     "quiet",
     "other_period_1",
@@ -60,22 +63,23 @@ def subharmonic_suppression(
         the range of the free subharmonic and a tenth of its width beyond each end; without a free
         subharmonic, at the given frequencies.
     starts : int
-        Starts a frequency. Where the free subharmonic exists one half is random as in
-        `response.frequency_response`, and the other has the damper switched on to the
-        subharmonic at a random time, the loose mass placed as in a random start, every second
-        time at rest relative to the primary. Elsewhere all are random.
+        Number of starts at each frequency. Where the free subharmonic exists, one half of them is
+        random as in `response.frequency_response`; the other half starts on the free subharmonic,
+        where the damper is switched on at a random time. The loose mass is then placed as in a
+        random start, every second time at rest relative to the primary. Elsewhere all are random.
     radius, seed, settling, workers, progress
         As in `response.frequency_response`.
 
     Returns
     -------
     xarray.Dataset
-        Over (frequency, motion) all motions found, as in a frequency response. Over `frequency`
-        the largest displacement of the subharmonic without and with the damper (NaN where there
-        is none), their ratio, contacts and period of the damped one, and a flag for what became
-        of it, by all damped motions and by those that starts lead to. Over (frequency,
-        switched_motion) where switching on leads. Over `edge` the ends of the free
-        subharmonic, over (subharmonic, edge) those of each damped branch.
+        For each (frequency, motion) a motion found, as in a frequency response. For each
+        `frequency` max |Z1| of the largest subharmonic without and with the damper (NaN where none
+        exists), their ratio, contacts and period of the damped one, and flags for what the damper
+        does to the subharmonic (removed, reduced, unchanged), judged by all damped motions and only
+        by those that starts lead to. For each (frequency, switched_motion) the share of starts on
+        the subharmonic that lead to this motion after switching on. For each `edge` an end of the
+        free subharmonic, for each (subharmonic, edge) an end of a damped branch.
 
     Raises
     ------
@@ -135,7 +139,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Replace half of the starts (n, m, 4) where the free subharmonic exists, by `switched_on`.
+    """Where the free subharmonic exists, replace half of the starts (n, m, 4) by `switched_on`.
 
     Return max |Z1| of the free subharmonic, shape (n,), NaN where it does not exist.
     """
@@ -153,7 +157,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def _subharmonic_table(data, free):
-    """Return registered variables over frequency: subharmonics without and with the damper."""
+    """Return for each frequency the subharmonics without and with the damper, as variables."""
     size = np.where(is_subharmonic(data), data["maximum_displacement"][1], -np.inf)
     place = np.argmax(size, axis=1)
     row = np.arange(len(size))
@@ -171,7 +175,7 @@ def _subharmonic_table(data, free):
 
 
 def _suppression(damped, free):
-    """Return flags of `suppression`, by max |Z1| with and without the damper."""
+    """Return flags of `suppression` from max |Z1| with the damper and without it."""
     meanings = np.select(
         [np.isnan(free), damped < 0, damped < REDUCED * free],
         ["no_subharmonic_without_damper", "removed", "reduced"],
@@ -181,7 +185,7 @@ def _suppression(damped, free):
 
 
 def _branch_table(data, frequencies):
-    """Return registered variables of the damped branches of subharmonics."""
+    """Return the variables of the branches of subharmonics with the damper."""
     found = is_subharmonic(data)
     branch, period = data["branch"][1], data["period"][1]
     rows = []
@@ -199,9 +203,9 @@ def _branch_table(data, frequencies):
 
 
 def _shares(data, present, count):
-    """Return the shares of the first `count` starts that lead to each of SWITCHED_MOTIONS.
+    """Return the share of the first `count` starts that lead to each of SWITCHED_MOTIONS.
 
-    NaN at frequencies without a free subharmonic to start from.
+    The shares are NaN at frequencies where no free subharmonic exists, on which starts could lie.
     """
     settled = data["outcome"][1] == flag("outcome", "settled")
     period = data["period"][1]

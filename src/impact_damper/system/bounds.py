@@ -1,8 +1,9 @@
 """Bounds of the model's parameters, and checks of single numbers.
 
-Within these bounds the kernels come to an end. `Oscillator` and `Damper`, the functions that take
-a frequency, and the models of the configuration all take them from here. This module imports no
-NumPy, since Snakemake reads it at every dry run.
+With parameters within these bounds every run of the kernels (the compiled integrator) ends.
+`Oscillator` and `Damper`, the functions that take a frequency, and the models of the configuration
+all take their bounds from here. This module imports no NumPy, since Snakemake reads it at every dry
+run. A range is a dictionary of keyword arguments of `check_number`; "why" is the reason of a bound.
 """
 
 import math
@@ -24,14 +25,14 @@ RESTITUTION_RANGE = {
     "why": "below, the dashpot nears critical damping",
 }
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
-# Largest natural frequency of the contact over that of the forcing. A contact that is held shut
-# takes about this number of steps in a forcing period.
+# Largest ratio of the natural frequency of the contact to the forcing frequency. A loose mass that
+# stays in contact takes about this number of steps in a forcing period.
 MOST_STIFF = 1e6
-# Ball of random initial conditions: its radius, and its radius over the clearance. In a larger ball
-# hardly a draw is within the gap.
+# Ball from which random initial states are drawn: RADIUS_RANGE of its radius, and MOST_RADIUS, the
+# largest ratio of its radius to the clearance. In a larger ball hardly any state is within the gap.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
-# How closely and how long motions are run (`Settling`), the latter in forcing periods.
+# How accurately and how long motions are run (`settling.Settling`); lengths in forcing periods.
 TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "below, rounding prevails"}
 PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "fewer periods decide nothing"}
 LIMIT_RANGE = {"least": 100, "most": 10**8}
@@ -39,23 +40,23 @@ WATCHED_RANGE = {"least": 1, "most": 10**6}
 # Runs whose records are kept in memory together.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Forcing periods of a run, and those for which lives of transients are watched. The latter are
-# counted from the strobe LEAD on: a run first has to reach the motion whose life is measured.
+# Forcing periods of a run, and forcing periods for which the lifetimes of transients are watched.
+# Their ends count from period LEAD on: a run first has to reach the transient.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 LEAD = 20
 SCAN_LIFETIME_RANGE = LIFETIME_RANGE | {"least": 2 * LEAD}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest displacements and velocities of a start: beyond them a forcing period takes minutes.
+# Largest displacement and velocity of an initial state; beyond them a forcing period takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
-# Highest harmonic of a balance: the memory goes with its square, the time with its cube.
+# Highest harmonic N of a harmonic balance: its memory grows as N^2, its time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 # Points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Largest load in a map of the contact.
+# Largest load (dimensionless external acceleration in a contact, `contact.contact_law`) in a map.
 LOAD_RANGE = {"above": 0.0, "most": 1e3}
 # Settings with which integrators are compared: tolerances, steps in a forcing period, and the most
-# steps at which a stable step is searched for.
+# steps in a forcing period up to which the largest stable step is searched for.
 METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "below, rounding prevails"}
 STEPS_RANGE = {"least": 1, "most": 10**5}
 MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
@@ -64,27 +65,27 @@ MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
 def parameter(bounds, symbol, meaning, **default):
     """Return a dataclass field for a number within `bounds`.
 
-    `check_parameters` reads the bounds. Tables and captions read the symbol, and the configuration
-    reads the bounds and the meaning with the symbol before it, so that a parameter is described in
-    its dataclass alone.
+    The field's metadata keep all that is said about a parameter in one place: `check_parameters`
+    reads the bounds, tables and captions read the symbol, and the configuration reads the bounds
+    and the meaning (with the symbol before it).
     """
     metadata = {"bounds": bounds, "symbol": symbol, "meaning": f"{symbol}, {meaning}"}
     return field(metadata=metadata, **default)
 
 
 def check_parameters(part):
-    """Raise as `check_number` does if a field made by `parameter` is out of range."""
+    """Raise the error of `check_number` if a field of the dataclass `part` is out of range."""
     for each in fields(part):
         check_number(each.name, getattr(part, each.name), **each.metadata["bounds"])
 
 
 def shown(value) -> str:
-    """A value in one short line."""
+    """Return a value as text in one short line, for error messages."""
     return " ".join(reprlib.repr(value).split())
 
 
 def plain(value) -> str:
-    """A number with six digits, or with all of them if it has more."""
+    """Return a number as text: with six digits if they are exact, otherwise with all digits."""
     short = f"{value:g}"
     return short if float(short) == value else repr(float(value))
 

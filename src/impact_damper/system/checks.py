@@ -26,7 +26,7 @@ def check_numbers(name, values, **bounds):
 
 
 def check_counts(name, values, **bounds):
-    """Return whole numbers as an array; otherwise as `check_numbers`, with `check_count`."""
+    """Return whole numbers as an array; do as `check_numbers`, but with `check_count`."""
     return np.array([check_count(f"{name}[{i}]", x, **bounds) for i, x in _numbered(values)], int)
 
 
@@ -40,12 +40,12 @@ def check_frequency(value):
 
 
 def check_increasing(name, values, least="one"):
-    """Return numbers as an array.
+    """Return increasing numbers as an array.
 
     Raises
     ------
     ValueError
-        If they do not increase, or are fewer than `least`, "one" or "two".
+        If the numbers do not increase, or are fewer than `least`, which is "one" or "two".
     """
     numbers = check_numbers(name, values)
     if len(numbers) < {"one": 1, "two": 2}[least] or np.any(np.diff(numbers) <= 0):
@@ -55,20 +55,20 @@ def check_increasing(name, values, least="one"):
 
 
 def check_frequencies(values, least="one"):
-    """Return forcing frequencies as an array; errors of `check_increasing`, `check_frequency`."""
+    """Return forcing frequencies as an array, or raise unless they increase and are in range."""
     return check_increasing(
         "frequencies", check_numbers("frequencies", values, **FREQUENCY_RANGE), least
     )
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error unless the records of `starts` runs at each of `points` fit into memory."""
+    """Raise an error if the records of `starts` runs at each of `points` points exceed memory."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"at {points} points: memory")
 
 
 def check_span(name, span, **bounds) -> tuple:
-    """Return the ends of a range, least and greatest; `bounds` hold for each end.
+    """Return the least and the greatest value of a range; `bounds` hold for each of them.
 
     Raises
     ------

@@ -9,8 +9,9 @@ from impact_damper.system.checks import check_span
 from impact_damper.system.packed import DASHPOT, FORCE, UNBALANCE, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Parameters in which a branch can be followed, and the dataclass that each belongs to. The
-# coordinate of continuation is the parameter's logarithm, or for LINEAR ones the parameter.
+# Parameters that can vary along a branch, and the dataclass of each; the frequency is in none. The
+# coordinate of a parameter, in which branches are continued, is its logarithm, or for the
+# parameters in LINEAR the parameter itself.
 PARAMETERS = {
     "frequency": None,
     "damping": Oscillator,
@@ -23,7 +24,7 @@ PARAMETERS = {
     "contact_stiffness": Damper,
 }
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# Index of the packed array of the parts of the forcing amplitude.
+# Index, in the packed array, of each part of the forcing amplitude.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
@@ -44,9 +45,9 @@ def family_of(oscillator, damper, frequency, parameter, span):
     Returns
     -------
     pack_at : callable
-        Packed parameters by coordinate.
+        Function from the coordinate to the packed parameters.
     here : float
-        Coordinate of the system given.
+        Coordinate of the system that is given.
     ends : tuple of float
         Coordinates of the ends of the span.
 
@@ -87,16 +88,16 @@ def _pack_by(oscillator, damper, frequency, parameter):
         if parameter == "frequency":
             return pack(oscillator, damper, value)
         if parameter in FORCING:
-            # Also below 0, against the forcing's sign, so that finite differences at 0 can be
-            # central.
+            # The value may be negative, which `Oscillator` does not allow, so that finite
+            # differences at 0 can be central.
             p = pack(oscillator, damper, frequency)
             p[FORCING[parameter]] = value
             return p
         if parameter in ("damping", "cubic"):
             return pack(replace(oscillator, **{parameter: value}), damper, frequency)
         if parameter == "restitution":
-            # Mirrored beyond 1, with a negative dashpot, so that finite differences at 1 can be
-            # central.
+            # Beyond e = 1 the dashpot of 2 - e is taken with the opposite sign, so that finite
+            # differences at 1 can be central.
             p = pack(oscillator, replace(damper, restitution=min(value, 2 - value)), frequency)
             p[DASHPOT] *= np.sign(1 - value)
             return p

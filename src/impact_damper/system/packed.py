@@ -1,8 +1,9 @@
 """Parameters packed into the array that kernels read.
 
-Kernels take the parameters as an array `p` of COUNT numbers, made by `pack`, and read each by the
-name of its index, as `p[FREQUENCY]`. They are W, h, omega_l^2, k3, F, U, d0, r1, 1/rm and the
-dashpot's coefficient 2 zeta_c sqrt(r1 rm).
+Kernels (compiled functions) take the parameters as an array `p` of COUNT numbers, made by `pack`,
+and read each by the name of its index, as in `p[FREQUENCY]`. The numbers are W, h, omega_l^2, k3,
+F, U, d0, r1, 1/rm (see `parameters`) and the dashpot's coefficient 2 zeta_c sqrt(r1 rm), in the
+order of NAMES.
 """
 
 import math
@@ -54,7 +55,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     TypeError
         If an argument is not of its type.
     ValueError
-        If the frequency is out of range, or the contact too fast for it.
+        If the frequency is out of range, or the natural frequency of the contact too high for it.
     """
     p = np.zeros(COUNT)
     p[FREQUENCY] = frequency = check_frequency(frequency)

@@ -1,7 +1,9 @@
 """Dataclasses of the oscillator and of the damper.
 
 Everything is dimensionless, scaled as in section 2.1 of Chatterjee, Mallik and
-Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)).
+Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)), with the force F,
+the coefficient k1 of the cubic spring and the primary mass m1. Z1 is the displacement of the
+primary mass, Z2 that of the primary mass relative to the loose mass, W the forcing frequency.
 This module imports no NumPy, since Snakemake reads it at every dry run.
 """
 
@@ -31,7 +33,7 @@ def check_oscillator(oscillator):
 
 
 def check_damper(damper):
-    """Raise TypeError if `damper` is not a Damper, where None would have no meaning."""
+    """Raise TypeError if `damper` is not a Damper; None is not allowed either."""
     if not isinstance(damper, Damper):
         raise TypeError(f"damper = {shown(damper)}: must be a Damper")
 
@@ -51,12 +53,12 @@ class Oscillator:
     cubic : float
         Coefficient k3 of Z1^3 in the spring's force, dimensionless; 1 in the paper's scales.
     force : float
-        Part F of the forcing amplitude F + U W^2, dimensionless; 1 in the paper's scales. A free
-        decay has neither part.
+        Part F of the forcing amplitude F + U W^2, dimensionless; 1 in the paper's scales. For a
+        free decay both F and U are 0.
     unbalance : float
-        Part U W^2 of the forcing amplitude: by a rotating unbalance, or, without a damper, by a
-        base that moves with the amplitude U, where Z1 is relative to the base. (A loose mass would
-        feel the motion of the base too; `machine.Machine` has bases that move.)
+        U in the part U W^2 of the forcing amplitude, which stands for a rotating unbalance. Without
+        a damper it may also stand for a base that moves with the amplitude U; Z1 is then relative
+        to the base. (With a damper the base would move the loose mass too: use `machine.Machine`.)
 
     Raises
     ------
@@ -130,14 +132,14 @@ class Damper:
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
-# Symbol of each parameter, as tables and captions print it.
+# Symbol of each parameter, keyed by its name, as tables and captions print it.
 SYMBOLS = {
     field.name: field.metadata["symbol"] for part in (Oscillator, Damper) for field in fields(part)
 } | {"frequency": "W"}
 
 
 def describe(*parts) -> dict:
-    """Return the fields of dataclasses as one dictionary of numbers; None has no fields."""
+    """Return the fields of all dataclasses given as one dictionary; a part None is left out."""
     return {
         field.name: getattr(part, field.name)
         for part in parts

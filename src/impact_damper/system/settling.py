@@ -1,4 +1,4 @@
-"""How long motions are run, and how accurately; imports no NumPy."""
+"""How long motions are run, and how accurately. This module imports no NumPy."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ from impact_damper.system.bounds import (
 
 @dataclass(frozen=True)
 class Settling:
-    """How long motions are run, and how accurately.
+    """How long motions are run to find out whether they settle on an orbit, and how accurately.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class Settling:
         Forcing periods after which every motion is stopped, as chaotic if that is certain, else as
         unresolved.
     watched : int
-        Further forcing periods over which a motion that has not settled is measured.
+        Further forcing periods for which a motion that has not settled is run to measure it.
 
     Raises
     ------
@@ -50,7 +50,7 @@ class Settling:
 
 
 def check_settling(settling) -> Settling:
-    """Return how motions are run, the default for None, or raise TypeError."""
+    """Return `settling`, or the default for None; raise TypeError if it is not a Settling."""
     if settling is None:
         return Settling()
     if not isinstance(settling, Settling):

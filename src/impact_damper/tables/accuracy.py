@@ -1,4 +1,8 @@
-"""Tables of methods and models on each scene, and of the errors of quantities read off models."""
+"""Tables of methods and models on each test case (scene), and of errors of design models.
+
+Work is counted in floating-point operations. The accuracy that a scene asks for is a quantity and
+the largest error within which it is wanted.
+"""
 
 import numpy as np
 import pandas as pd
@@ -10,6 +14,7 @@ from impact_damper.tables import clearance, responses
 
 INTEGRATORS = COMPARED["accuracy"]
 LABELS = INTEGRATORS + ORBIT_MODELS
+# What each quantity of an accuracy asks for, in words with a place for the largest error.
 WORDS = {
     "amplitude": "max |Z1| to {:g} of it",
     "state": "state to {:g}",
@@ -22,11 +27,11 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return each method on each scene, at the setting of least work that meets the accuracy.
+    """Return a row for each method and scene, at the setting of least work that meets the accuracy.
 
-    Without such a setting, the one with the least error. The column `choice` marks the method with
-    the least work; if that is a model of orbits, also the integrator with the least work. Taylor
-    series of further orders are listed, but not chosen.
+    If no setting meets the accuracy, the one with the least error is taken. The column `choice`
+    marks the method with the least work; if that is a model of orbits, it also marks the integrator
+    with the least work. Taylor series of further orders are listed, but not chosen.
     """
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
@@ -66,7 +71,7 @@ def cheapest(data, labels):
     Parameters
     ----------
     data : xarray.Dataset
-        Of `stages.accuracy.error_against_work`.
+        Dataset returned by `stages.accuracy.error_against_work`.
     labels : sequence of str
         Methods to choose from.
     """
@@ -77,9 +82,10 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the number of the run of a method with the least error.
+    """Return the number of the run of a method with the least error of max |Z1|.
 
-    The first run if no error is known, None if the method was not run.
+    For a chaotic motion the error of the contacts per period is taken. The first run if no error is
+    known, None if the method was not run.
     """
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
@@ -111,9 +117,10 @@ def _averages(data, of):
 
 
 def readings(datasets) -> pd.DataFrame:
-    """Return optimum clearances and edges of suppression bands by models and by the exact motions.
+    """Return optimum clearances and suppression bands' edges by models and by the exact motions.
 
-    Simulation brackets an edge by two frequencies; the error is the distance from that interval.
+    The motions bracket the lower edge of a band between two frequencies; the error of a model is
+    taken relative to the nearest value in this interval.
     """
     rows = []
     for sweep in clearance.optimum(datasets).to_dict("records"):

@@ -1,4 +1,4 @@
-"""Table of the maps that compare harmonic balance with the exact motions."""
+"""Table of the maps that compare harmonic balance with the exact motions, cell by cell."""
 
 import numpy as np
 import pandas as pd
@@ -22,9 +22,9 @@ AMPLITUDES = {
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return numbers of cells of each map by verdict, and shares of chaos and accurate amplitudes.
+    """Count the cells of each map with each verdict, and those with chaos or accurate amplitudes.
 
-    Shares come with the 95 % interval of a binomial share, as if the cells were drawn at random.
+    Each share of cells has the 95 % interval of a binomial share, as if cells were drawn at random.
     """
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
@@ -41,7 +41,7 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _words(variable, value):
-    """Verdict of harmonic balance and exact result, from the meaning of a flag."""
+    """Split the meaning of a flag into the verdict of harmonic balance and the exact result."""
     words = extract.meaning(variable, value)
     balance, _, truth = words.partition(" ")
     if balance in BALANCE_VERDICT and truth:

@@ -21,7 +21,7 @@ CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Optimum clearance of each sweep by simulation, equations (7), rules and straight flight."""
+    """Optimum clearance of each sweep: by simulation, equations (7), rules and straight flight."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)
@@ -49,10 +49,10 @@ def optimum(datasets) -> pd.DataFrame:
 def design_rules(datasets) -> pd.DataFrame:
     """Number of optima that each rule predicts within 1, 2, 5 and 10 %, and the cost of its error.
 
-    One row for each group of designs, criterion and rule. The groups are the grids, the clearance
-    sweeps of the paper's figures, and the cells of all grids with elastic or with inelastic
-    contact. All optima count, stable or not. The cost of an error is the relative excess of
-    max |Z1| at the clearance of the rule.
+    One row for each group of designs, criterion and rule. A design is a cell of a grid: a damper
+    and a frequency. The groups are each grid, the clearance sweeps of the paper's figures, and the
+    cells of all grids with elastic and with inelastic contact. All optima count, stable or not. The
+    cost of an error is the share by which max |Z1| at the rule's clearance exceeds the least one.
     """
     cells = pd.concat([*_grids(datasets), *_sweeps(datasets)], ignore_index=True)
     grids = cells[cells.group != SWEEPS]
@@ -64,7 +64,7 @@ def design_rules(datasets) -> pd.DataFrame:
 
 
 def _grids(datasets):
-    """Frames of the cells of each grid, one row for each design, criterion and rule."""
+    """Yield a frame for each grid, with one row for each design, criterion and rule."""
     for name, data in datasets.get("design_rules", {}).items():
         cells = data.to_dataframe().reset_index()
         cells["group"] = name
@@ -75,7 +75,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Frames as in `_grids` for the clearance sweeps; simulated, so their optima are stable."""
+    """Yield frames as `_grids` does for the clearance sweeps; optima by simulation are stable."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)
@@ -96,7 +96,7 @@ def _sweeps(datasets):
 
 
 def _row(cells):
-    """Columns of a group of cells with one criterion and one rule."""
+    """Return the columns of one row: a group of cells with one criterion and one rule."""
     error = 100 * (cells.rule_ratio / cells.best_ratio - 1).abs()
     excess = 100 * cells.rule_excess
     lost = cells.found & cells.rule_ratio.notna() & excess.isna()

@@ -7,10 +7,10 @@ from impact_damper.system.parameters import SYMBOLS
 
 
 def parameter_columns(data, *names) -> dict:
-    """Values of the named parameters of a dataset, by the paper's symbols.
+    """Values of the named parameters of a dataset, keyed by the paper's symbols.
 
-    Parameters that the dataset does not have, such as those of the damper without one, are left
-    out.
+    Parameters that the dataset does not have are left out, such as those of a damper if there is no
+    damper.
     """
     parameters = parameters_of(data)
     return {SYMBOLS[name]: parameters[name] for name in names if name in parameters}

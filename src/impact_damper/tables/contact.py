@@ -1,4 +1,8 @@
-"""Tables of the contact model and of the rigid limit, with counts of the cells of their maps."""
+"""Tables of the contact model and of the rigid limit, with counts of the cells of their maps.
+
+An exit rule says where a contact ends: at zero penetration, as in the paper, or at zero force. The
+load is the acceleration by other forces during a contact (`contact.contact_law`).
+"""
 
 import numpy as np
 import pandas as pd
@@ -9,13 +13,13 @@ from impact_damper.tables.columns import parameter_columns
 
 
 def _counts(name, values):
-    """Number of cells with each meaning of a flag."""
+    """Number of cells with each value of a flag, keyed by the meaning of the value."""
     flags = VARIABLES[name].flags
     return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Contacts without load by exit rule, and number of cells of the map with each verdict."""
+    """For each exit rule: number of map cells with each verdict, and contacts without load."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -83,7 +87,7 @@ def contact_motions(datasets) -> pd.DataFrame:
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Errors of rigid impacts at the damper's own r1, their order in r1, and counts of cells."""
+    """Errors of rigid impacts at the damper's own r1, the order in r1, and numbers of map cells."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=extract.parameter(data, "frequency"), method="nearest")

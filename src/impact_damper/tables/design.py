@@ -1,4 +1,7 @@
-"""Tables of harmonic balance: the designs of the curves, and convergence with more harmonics."""
+"""Tables of harmonic balance: dampers at their design points, and convergence with harmonics.
+
+A curve is a frequency response of the configuration; its design point is the peak frequency Wp.
+"""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +11,7 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.tables.columns import SYMBOLS, parameter_columns
 
-# Parameters in the table of convergence, and accuracies for which it lists the harmonics needed.
+# Table of convergence: its parameters, and the accuracies for which it lists the harmonics needed.
 MOTION = ("damping", "frequency", "mass_ratio", "clearance", "restitution", "contact_stiffness")
 ACCURACIES = {0.01: "N for 1 %", 1e-3: "N for 1e-3", 1e-6: "N for 1e-6"}
 MEASURES = {
@@ -26,7 +29,7 @@ COLD_STARTS = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Rule (19), harmonic balance and the exact quiet orbit of each curve at its peak frequency."""
+    """For each curve at its peak frequency: rule (19), harmonic balance and exact quiet orbit."""
     rows = []
     for name, data in extract.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -51,7 +54,7 @@ def harmonic_balance(datasets) -> pd.DataFrame:
 
 
 def _exact_orbit(orbit):
-    """Columns of the exact quiet orbit at the design point, and of random starts there."""
+    """Columns on the exact quiet orbit at the design point, and on random starts at this point."""
     if orbit is None:
         return {}
     starts = {
@@ -72,7 +75,10 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Harmonics that each motion needs, observed and predicted decay of errors, and cold starts."""
+    """For each motion: harmonics needed, observed and predicted decay of errors, and cold starts.
+
+    A cold start solves a balance directly from the solution with a single harmonic.
+    """
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()
@@ -109,7 +115,7 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Smallest N from which on all errors are at most `accuracy`; NaN if the last one is not."""
+    """Smallest N from which on all errors are at most `accuracy`; NaN if the last error is not."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan

@@ -1,4 +1,4 @@
-"""Tables of the failures of integrators: contacts missed, stable steps, verdicts."""
+"""Tables of where integrators fail: missed contacts, largest stable steps, verdicts on motions."""
 
 import numpy as np
 import pandas as pd
@@ -10,7 +10,10 @@ from impact_damper.rivals.methods import METHODS
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
-    """Return the contacts that each method finds and misses near grazing, summed over depths."""
+    """Return the contacts that each method finds and misses near grazing, summed over all depths.
+
+    The depth is the distance by which the motion would pass the wall.
+    """
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = data.passages * data.sizes["depth"]
@@ -42,7 +45,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return the largest stable steps of fixed-step methods by stiffness."""
+    """Return the largest stable step of each fixed-step method for each accuracy and stiffness."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         for method in data.fixed_method.values:
@@ -77,8 +80,8 @@ def stable_steps(datasets) -> pd.DataFrame:
 def method_verdicts(datasets) -> pd.DataFrame:
     """Return the loosest tolerance, or fewest steps, from which on each method's verdict is right.
 
-    Where there is none, words: the method was not run on the scene, was never right, or was right,
-    but not at the strictest tolerance.
+    One row for each test case (scene). Where no such tolerance exists, words say why: the method
+    was not run on the scene, was never right, or was right, but not at the strictest tolerance.
     """
     rows = []
     for data in datasets.get("method_verdicts", {}).values():
@@ -103,7 +106,7 @@ def method_verdicts(datasets) -> pd.DataFrame:
 
 
 def _right_from(data):
-    """Return an entry of `verdicts` for one method on one scene."""
+    """Return the entry of `method_verdicts` for one method on one scene."""
     if np.isfinite(data.right_from):
         return float(data.right_from)
     if (data.verdict == flag("verdict", "not_run")).all():

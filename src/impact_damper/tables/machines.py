@@ -1,4 +1,4 @@
-"""Table of machines in SI units."""
+"""Table of machines in SI units; the gap is the full play of the loose mass."""
 
 import json
 
@@ -9,7 +9,7 @@ from impact_damper.data.datasets import flag
 
 
 def machines(datasets) -> pd.DataFrame:
-    """What a damper does to each machine: over the frequency, and over the gap at one frequency."""
+    """For each machine: largest motions without and with damper, best gap at one frequency."""
     rows = []
     for name, data in datasets.get("machines", {}).items():
         made = json.loads(data.attrs["machine"])
@@ -39,9 +39,10 @@ def machines(datasets) -> pd.DataFrame:
 
 
 def _near_optimum(data):
-    """Return the share of starts that end quiet, and the largest size, at the gap next to the best.
+    """Return the share of starts that reach the quiet motion, and the largest size of all motions.
 
-    Words stand where there is no such gap, or where a motion escapes.
+    Both are taken at the gap of the sweep nearest to the best gap. Words stand in their place if
+    there is no best gap, and in place of the size if a motion escapes.
     """
     best = float(data["optimum_gap"])
     if np.isnan(best):

@@ -1,4 +1,7 @@
-"""Tables of migration control: the cases of the paper, and scans of releases over frequency."""
+"""Tables of migration control: the cases of the paper, and scans of releases by frequency.
+
+A release switches the damper off; the free oscillator then settles on one of its motions.
+"""
 
 import numpy as np
 import pandas as pd
@@ -9,7 +12,7 @@ from impact_damper.tables.columns import parameter_columns, runs_of_true
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Free motions that releases of each damped motion lead to, and the runs of the controller."""
+    """Shares of each damped motion's releases that lead to each free motion; controller runs."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
@@ -53,7 +56,10 @@ def migration(datasets) -> pd.DataFrame:
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Frequencies at which releases of each kind of damped motion lead to which free motions."""
+    """For each kind of damped motion, the frequencies at which releases lead to which free motions.
+
+    One row for each set of free motions that occurs.
+    """
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         shares = scan.release_share.sel(bound="share", drop=True).to_series().unstack().dropna()
@@ -80,7 +86,7 @@ def release_scan(datasets) -> pd.DataFrame:
 
 
 def _ranges(grid, chosen):
-    """Chosen values of a grid as text; neighbouring ones are joined to a range."""
+    """Return chosen values of a grid as text, where neighbouring values are joined to a range."""
     runs = runs_of_true(np.isin(grid, chosen))
     ends = [dict.fromkeys([f"{grid[first]:.5g}", f"{grid[last - 1]:.5g}"]) for first, last in runs]
     return ", ".join(" to ".join(pair) for pair in ends)

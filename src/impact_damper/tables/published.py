@@ -1,4 +1,4 @@
-"""Table of our numbers beside published ones."""
+"""Table of numbers computed by this package (ours) beside published ones and closed forms."""
 
 import numpy as np
 import pandas as pd
@@ -17,7 +17,7 @@ SOURCES = {
     "brennan": "Brennan, Kovacic, Carrella and Waters, J. Sound Vib. 318(4-5), 1250, 2008",
     "hertz": "Johnson, Contact Mechanics, section 11.4, 1985",
 }
-# Why numbers differ, who is right, and how that is known.
+# Why the two numbers differ, which of them is right, and how that is known.
 REASONS = {
     "contact stiffness": "Both are right: walls are rigid there, of r1 = {stiffness:g} here. The "
     "difference falls as r1^{order:.2f}; ours extrapolated to rigid walls differs by {limit:.0e}.",
@@ -41,7 +41,7 @@ REASONS = {
 
 
 def published(datasets) -> pd.DataFrame:
-    """Published numbers, ours, their difference, and its explanation."""
+    """For each comparison: published number, number computed here, difference and explanation."""
     rows = []
     for data in datasets.get("published", {}).values():
         for k in range(data.sizes["comparison"]):
@@ -62,7 +62,7 @@ def _row(each, settings):
 
 
 def _explanation(each, theirs, ours, settings):
-    """Return why two numbers differ."""
+    """Return the sentence of REASONS that says why two numbers differ, with its numbers."""
     reason = extract.meaning("difference_reason", int(each.difference_reason))
     order, error = float(each.difference_order), float(each.difference_error)
     words = {"order": order}

@@ -1,4 +1,8 @@
-"""Tables of frequency responses: suppression bands, subharmonics, branches and bifurcations."""
+"""Tables of frequency responses: suppression bands, subharmonics, branches and bifurcations.
+
+A curve is a frequency response of the configuration; a branch is a sequence of periodic orbits
+along the forcing frequency W. Free means without the damper.
+"""
 
 import numpy as np
 import pandas as pd
@@ -13,7 +17,7 @@ DAMPER = ("mass_ratio", "clearance", "restitution")
 
 
 def bands(datasets) -> pd.DataFrame:
-    """Suppression band of each curve, by harmonic balance and by the motions that exist."""
+    """Suppression band of each curve, by harmonic balance and by the exact and chaotic motions."""
     designs = extract.damped(datasets, "harmonic_balance")
     responses = extract.damped(datasets, "response")
     rows = []
@@ -30,7 +34,7 @@ def bands(datasets) -> pd.DataFrame:
 
 
 def _balance_band(data):
-    """Columns of the band by harmonic balance."""
+    """Columns on the suppression band by harmonic balance."""
     lower, upper = data.edge_frequency.values
     lower_event, upper_event = (
         extract.meaning("edge_event", value) for value in data.edge_event.values
@@ -47,7 +51,7 @@ def _balance_band(data):
 
 
 def _existing_band(datasets, name):
-    """Columns of the band by the motions that exist, and of chaotic high motions."""
+    """Columns on the band by the motions that exist, and on chaotic high motions."""
     response = datasets["response"][name]
     try:
         free = exact_orbits.free_of(datasets, response)
@@ -106,7 +110,7 @@ def subharmonic(datasets) -> pd.DataFrame:
 
 
 def _stable_part(part):
-    """Number and period of a branch of subharmonics, and its stable range of W."""
+    """Number and period of a branch of subharmonics, and the range of W of its stable part."""
     return {
         "branch": f"{part.branch.iloc[0] + 1}",
         "period": part.period.iloc[0],
@@ -126,7 +130,7 @@ def _free_subharmonic(free):
 
 
 def orbits(datasets) -> pd.DataFrame:
-    """Branches of periodic orbits: period, range, where stable, ends, and numerical errors."""
+    """Branches of periodic orbits: period, ranges of W, stable ranges, ends, numerical errors."""
     rows = []
     for name, parameters, data in _branches(datasets):
         for branch in range(data.sizes["branch"]):
@@ -161,7 +165,7 @@ def orbits(datasets) -> pd.DataFrame:
 
 
 def _branches(datasets):
-    """Name, parameter columns and dataset of all branches, those without a damper first."""
+    """Yield name, parameter columns and dataset of branches, those without a damper first."""
     free, damped = (choose(datasets, "branches") for choose in (extract.free, extract.damped))
     for name, data in (free | damped).items():
         yield name, parameter_columns(data, "damping", *DAMPER), data
@@ -174,7 +178,7 @@ def _stable_ranges(value, stable):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Located bifurcations and changes of contact, by branch and forcing frequency."""
+    """Located bifurcations and changes of contact, sorted by branch and forcing frequency."""
     rows = []
     for name, parameters, data in _branches(datasets):
         for k in range(data.sizes["event"]):

@@ -1,14 +1,14 @@
-"""Predicted rates at which the errors of harmonic balance decrease with the number of harmonics N.
+"""Predicted rates at which the errors of harmonic balance decrease with the highest harmonic N.
 
 With elastic contacts the force is continuous with kinks, and the Fourier coefficients k of Z1 and
 Z2 decrease as k^-4. With a dashpot the force jumps at entry and exit, and they decrease as k^-3.
 The following errors result (first power elastic, second power with dashpot):
 
 - Root mean square of the omitted harmonics k > N: N^-3.5 or N^-2.5.
-- Retained harmonics: their error is the effect of the omitted harmonics on the contact force, the
-  sum over |k| > N of the omitted coefficients times those of M, which decrease as 1/k. M is 1 in
-  contact and 0 elsewhere. The sum is of order N^-4 or N^-3. For elastic contact the terms of k
-  and -k cancel at this order, and N^-5 remains.
+- Retained harmonics k <= N: their error is the effect of the omitted ones on the contact force.
+  With the function M of time, which is 1 in contact and 0 elsewhere, it is the sum over |k| > N of
+  the omitted coefficients times the coefficients of M, which decrease as 1/k. The sum is of order
+  N^-4 or N^-3. For elastic contact the terms of k and -k cancel at this order, and N^-5 remains.
 - max |Z1|, reached away from the ends of the contacts: the error of the retained harmonics plus
   the value of the omitted series at one instant, N^-4 or N^-3. For elastic contact the N^-5 term
   may be larger than the N^-4 term at small N.
@@ -17,12 +17,12 @@ The following errors result (first power elastic, second power with dashpot):
   error in the position of that end cancels this term: both are r1 (1 + 1/rm)/pi times the sum of
   k^-4 beyond N, with opposite signs. With a dashpot the terms of k and -k cancel.
 
-These powers hold from `asymptotic_harmonic` on. The errors oscillate about them, since entry and
-exit of a contact contribute with a relative phase that changes with N.
+These powers hold for N above `asymptotic_harmonic`. The errors oscillate about them, since entry
+and exit of a contact contribute with a relative phase that changes with N.
 
-Without contacts the motion is analytic in a strip around the real time axis, up to its nearest
-singularity at a distance s. The omitted harmonics decrease as exp(-s W N), the error of the last
-retained ones as N^-2 exp(-s W N), and the error of the multipliers, which is quadratic in the
+Without contacts the motion is analytic in a strip of complex time around the real axis, up to its
+nearest singularity at a distance s. The omitted harmonics decrease as exp(-s W N), the error of the
+last retained ones as N^-2 exp(-s W N), and the error of the multipliers, which is quadratic in the
 omitted harmonics, as exp(-2 s W N). With a linear spring there is no singularity, and N = 1 is
 exact.
 """
@@ -32,15 +32,17 @@ from scipy.integrate import solve_ivp
 
 from impact_damper.system.packed import CUBIC, DAMPING, FORCE, FREQUENCY, STIFFNESS, UNBALANCE
 
-# Errors of max |Z1|, of the retained harmonics of Z1, of the omitted ones (both root mean square),
-# and of a Floquet multiplier; below their powers of 1/N, or multiples of s W without contacts.
+# MEASURES: errors of max |Z1|, of the retained harmonics of Z1, of the omitted ones (both root mean
+# square), and of a Floquet multiplier. ELASTIC and INELASTIC: their powers of 1/N, without and with
+# a dashpot. ANALYTIC: their rates per harmonic without contacts, in units of s W.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Search for a singularity: start times in half a forcing period; |Z1| at which an approach stops,
-# in units of x = (f/|k3|)^(1/3), and last change of the estimated place, in units of
-# 1/(x sqrt|k3|); share of the estimated distance at which the next approach begins.
+# Search for a singularity (`singularity_distance`). STARTS: number of start times in half a forcing
+# period. LARGE: |Z1| at which an integration towards the singularity stops, in units of
+# x = (f/|k3|)^(1/3). LAST_CHANGE of the estimated place on convergence, in units of 1/(x sqrt|k3|).
+# CLOSE: share of the estimated distance that the next integration covers.
 STARTS = 12
 LARGE = 30.0
 LAST_CHANGE = 1e-6
@@ -50,10 +52,10 @@ CLOSE = 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Lowest harmonic number N from which on the predicted powers can hold; 1 without a damper.
 
-    Harmonic N must resolve a contact: its period is the duration of a contact without other
-    forces, pi/(w sqrt(1 - z^2)) with w^2 = r1 (1 + 1/rm) and z = zc sqrt(1 + rm) (appendix B).
-    With a dashpot N is also at least r1/(c W), c = 2 zc sqrt(r1 rm). Above this harmonic the
-    jump c Z2' of the force has a larger coefficient than the kink r1 Z2'.
+    Harmonic N must resolve a contact: its period 2 pi/(N W) is the duration of a contact without
+    other forces, pi/(w sqrt(1 - z^2)) with w^2 = r1 (1 + 1/rm) and z = zc sqrt(1 + rm) (appendix
+    B). With a dashpot N is also at least r1/(c W), c = 2 zc sqrt(r1 rm): above this harmonic the
+    jump c Z2' of the force has a larger Fourier coefficient than its kink r1 Z2'.
 
     Parameters
     ----------
@@ -72,7 +74,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Predicted decrease of each error in `MEASURES`.
+    """Predicted decrease of each error in `MEASURES` with the highest harmonic N.
 
     Parameters
     ----------
@@ -98,8 +100,8 @@ def singularity_distance(p, state) -> float:
 
     From STARTS points of the real axis, over half a forcing period, the motion is integrated in
     the direction of imaginary time. Near a singularity T* the motion is
-    Z1 = sqrt(-2/k3)/(T - T*), so T* is estimated as T + Z1/Z1'. The next integration starts on the
-    real axis below the estimate.
+    Z1 = sqrt(-2/k3)/(T - T*), so T* is estimated as T + Z1/Z1'. The next integration goes straight
+    from the real part of this estimate towards it.
 
     Parameters
     ----------

@@ -18,9 +18,9 @@ def peak_frequency(oscillator) -> float:
     Raises
     ------
     ValueError
-        If no motion lags by a quarter period: neither stiffness is positive, the force drives the
-        motion over the barrier of a softening spring before, or an unbalance outgrows the damping
-        of a hardening one.
+        If no motion lags by a quarter period: neither stiffness is positive; or the motion goes
+        over the barrier of a softening spring at a lower amplitude; or with a hardening spring the
+        unbalance outgrows the damping.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2
@@ -53,9 +53,10 @@ def peak_frequency(oscillator) -> float:
 
 
 def rule_clearance(oscillator, mass_ratio) -> float:
-    """Clearance d0 = f/(rm Wp^2) of rule (19), at which a = 0 solves (13) at Wp; dimensionless.
+    """Clearance d0 = f/(rm Wp^2) of rule (19), dimensionless.
 
-    f = F + U Wp^2 is the forcing amplitude.
+    With this clearance the amplitude a = 0 solves (13) at the peak frequency Wp. The forcing
+    amplitude is f = F + U Wp^2.
 
     Raises
     ------

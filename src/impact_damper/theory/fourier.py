@@ -1,15 +1,15 @@
 """Values and extrema of real Fourier series, and the intervals in which one exceeds a level.
 
-A series z(s) is the sum of c_k exp(i k s) over the harmonics k in K and -K. K is an ascending
-array of non-negative integers, c_-k the conjugate of c_k, and c_0 is real. `coefficients` are the
-c_k for k in K, and `harmonics` is K. Angles s are in radian.
+A series z(s) is the sum of c_k exp(i k s) over all k in K and in -K, where K (`harmonics`) is an
+ascending array of non-negative integers. c_-k is the conjugate of c_k, and c_0 is real, so that z
+is real. `coefficients` are the c_k for k in K. Angles s are in radian.
 """
 
 import numpy as np
 from scipy.fft import next_fast_len
 from scipy.optimize import brentq
 
-# Cells narrower than this, in radian, are not halved further in the search for crossings.
+# Intervals narrower than this, in radian, are not halved further in the search for crossings.
 SHORTEST = 1e-9
 
 
@@ -24,13 +24,13 @@ def samples(coefficients, harmonics, count) -> np.ndarray:
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Derivative of a series of an order (0: the value itself), with the shape of `angle`."""
+    """Derivative of a series at angles; `order` is that of the derivative, 0 for the value."""
     weights = np.where(harmonics == 0, 1, 2) * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
 def product_samples(harmonics, degree) -> int:
-    """Number of samples that gives a product of `degree` series without aliasing in K."""
+    """Number of samples with which a product of `degree` series has no aliasing error in K."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
@@ -49,9 +49,9 @@ def largest(coefficients, harmonics) -> float:
 def intervals(coefficients, harmonics, level) -> np.ndarray:
     """Intervals of s in which z(s) > level (wall 1) or z(s) < -level (wall -1).
 
-    No interval is missed. A bound on the second derivative of z shows which cells between two
-    samples contain no crossing of the level, and which exactly one; the other cells are halved
-    down to the width SHORTEST.
+    No interval is missed. A bound on the second derivative of z shows which cells (intervals
+    between two samples) contain no crossing of the level, and which exactly one; the other cells
+    are halved down to the width SHORTEST.
 
     Returns
     -------

@@ -1,6 +1,7 @@
 """Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
 
-Equation (3) without contact gives, with g = (3/4) k3 and the forcing amplitude f = F + U W^2,
+a is the amplitude and t1 the phase of the primary mass. Equation (3) without contact gives, with
+g = (3/4) k3, the linear frequency wl and the forcing amplitude f = F + U W^2,
 
     (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2,
 
@@ -21,7 +22,7 @@ from numpy.polynomial import Polynomial
 from impact_damper.system.checks import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
-# Amplitudes that exceed a bound by this share or less are within it.
+# Amplitudes that exceed a bound by at most this share count as within the bound.
 ROUNDING = 1e-9
 
 
@@ -31,7 +32,7 @@ class FreeSolutions(NamedTuple):
     Attributes
     ----------
     amplitude : numpy.ndarray, shape (count,)
-        a > 0, ascending; the one solution without forcing is 0.
+        a > 0, ascending. Without forcing the only solution is 0.
     phase : numpy.ndarray, shape (count,)
         t1 in (-pi, pi], phase of Z1 to the forcing.
     """
@@ -53,9 +54,9 @@ class Resonance(NamedTuple):
     Attributes
     ----------
     amplitude : float
-        a; where the branch does not reach, its amplitude at its end.
+        a; at a frequency beyond the end of the branch, a at that end.
     phase : float or None
-        t1, None where the branch does not reach.
+        t1; None at a frequency beyond the end of the branch.
     """
 
     amplitude: float
@@ -86,7 +87,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Solutions on the curve through the peak: with a softening spring not all `free_solutions`.
+    """Those of `free_solutions` on the curve through the peak; not all with a softening spring.
 
     Raises
     ------

@@ -10,8 +10,8 @@ exit, at which the dashpot force jumps, so that no saltation matrix is needed.
 The infinite problem has copies of each exponent, spaced by i s. The spacing s is 2 nu for a
 symmetric motion, for which only odd harmonics of p are used, and nu otherwise (nu is the base
 frequency of the motion). In the truncated problem the copies near the middle of the spectrum are
-accurate and those near its ends are not. We keep those with -s/2 < Im lambda <= s/2. If their
-number is not the dimension of the state, the status is "not_separated".
+accurate and those near its ends are not. Kept are the copies in the strip -s/2 < Im lambda <= s/2.
+If their number is not the dimension of the state, the status is "not_separated".
 
 Compare Lazarus and Thomas, C. R. Mecanique 338, 510 (2010), on choosing among the copies.
 """
@@ -24,8 +24,8 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
 from impact_damper.theory.many_harmonics import factorised
 
-# Up to DENSE unknowns all eigenvalues are computed, beyond only those nearest zero: enough for
-# COPIES copies of each exponent.
+# With at most DENSE unknowns all eigenvalues are computed, with more only those nearest to zero, as
+# many as make COPIES copies of each exponent.
 DENSE = 100
 COPIES = 3
 # An imaginary part closer to s/2 than this share of s/2 is set to s/2. Such an exponent belongs to
@@ -85,8 +85,9 @@ def exponents(solution) -> Exponents:
 def _near_zero(stiffness, damping, inertia):
     """Eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
 
-    All of them up to DENSE unknowns. They are the reciprocals of the largest eigenvalues of the
-    inverted first-order form, which needs the LU factors of `stiffness` alone.
+    With at most DENSE unknowns all eigenvalues are returned. They are the reciprocals of the
+    largest eigenvalues of the inverted first-order form, which needs the LU factors of `stiffness`
+    alone.
     """
     size = len(stiffness)
     factors = factorised(stiffness)

@@ -1,16 +1,16 @@
 """Harmonic balance with any number of harmonics; truncation is its only error beside rounding.
 
-Z1 and Z2 are Fourier series with base frequency nu over the period of the motion. The contact
-force of equations (22) to (24) is r1 f(Z2) + c d/dT f(Z2) with c = 2 zc sqrt(r1 rm): contact ends
-at zero penetration, so the dashpot term M(Z2) Z2' is the time derivative of f(Z2). The Fourier
-coefficient k of the force is therefore (r1 + i k nu c) times that of f. f is continuous even where
-the force jumps.
+Z1 (displacement of the primary mass) and Z2 (that relative to the loose mass) are Fourier series
+with the base frequency nu = 2 pi/(period of the motion). The contact force of equations (22) to
+(24) is r1 f(Z2) + c d/dT f(Z2) with c = 2 zc sqrt(r1 rm): contact ends at zero penetration, so the
+dashpot term M(Z2) Z2' is the time derivative of f(Z2). The Fourier coefficient k of the force is
+therefore (r1 + i k nu c) times that of f. f is continuous even where the force jumps.
 
-f(Z2) = M (Z2 -+ d0), with M = 1 in contact and 0 elsewhere. The ends of the contacts are the roots
-of |Z2| = d0, located to rounding. They give the coefficients of M in closed form, and a convolution
-gives those of f. The derivative of f with respect to Z2 is M, since f vanishes at the ends. The
-contact force is not sampled, so it has no aliasing error; the cubic force is sampled at enough
-points to be exact.
+f(Z2) = M (Z2 -+ d0) is the penetration, with M = 1 in contact and 0 elsewhere. The ends of the
+contacts are the roots of |Z2| = d0, located to rounding. They give the coefficients of M in closed
+form, and a convolution gives those of f. The derivative of f with respect to Z2 is M, since f
+vanishes at the ends. The contact force is not sampled, so it has no aliasing error; the cubic force
+is sampled at enough points to be exact.
 
 Compare the alternating frequency-time method: Cameron and Griffin, J. Appl. Mech. 56, 149 (1989).
 """
@@ -27,8 +27,8 @@ from impact_damper.system.packed import pack
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import main_solutions
 
-# Newton's method: largest relative change of a coefficient on convergence, steps allowed, and
-# smallest factor by which a step is shortened.
+# Newton's method: largest change of a coefficient on convergence, relative to the largest
+# coefficient; most steps; smallest factor by which a step is shortened.
 TOLERANCE = 1e-11
 ITERATIONS = 40
 LEAST_DAMPING = 1e-4
@@ -187,7 +187,7 @@ class Solution(NamedTuple):
         Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper of Z1
         only, shape (1, m).
     status : str
-        "converged", "stalled" (no shortened step makes the next step shorter), or
+        "converged"; "stalled" if no shortened step makes the following step shorter; or
         "iteration_limit".
     iterations : int
         Steps of Newton's method taken.
@@ -253,7 +253,7 @@ def factorised(matrix):
     """Return the LU factors of a matrix for `scipy.linalg.lu_solve`.
 
     They are computed in another thread, so that Ctrl-C is heard at once: with a thousand harmonics
-    they take seconds.
+    the computation takes seconds.
     """
     pool = ThreadPoolExecutor(1)
     try:
@@ -283,10 +283,10 @@ def _real(by_value, by_conjugate):
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return the coefficients of a single-term solution, from which balances begin.
+    """Return the coefficients of a single-term solution, the first guess for more harmonics.
 
-    With a damper this is the solution of equation (7) with the least |a|, the damper taken as
-    elastic; without one the solution with the greatest |a| on the curve through the peak.
+    With a damper, taken as elastic, this is the solution of equation (7) with the least |a|;
+    without a damper the solution with the greatest |a| on the curve through the peak.
 
     Parameters
     ----------
@@ -324,14 +324,14 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return a `Solution` of each balance, begun from the last solution that converged.
+    """Return a `Solution` of each balance; its first guess is the last solution that converged.
 
     Parameters
     ----------
     balances : list of Balance
-        With more and more harmonics.
+        In the order of increasing numbers of harmonics.
     start : numpy.ndarray
-        Coefficients from which the first balance begins, as from `single_term`.
+        Coefficients that are the first guess for the first balance, as from `single_term`.
     """
     solutions = []
     for balance in balances:
@@ -342,7 +342,7 @@ def refine(balances, start) -> list:
 
 
 def state_of(solution) -> np.ndarray:
-    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2, shape (4,); free: Z2 = Z1."""
+    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2; without a damper Z2 = Z1."""
     balance = solution.balance
     state = [
         fourier.value(each, balance.harmonics, np.pi / 2, order) * balance.frequency**order

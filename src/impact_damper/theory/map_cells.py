@@ -1,7 +1,10 @@
 """Single-term harmonic balance in each cell of a balance map, and start states for simulations.
 
-Single-term harmonic balance holds for elastic contact. In cells with restitution e < 1 its
-solutions for e = 1 are used.
+A cell is a pair of a forcing frequency (column) and a value of another parameter (row). Z1 and Z2,
+of amplitudes a and b, are the displacements of the primary mass and of that relative to the loose
+mass. The quiet solution is the one meant by the design, the high one as large as the free resonance
+(`balance_cells`). Single-term harmonic balance holds for elastic contact. In cells with restitution
+e < 1 its solutions for e = 1 are used.
 """
 
 from dataclasses import replace
@@ -76,7 +79,7 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Harmonic balance in one cell: `Cells` of scalars."""
+    """Harmonic balance in one cell, as `Cells` whose entries are those of this cell."""
     free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
     if phase is not None:

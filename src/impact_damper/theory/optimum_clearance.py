@@ -1,6 +1,7 @@
 """The optimum clearance by harmonic balance, by straight flight and by rules for designers.
 
-The ratio rm W^2 d0 stands for rm W^2 d0/f, with the forcing amplitude f = F + U W^2.
+The clearance d0 is stated as the ratio rm W^2 d0, short for rm W^2 d0/f, with the mass ratio rm,
+the forcing frequency W and the forcing amplitude f = F + U W^2. Rule (18) has the ratio 1.
 """
 
 from dataclasses import replace
@@ -23,7 +24,8 @@ from impact_damper.theory.straight_flight import (
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # A solution of (7) with a smaller |a|, as a share of the clearance, counts as a = 0.
 ZERO_AMPLITUDE = 1e-6
-# Quantities that are smallest at the optimum, and rules for the clearance.
+# CRITERIA: quantities of Z1, of which one is smallest at an optimum. RULES: rules for the
+# clearance.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
@@ -51,7 +53,7 @@ def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
 
 
 def _analytical(oscillator, damper, frequency):
-    """Signed a of the stable solution of (7) with the smallest |a|, and the flag meaning."""
+    """Signed a of the stable solution of (7) with the smallest |a|, and `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     try:
@@ -103,7 +105,7 @@ def analytical_table(oscillator, dampers, frequency):
 
 
 def excess_table(ratio, damper):
-    """Shares of the excess of rm W^2 d0 at the optimum over 1 that two closed forms explain.
+    """Shares of (rm W^2 d0 at the optimum) - 1, the excess over rule (18), by two closed forms.
 
     Parameters
     ----------
@@ -128,7 +130,7 @@ def excess_table(ratio, damper):
 
 
 def rule_ratios(oscillator, damper, frequency):
-    """Return rm W^2 d0 by each rule for each criterion.
+    """Return the optimum rm W^2 d0 by each rule for each criterion.
 
     Parameters
     ----------

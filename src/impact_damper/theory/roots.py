@@ -2,7 +2,7 @@
 
 Between neighbouring extrema a function is monotone, so a change of sign means exactly one root
 and no change of sign means none. An extremum that is zero to rounding is a double root. No
-decision rests on the imaginary part of a computed root, which rounding spoils at a double root.
+decision depends on the imaginary part of a computed root, which is inaccurate at a double root.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ def polynomial_roots(coefficients) -> np.ndarray:
     Parameters
     ----------
     coefficients : array_like, shape (degree + 1,)
-        Lowest power first; last ones that are zero lower the degree. A constant has no roots.
+        Lowest power first. Zeros at the end are left out. A constant has no roots.
 
     Returns
     -------
@@ -33,7 +33,7 @@ def polynomial_roots(coefficients) -> np.ndarray:
     Raises
     ------
     ArithmeticError
-        If values between the roots are beyond all floating-point numbers.
+        If values of the polynomial between the roots exceed the floating-point range.
     """
     coefficients = np.trim_zeros(np.asarray(coefficients, float), "b")
     if len(coefficients) < 2:
@@ -95,7 +95,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Roots of `function` in [lower, upper], given its `extrema`, of which the real part counts."""
+    """Roots of `function` in [lower, upper], given its `extrema`, of which real parts are used."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():

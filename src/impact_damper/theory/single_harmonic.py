@@ -1,9 +1,9 @@
 """Single-term harmonic balance with the damper (section 2.1): equations (6), (7), (13), (14).
 
-The ansatz is Z1 = a cos(W T + t1), Z2 = b cos(W T + t2). Equation (6d) requires
-sin(t1 - t2) = 0; we take t2 = t1 and let the amplitude a have either sign. With a < 0, Z1 and Z2
-are in antiphase. b > 0 loses no solution: changing the signs of both a and b only shifts t1 by
-half a period.
+The ansatz is Z1 = a cos(W T + t1) for the primary mass and Z2 = b cos(W T + t2) for its
+displacement relative to the loose mass. Equation (6d) requires sin(t1 - t2) = 0; we take t2 = t1
+and let the amplitude a have either sign. With a < 0, Z1 and Z2 are in antiphase. b > 0 loses no
+solution: changing the signs of both a and b only shifts t1 by half a period.
 
 The equations hold for elastic contact (restitution 1). Below, g = (3/4) k3 and f = F + U W^2 is
 the forcing amplitude, 1 in the paper. Every quantity is dimensionless, angles are in radian.

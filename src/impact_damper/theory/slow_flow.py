@@ -1,9 +1,11 @@
 """Slow flow (17) and its Jacobian in the complex amplitudes A = a exp(i t1), C = b exp(i t2).
 
-Z1 = Re(A exp(i W T)) and Z2 = Re(C exp(i W T)) with slowly varying A and C (section 2.2). The
-polar equations (17a) to (17d) are the real and imaginary parts of A' exp(-i t1) and C' exp(-i t2).
-They are singular at a = 0, which is the design point; the equations in A and C are not, and their
-Jacobian has the same eigenvalues at a fixed point.
+The slow flow gives the rates at which the amplitudes change; its fixed points are the solutions of
+harmonic balance, and the Jacobian there decides on their stability. Z1 = Re(A exp(i W T)) and Z2 =
+Re(C exp(i W T)) with slowly varying A and C (section 2.2). The polar equations (17a) to (17d) are
+the real and imaginary parts of A' exp(-i t1) and C' exp(-i t2). They are singular at a = 0, which
+is the design point; the equations in A and C are not, and their Jacobian has the same eigenvalues
+at a fixed point.
 """
 
 import numpy as np
@@ -11,7 +13,7 @@ import numpy as np
 from impact_damper.system.checks import check_frequency
 from impact_damper.theory.single_harmonic import contact_amplitude
 
-# Growth rates of smaller modulus count as marginal.
+# A motion whose growth rate has a modulus up to this counts as marginally stable.
 MARGIN = 1e-9
 
 
@@ -58,7 +60,7 @@ def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
-    """Jacobian of `slow_flow` by the state: appendix A in complex amplitudes.
+    """Jacobian of `slow_flow` with respect to the state: appendix A in complex amplitudes.
 
     Returns
     -------
@@ -126,7 +128,7 @@ def stability(growth) -> np.ndarray:
 
 
 def _push(loose, damper):
-    """Return r1 B(b)/b, and the derivatives of r1 (B/b) C by C and by the conjugate of C."""
+    """Return r1 B(b)/b, and the derivatives of r1 (B/b) C with respect to C and conj(C)."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)

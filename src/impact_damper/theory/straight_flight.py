@@ -16,14 +16,15 @@ from scipy.optimize import minimize_scalar
 from impact_damper.system.bounds import check_number
 from impact_damper.system.parameters import check_damper
 
-# Impulses tried before the minimum of max |x| is refined.
+# Number of impulses q that are tried before the minimum of max |x| is refined.
 GRID = 65
 # Impulse q and phase of the turning point at which the displacement at the impact equals the one
 # at the turning point, for elastic rigid walls without damping and stiffness:
 # q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 NEWTON_STEPS = 3
-# Distance put between the two roots of the free oscillator if they coincide (critical damping).
+# Half the distance by which the characteristic roots are separated if they coincide (critical
+# damping).
 APART = 1e-20j
 
 
@@ -108,7 +109,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Depth beyond the wall at which the lines of both flights intersect, over (1 + 1/rm) q."""
+        """Depth beyond the wall where the lines of both flights meet, divided by (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -128,7 +129,7 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Divided difference of a function over the characteristic roots of x'' + g x' + l^2 x."""
+        """Divided difference of a function at the characteristic roots of x'' + g x' + l^2 x."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real

@@ -27,8 +27,8 @@ def in_words(values) -> str:
     Parameters
     ----------
     values : dict
-        By name of the parameter: a number, a list, a range with `first` and `last`, or "rule" for
-        rule (19). Other keys are ignored.
+        Keyed by name of the parameter: a number, a list, a range with `first` and `last`, or "rule"
+        for rule (19). Other keys are ignored.
     """
     words = [
         f"{symbol} {_value(values[name])}" for name, symbol in SYMBOLS.items() if name in values
@@ -42,7 +42,7 @@ def machine_in_words(values) -> str:
     Parameters
     ----------
     values : dict
-        Arguments of `Machine`; what is text has its unit already.
+        Arguments of `Machine`; a value that is text has its unit already.
     """
     words = []
     for each in fields(Machine):

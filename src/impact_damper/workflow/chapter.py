@@ -15,7 +15,8 @@ def make_table(name, datasets, path) -> None:
     name : str
         Name of a table in the registry.
     datasets : dict
-        By stage and entry; stages that the table does not read are not passed on.
+        Datasets, keyed by stage and by entry of the configuration. Stages that the table does not
+        read are not passed on.
     path : pathlib.Path
         Name of the files, without suffix.
     """
@@ -39,7 +40,7 @@ def draw_figure(figure, datasets, path) -> None:
     figure : dict
         As `selection.figure_values` returns it.
     datasets : dict
-        By stage and entry.
+        Datasets, keyed by stage and by entry of the configuration.
     path : pathlib.Path
         Name of the files, without suffix.
     """

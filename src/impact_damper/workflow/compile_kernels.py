@@ -1,4 +1,4 @@
-"""Compile every kernel that the package calls, by calls of no length, and cache it.
+"""Compile and cache every kernel that the package calls, by calls with hardly any work.
 
 A module that holds steps of the series compiles them when it is imported. So each function below
 imports what it compiles, which lets two processes share the work.
@@ -10,7 +10,7 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
-# With it every motion settles soon at this frequency, so that orbits are followed too.
+# With this damper motions settle soon at this frequency, so that following orbits is compiled too.
 DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
 FREQUENCY = 1.95
 
@@ -22,9 +22,9 @@ def warm_up() -> None:
 
 
 def warm_up_orbits() -> None:
-    """`warm_up` for kernels that take one motion after the other.
+    """Do the part of `warm_up` for kernels that take one motion after the other.
 
-    First come those that `warm_up_settling` needs too, and last those that need its kernels.
+    First come kernels that `warm_up_settling` needs too, and last those that need its kernels.
     """
     from impact_damper.motions import ensemble, records, strobe_map
 
@@ -45,7 +45,7 @@ def warm_up_orbits() -> None:
 
 
 def warm_up_settling() -> None:
-    """`warm_up` for kernels that run many motions until they settle, and measure them."""
+    """Do the part of `warm_up` for kernels that run many motions until they settle."""
     from impact_damper.kernel import batch
 
     pool, places = batch.make_pool(1), np.zeros(batch.LANES, np.int64)
@@ -63,7 +63,7 @@ def warm_up_settling() -> None:
 
 
 def warm_up_rivals(orders=()) -> None:
-    """Compile the kernels of all integrators that are compared, by a short run for each stage.
+    """Compile the kernels of all integrators that are compared, by a short run per stage.
 
     `orders` are further pairs of orders of the Taylor series. Kernels loaded from the cache can
     differ in the last digit from those compiled in the same process, which shows where a method

@@ -12,7 +12,7 @@ from impact_damper.workflow.models.values import NUMBER, RANGE
 from impact_damper.workflow.registry import KINDS, section_of
 from impact_damper.workflow.workloads import workloads
 
-# The loader of libyaml, where there is one, is several times as fast.
+# The loader of libyaml, where it is installed, is several times as fast.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 

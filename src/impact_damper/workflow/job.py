@@ -14,7 +14,7 @@ from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 
-# Seconds between two looks whether Snakemake is alive: less than a new run takes to start a job.
+# Seconds between checks that Snakemake is alive: less than a new run takes to start a job.
 LOOK = 0.5
 # Units of `ru_maxrss` in a megabyte: bytes on macOS, kilobytes elsewhere.
 MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
@@ -26,7 +26,7 @@ class Entry:
     Parameters
     ----------
     given : mapping
-        Parameters by key, as a function of the registry returns them.
+        Parameters keyed by name, as returned by `Stage.parameters` of the registry.
     output : str
         File of the dataset.
     """
@@ -126,7 +126,7 @@ class Job(Entry):
 
     @cached_property
     def datasets(self):
-        """All datasets among the inputs, by stage and name of the entry."""
+        """All datasets among the inputs, keyed by stage and by name of the entry."""
         from impact_damper.data.datasets import load
 
         found = {}

@@ -1,10 +1,10 @@
-"""Entries of a configuration that each stage, figure, table and chapter takes, by the registry."""
+"""Which entries of a configuration each stage, figure, table and chapter takes."""
 
 from impact_damper.workflow.captions import in_words, machine_in_words
 from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES, section_of
 from impact_damper.workflow.registry.values import oscillator
 
-# Keys under which an entry holds several values of a parameter, with the name of the parameter.
+# Name of the parameter, keyed by the key under which an entry holds several values of it.
 SWEPT = {
     "mass_ratios": "mass_ratio",
     "clearances": "clearance",
@@ -16,23 +16,27 @@ SWEPT = {
 
 
 def entries(config, stage) -> list:
-    """Names of the entries that go through a stage."""
+    """Return the names of the entries for which a stage is run."""
     section = config[STAGES[stage].section]
     return [name for name, entry in section.items() if stage in entry.get("stages", [stage])]
 
 
 def read_by(config, stage, name) -> dict:
-    """Entries whose datasets the job of an entry reads, by stage."""
+    """Return the entries whose datasets the job of an entry reads, keyed by stage."""
     return {earlier: [name] for earlier in STAGES[stage].reads if name in entries(config, earlier)}
 
 
 def table_data(config, table) -> dict:
-    """Entries whose datasets a table condenses, by stage."""
+    """Return the entries whose datasets a table condenses, keyed by stage."""
     return {stage: entries(config, stage) for stage in TABLES[table].stages}
 
 
 def figure_data(config, name) -> dict:
-    """Entries that a figure draws, by stage: those it names, and their free oscillators."""
+    """Return the entries that a figure draws, keyed by stage.
+
+    If the figure draws branches of orbits with a damper, the curves of the same oscillators without
+    a damper are added for the stage `branches`.
+    """
     figure = config["figures"][name]
     kind, found = KINDS[figure["kind"]], {}
     for stage in kind.stages:
@@ -44,7 +48,7 @@ def figure_data(config, name) -> dict:
 
 
 def _free_curves(config, chosen):
-    """Curves without a damper of the oscillators that some curves have."""
+    """Return the curves without a damper whose oscillator is that of one of the chosen curves."""
     curves = config["curves"]
     wanted = {curves[name]["oscillator"] for name in chosen}
     return [
@@ -55,16 +59,16 @@ def _free_curves(config, chosen):
 
 
 def figures_of(config, chapter) -> list:
-    """Names of the figures of a chapter."""
+    """Return the names of the figures of a chapter."""
     kinds = {kind.name for kind in CHAPTERS[chapter].KINDS}
     return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
 
 
 def figure_values(config, name) -> dict:
-    """Values that a figure draws and its caption states.
+    """Return what a figure draws and its caption states.
 
-    Its entry in the configuration, under `cases` the parameters of what it draws in words, and
-    under `drawn` the entries of `figure_data`.
+    This is the entry of the figure in the configuration, with the key `cases` for the parameters of
+    what is drawn, in words, and the key `drawn` for the result of `figure_data`.
     """
     figure = config["figures"][name]
     cases = "; ".join(_case(config, figure["kind"], each) for each in figure["data"])
@@ -72,7 +76,7 @@ def figure_values(config, name) -> dict:
 
 
 def _case(config, kind, name):
-    """Parameters of an entry in words; a schematic has none."""
+    """Return the parameters of an entry in words; a schematic has none."""
     section = section_of(kind)
     if section is None:
         return ""
@@ -84,7 +88,7 @@ def _case(config, kind, name):
 
 
 def chapter_data(config, chapter) -> dict:
-    """Entries whose datasets a chapter takes, by stage."""
+    """Return the entries whose datasets a chapter takes, keyed by stage."""
     parts = [figure_data(config, name) for name in figures_of(config, chapter)]
     parts += [table_data(config, table.name) for table in CHAPTERS[chapter].TABLES]
     stages = dict.fromkeys(stage for part in parts for stage in part)
@@ -94,7 +98,7 @@ def chapter_data(config, chapter) -> dict:
 
 
 def chapter_modules(config, chapter) -> list:
-    """Modules that draw the figures and make the tables of a chapter, in the package."""
+    """Return the modules of the package that make the figures and tables of a chapter."""
     drawn = {config["figures"][name]["kind"] for name in figures_of(config, chapter)}
     sources = {KINDS[kind].source for kind in drawn}
     return sorted(sources | {table.module for table in CHAPTERS[chapter].TABLES})

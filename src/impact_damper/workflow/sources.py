@@ -17,7 +17,7 @@ IMPORT = re.compile(
 
 
 def sources(*paths) -> set:
-    """Files, and all files of the package that they import, directly or not."""
+    """Return the given files, and all files of the package that they import, directly or not."""
     found, new = set(), set(paths)
     while new:
         found |= new
@@ -27,7 +27,7 @@ def sources(*paths) -> set:
 
 @cache
 def _imports(path):
-    """Files of the package that a Python file imports itself.
+    """Return the files of the package that a Python file imports directly.
 
     A package's `__init__` counts only if a name is taken from it: it is always executed, but
     decides nothing.
@@ -44,7 +44,7 @@ def _imports(path):
 
 @cache
 def module_file(name) -> Path:
-    """File of a module of the package, or of the module that a name is taken from.
+    """Return the file of a module, or of the module from which a name is imported.
 
     Raises
     ------

@@ -17,8 +17,8 @@ from impact_damper.workflow.models.system import OSCILLATOR, Range
 
 # Cells that a study may have.
 MOST_CELLS = 10**8
-# Numbers in the whole configuration whose product is the number of runs of a job. Those of an entry
-# stand in its model as `counts`.
+# Keys in the whole configuration whose product is the number of runs of a job. Those of a single
+# entry are listed in the attribute `counts` of its model.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -27,8 +27,8 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Forcing frequency of a section without an oscillator of the configuration, whose frequencies are
-# given over the natural one.
+# Forcing frequency assumed for a section that names no oscillator, whose frequencies are given as
+# ratios to the natural frequency.
 NATURAL = 1.0
 # Radius of the ball from which migration draws.
 MIGRATION_RADIUS = 2
@@ -41,11 +41,11 @@ class Case(NamedTuple):
     ----------
     path : tuple of str
     key : str
-        Its key for the mass ratio.
+        Key of the mass ratio in the entry.
     mass_ratio, stiffness, frequency : float
         Least mass ratio, greatest contact stiffness and lowest forcing frequency.
     clearances : list of (str, float)
-        Smallest clearances, each after its key.
+        Pairs of a key and the smallest clearance that it gives.
     """
 
     path: tuple
@@ -72,7 +72,7 @@ def workloads(config):
 
 
 def _at(section, key):
-    """Return the number at a key with dots, or the length of a list."""
+    """Return the number under a dotted key of a section, or the length of the list there."""
     for name in key.split("."):
         section = getattr(section, name)
     return len(section) if isinstance(section, list) else section

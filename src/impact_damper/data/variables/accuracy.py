@@ -1,4 +1,8 @@
-"""Error and counted work of integrators and models on scenes."""
+"""Error and counted work of integrators and models on test cases (scenes).
+
+A scene is a motion with a reference, which is taken as exact. A run is one integrator or model with
+one setting.
+"""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -11,7 +15,8 @@ VARIABLES = {
     ),
     "run_status": Variable(
         RUN,
-        "how the run ended: fewer contacts than the reference are missed, more are invented",
+        "how the run ended: missed_contacts if it has fewer contacts than the reference, "
+        "invented_contacts if more",
         flags={
             "ok": 0,
             "missed_contacts": 1,
@@ -23,22 +28,25 @@ VARIABLES = {
     ),
     "operations": Variable(
         RUN,
-        "counted floating-point operations, an elementary function as 20: for the whole run of an "
-        "integrator, for the search of the orbit by a model",
+        "floating-point operations, where an elementary function counts as 20: of the whole run of "
+        "an integrator, or of the search of a model for the orbit",
     ),
-    "state_error": Variable(RUN, "largest error of a component of the state at the end"),
+    "state_error": Variable(RUN, "largest error of a component of the state at the end of the run"),
     "contact_time_error": Variable(
-        RUN, "largest error of the begin time of a contact, NaN if their number is wrong", "T"
+        RUN,
+        "largest error of the time at which a contact begins, NaN if their number is wrong",
+        "T",
     ),
     "contact_excess": Variable(RUN, "number of contacts minus the number in the reference"),
     "amplitude_error": Variable(RUN, "relative error of max |Z1|"),
     "statistic": Variable(("statistic",), "name of an average over a chaotic motion"),
     "average": Variable(
         (*RUN, "statistic"),
-        "average: contacts a period, max |Z1| of a period, or largest Lyapunov exponent",
+        "average: contacts per period, max |Z1| in a period, or largest Lyapunov exponent",
     ),
     "average_error": Variable(
-        (*RUN, "statistic"), "standard error of the average, from batches of periods"
+        (*RUN, "statistic"),
+        "standard error of the average, from its values in batches of forcing periods",
     ),
     "reference_average": Variable(("statistic",), "average in the reference"),
     "reference_average_error": Variable(
@@ -47,7 +55,7 @@ VARIABLES = {
     "meets_accuracy": Variable(
         RUN, "whether the run meets the accuracy required by the scene", flags={"no": 0, "yes": 1}
     ),
-    "reference_state": Variable(("component",), "state of the reference at the end"),
+    "reference_state": Variable(("component",), "state of the reference at the end of the run"),
     "reference_contacts": Variable((), "number of contacts in the reference"),
     "reference_amplitude": Variable((), "max |Z1| of the reference", "max |Z1|"),
 }

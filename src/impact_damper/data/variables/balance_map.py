@@ -1,4 +1,10 @@
-"""Harmonic balance and exact motions in maps over frequency and another parameter."""
+"""Harmonic balance compared with exact motions, in maps over frequency and another parameter.
+
+A cell of a map is one pair of these; a row is one value of the other parameter. Two motions are
+compared in each cell: the quiet one, which belongs to the solution of (7) with the smallest |a|,
+and the high one, as large as the free resonance (`theory.map_cells`). The quiet run and the high
+run are simulations that start from these solutions.
+"""
 
 from impact_damper.data.variables.variable import OUTCOME, Variable
 
@@ -53,7 +59,7 @@ VARIABLES = {
     "map_frequency": Variable(CELL, "forcing frequency", "Omega"),
     "map_clearance": Variable(("map_value",), "clearance of the loose mass", "d0"),
     "resonance_amplitude": Variable(
-        CELL, "amplitude of the free resonance branch; above its end, its amplitude at the end"
+        CELL, "amplitude of the free resonance branch; beyond its end, the amplitude at its end"
     ),
     # the quiet motion
     "balance_quiet": Variable(
@@ -86,13 +92,15 @@ VARIABLES = {
     ),
     "quiet_verdict": Variable(
         CELL,
-        "quiet motion: verdict of harmonic balance, then of the exact orbit",
+        "quiet motion: stability by harmonic balance, then of the exact orbit",
         flags=QUIET_VERDICT,
     ),
-    "quiet_end": Variable(ROW_END, "Omega/Omega_p at which the quiet orbits of a row end"),
+    "quiet_end": Variable(
+        ROW_END, "Omega/Omega_p at the ends of the range of quiet orbits in a row"
+    ),
     "quiet_end_event": Variable(
         ROW_END,
-        "event that ends the quiet orbits of a row",
+        "event that ends the range of quiet orbits in a row",
         flags={
             "map_ends": 0,
             "fold": 1,
@@ -103,21 +111,23 @@ VARIABLES = {
     ),
     "straight_flight_end": Variable(
         ("map_value",),
-        "Omega/Omega_p of the upper end of the quiet orbits for rigid walls at high frequency",
+        "Omega/Omega_p at the upper end of quiet orbits, for rigid walls at high frequency",
     ),
     # where a start at the quiet solution leads
     "quiet_run_motion": Variable(
         CELL, "motion that a start at the quiet solution of (7) leads to", flags=RUN_MOTION
     ),
-    "quiet_run_exponent": Variable(CELL, "largest Lyapunov exponent of this motion per unit time"),
+    "quiet_run_exponent": Variable(
+        CELL, "largest Lyapunov exponent of the quiet run, per unit time"
+    ),
     "quiet_run_error": Variable(CELL, "standard error of quiet_run_exponent"),
     # the high motion
     "balance_high": Variable(CELL, "stability of the high solution of (7)", flags=BALANCE_VERDICT),
     "balance_high_amplitude": Variable(CELL, "|a| of the high stable solution of (7)", "|a|"),
     "high_run_motion": Variable(
         CELL,
-        "motion that the high run leads to: from the high solution of (7), otherwise from the free "
-        "resonance branch",
+        "motion that the high run leads to; it starts at the high solution of (7), or if there is "
+        "none on the free resonance branch",
         flags=RUN_MOTION,
     ),
     "high_run_outcome": Variable(CELL, "outcome of the high run", flags=OUTCOME),
@@ -126,16 +136,16 @@ VARIABLES = {
     ),
     "high_run_contacts": Variable(CELL, "contacts begun per forcing period in the high run"),
     "high_run_displacement": Variable(CELL, "largest displacement in the high run", "max |Z1|"),
-    "high_run_exponent": Variable(CELL, "largest Lyapunov exponent per unit time"),
+    "high_run_exponent": Variable(CELL, "largest Lyapunov exponent of the high run, per unit time"),
     "high_run_error": Variable(CELL, "standard error of high_run_exponent"),
     "high_long_outcome": Variable(
         CELL,
-        "outcome of some chaotic high runs after ten times as many periods",
+        "outcome of some chaotic high runs if they are continued to ten times as many periods",
         flags=OUTCOME,
     ),
     "high_verdict": Variable(
         CELL,
-        "high motion: verdict of harmonic balance, then motion that the high run leads to",
+        "high motion: result of harmonic balance, then motion that the high run leads to",
         flags=HIGH_VERDICT,
     ),
 }

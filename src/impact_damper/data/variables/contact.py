@@ -1,4 +1,9 @@
-"""The contact model in closed form, contacts of simulated motions, and the rigid limit."""
+"""The contact model in closed form, contacts of simulated motions, and the rigid limit.
+
+The load g/(omega_n v0) is the dimensionless acceleration in a contact by all forces but that of the
+wall, the realised restitution the ratio of departure to approach speed (`contact.contact_law`). A
+"mended" rigid orbit is one between corrected rigid walls (`contact.rigid_orbits.mended_walls`).
+"""
 
 from impact_damper.data.variables.variable import OUTCOME, Variable
 
@@ -15,7 +20,7 @@ VARIABLES = {
     # map
     "exit_rule": Variable(("exit_rule",), "rule for the end of a contact"),
     "load": Variable(("load",), "load in contact", "g/(omega_n v0)"),
-    "realised_restitution": Variable(CELL, "departure speed over approach speed"),
+    "realised_restitution": Variable(CELL, "departure speed divided by approach speed"),
     "contact_duration": Variable(CELL, "time in contact over that of an elastic contact"),
     "contact_verdict": Variable(
         CELL,
@@ -23,19 +28,23 @@ VARIABLES = {
         "mass falls back or the contact does not end",
         flags={"close": 0, "fair": 1, "off": 2, "falls_back": 3, "no_release": 4},
     ),
-    "pull_impulse": Variable(CELL[1:], "tensile impulse of the wall over its compressive impulse"),
+    "pull_impulse": Variable(CELL[1:], "ratio of tensile to compressive impulse of the wall"),
     "pull_peak": Variable(
-        CELL[1:], "largest tensile force of the wall over its largest compressive force"
+        CELL[1:], "ratio of the largest tensile to the largest compressive force of the wall"
     ),
     # without load
     "used": Variable(("used",), "coefficient of restitution of a damper", "e"),
     "unloaded_damping": Variable(("used",), "damping ratio of the relative motion", "z"),
     "unloaded_restitution": Variable(UNLOADED, "realised restitution without load"),
-    "unloaded_duration": Variable(UNLOADED, "time in contact over that of an elastic contact"),
+    "unloaded_duration": Variable(
+        UNLOADED, "time in contact divided by that of an elastic contact"
+    ),
     "unloaded_pull_time": Variable(("used",), "share of the time in contact with a tensile force"),
-    "unloaded_pull_impulse": Variable(("used",), "tensile over compressive impulse without load"),
+    "unloaded_pull_impulse": Variable(
+        ("used",), "ratio of tensile to compressive impulse without load"
+    ),
     "unloaded_pull_peak": Variable(
-        ("used",), "largest tensile over largest compressive force without load"
+        ("used",), "ratio of the largest tensile to the largest compressive force without load"
     ),
     # contacts of motions
     "size": Variable(
@@ -44,7 +53,9 @@ VARIABLES = {
     "scene_outcome": Variable(SCENE, "outcome of the motion", flags=OUTCOME),
     "scene_displacement": Variable(SCENE, "largest displacement of the motion", "max |Z1|"),
     "scene_without_pull": Variable(
-        SCENE, "largest displacement with the restitution of walls that cannot pull", "max |Z1|"
+        SCENE,
+        "largest displacement if contacts realise the restitution of walls that cannot pull",
+        "max |Z1|",
     ),
     "scene_without_pull_status": Variable(
         SCENE,
@@ -64,20 +75,20 @@ VARIABLES = {
     "scene_restitution_low": Variable(SCENE, "smallest restitution of a contact"),
     "scene_restitution_high": Variable(SCENE, "largest restitution of a contact"),
     "scene_unreleased": Variable(
-        SCENE, "contacts that do not end in the closed form with constant load"
+        SCENE, "number of contacts that would not end under a constant load, by the closed form"
     ),
     "scene_restitution_error": Variable(
-        SCENE, "99 % quantile of the error of the closed-form restitution"
+        SCENE, "99 % quantile over the contacts of the error of the closed-form restitution"
     ),
     "scene_duration_error": Variable(
-        SCENE, "99 % quantile of the error of the closed-form time in contact"
+        SCENE, "99 % quantile over the contacts of the error of the closed-form time in contact"
     ),
-    "contact_used": Variable(("contact",), "index along used of the damper of a contact"),
-    "contact_row": Variable(("contact",), "index along frequency of the motion of a contact"),
-    "contact_size": Variable(("contact",), "index along size of the motion of a contact"),
+    "contact_used": Variable(("contact",), "index along the dimension `used` of a contact"),
+    "contact_row": Variable(("contact",), "index along the dimension `frequency` of a contact"),
+    "contact_size": Variable(("contact",), "index along the dimension `size` of a contact"),
     "contact_load": Variable(("contact",), "load at the beginning of a contact"),
-    "contact_restitution": Variable(("contact",), "departure speed over approach speed"),
-    "contact_time": Variable(("contact",), "time in contact over that of an elastic contact"),
+    "contact_restitution": Variable(("contact",), "departure speed divided by approach speed"),
+    "contact_time": Variable(("contact",), "time in contact divided by that of an elastic contact"),
     # rigid limit
     "stiffness": Variable(("stiffness",), "contact stiffness", "r1"),
     "compliant_status": Variable(
@@ -97,21 +108,21 @@ VARIABLES = {
     "rigid_multiplier_real": Variable(("frequency",), REAL),
     "rigid_multiplier_imaginary": Variable(("frequency",), IMAGINARY),
     "mended_status": Variable(
-        LIMIT, "how the search for the mended rigid orbit ended", flags=RIGID
+        LIMIT, "how the search for the orbit between corrected rigid walls ended", flags=RIGID
     ),
     "mended_displacement": Variable(
-        LIMIT, "largest displacement of the mended rigid orbit", "max |Z1|"
+        LIMIT, "largest displacement of the orbit between corrected rigid walls", "max |Z1|"
     ),
     "mended_multiplier_real": Variable(LIMIT, REAL),
     "mended_multiplier_imaginary": Variable(LIMIT, IMAGINARY),
-    "rigid_error": Variable(LIMIT, "relative error of max |Z1| by rigid impacts"),
-    "mended_error": Variable(LIMIT, "relative error of max |Z1| by mended rigid impacts"),
+    "rigid_error": Variable(LIMIT, "relative error of max |Z1| if walls are taken as rigid"),
+    "mended_error": Variable(LIMIT, "relative error of max |Z1| with corrected rigid walls"),
     "decay_error": Variable(
-        LIMIT, "error of the modulus of the dominant multiplier by rigid impacts"
+        LIMIT, "error of the modulus of the dominant multiplier if walls are taken as rigid"
     ),
     "rigid_verdict": Variable(
         LIMIT,
-        "which of the compliant and rigid orbits were reached, and their stability",
+        "which of the compliant and rigid orbits were found, and whether their stability agrees",
         flags={
             "both_stable": 0,
             "both_unstable": 1,
@@ -121,23 +132,27 @@ VARIABLES = {
             "neither": 5,
         },
     ),
-    "threshold": Variable(("threshold",), "relative error of max |Z1|"),
+    "threshold": Variable(("threshold",), "relative error of max |Z1| that is allowed"),
     "needed_stiffness": Variable(
-        ("threshold", "frequency"), "contact stiffness above which the error is smaller", "r1"
+        ("threshold", "frequency"),
+        "contact stiffness above which rigid_error is below the threshold",
+        "r1",
     ),
     "needed_status": Variable(
         ("threshold", "frequency"),
-        "where needed_stiffness lies",
+        "whether needed_stiffness lies within, below or above the grid",
         flags={"absent": -1, "found": 0, "below_grid": 1, "above_grid": 2},
     ),
     "rigid_order": Variable(("frequency",), "exponent n of rigid_error ~ r1^-n for short contacts"),
     "mended_order": Variable(
         ("frequency",), "exponent n of mended_error ~ r1^-n for short contacts"
     ),
-    "own_displacement": Variable((), "largest displacement for the damper's own r1", "max |Z1|"),
-    "own_error": Variable((), "relative error of own_displacement by rigid impacts"),
-    "own_mended_error": Variable((), "relative error of own_displacement by mended rigid impacts"),
+    "own_displacement": Variable((), "largest displacement with the damper's own r1", "max |Z1|"),
+    "own_error": Variable((), "relative error of own_displacement if walls are taken as rigid"),
+    "own_mended_error": Variable(
+        (), "relative error of own_displacement with corrected rigid walls"
+    ),
     "own_decay_error": Variable(
-        (), "error of the modulus of the dominant multiplier for the damper's own r1"
+        (), "error of the modulus of the dominant multiplier with rigid walls, for the damper's r1"
     ),
 }

@@ -1,4 +1,9 @@
-"""Single-term harmonic balance, suppression bands and optimum clearances."""
+"""Single-term harmonic balance, suppression bands and optimum clearances.
+
+Z1 is the displacement of the primary mass, Z2 that of the primary mass relative to the loose mass,
+a and b are their amplitudes; "free" means without the damper. A suppression band is the range of
+frequencies around the peak in which the damper leaves only a quiet, that is small, motion.
+"""
 
 from impact_damper.data.variables.variable import MINIMUM, STABILITY, Variable
 
@@ -6,7 +11,7 @@ VARIABLES = {
     # harmonic balance
     "amplitude": Variable(
         ("frequency", "solution"),
-        "amplitude of Z1, negative in antiphase to Z2",
+        "amplitude of Z1, negative if Z1 is in antiphase to Z2",
         "a",
         quantity="displacement",
     ),
@@ -54,7 +59,7 @@ VARIABLES = {
     "rigid_tangent": Variable(("frequency", "root"), "root of the polynomial (14)", "D"),
     "rigid_amplitude": Variable(
         ("frequency", "root"),
-        "amplitude of Z1 for rigid walls, negative in antiphase",
+        "amplitude of Z1 for rigid walls, negative if Z1 is in antiphase to Z2",
         "a",
         quantity="displacement",
     ),
@@ -63,7 +68,7 @@ VARIABLES = {
     ),
     "rigid_wall": Variable(
         ("frequency", "root"),
-        "whether rigid walls push or would have to pull",
+        "whether rigid walls push the loose mass, or would have to pull it",
         flags={"absent": 0, "pushes": 1, "pulls": 2},
     ),
     "rigid_residual": Variable(("frequency", "root"), "residual of (13)", quantity="mixed"),
@@ -107,8 +112,8 @@ VARIABLES = {
     ),
     "break_even_frequency": Variable(
         (),
-        "frequency above the peak, below it for a softening spring, at which |a| equals the "
-        "smallest amplitude without the damper",
+        "frequency at which |a| equals the smallest amplitude without the damper: above the peak, "
+        "or for a softening spring below",
         quantity="frequency",
     ),
     # optimum clearance
@@ -123,7 +128,7 @@ VARIABLES = {
     ),
     "largest_displacement": Variable(
         ("clearance",),
-        "largest displacement over all motions that starts reach",
+        "largest displacement of all motions that the random starts reach",
         quantity="displacement",
     ),
     "analytical_amplitude": Variable(
@@ -148,7 +153,7 @@ VARIABLES = {
     ),
     "near_clearance": Variable(
         ("edge",),
-        "ends of the clearances within 10 % of the smallest displacement",
+        "ends of the range of clearances with at most 1.1 times the smallest displacement",
         quantity="clearance",
     ),
     "near_status": Variable(
@@ -164,16 +169,18 @@ VARIABLES = {
         (), "clearance of rule (18) at the forcing frequency", "d0", quantity="clearance"
     ),
     "peak_rule_clearance": Variable((), "clearance of rule (19)", "d0", quantity="clearance"),
-    "optimum_ratio": Variable((), "rm W^2 d0/f at the optimum clearance; 1 by rule (18)"),
+    "optimum_ratio": Variable((), "rm W^2 d0/f at the optimum clearance, which is 1 by rule (18)"),
     "straight_flight_ratio": Variable(
         (), "rm W^2 d0/f at the smallest max |Z1| for rigid walls at high frequency"
     ),
     "first_harmonic_share": Variable(
-        (), "share of the excess explained by the first harmonic: (pi^2/8 - 1)/(optimum_ratio - 1)"
+        (),
+        "share of optimum_ratio - 1 that the first harmonic explains, "
+        "(pi^2/8 - 1)/(optimum_ratio - 1)",
     ),
     "straight_flight_share": Variable(
         (),
-        "share of the excess explained by straight flight: (straight_flight_ratio - 1)/"
+        "share of optimum_ratio - 1 explained by straight flight: (straight_flight_ratio - 1)/"
         "(optimum_ratio - 1)",
     ),
 }

@@ -11,7 +11,7 @@ VARIABLES = {
     "error_measure": Variable(ERRORS, "quantity that an error refers to"),
     "series_status": Variable(
         COUNTED,
-        "how Newton's method ended, started from the solution with fewer harmonics",
+        "how Newton's method ended when started from the solution with fewer harmonics",
         flags=SEARCH,
     ),
     "series_steps": Variable(COUNTED, "number of steps of Newton's method"),
@@ -19,12 +19,12 @@ VARIABLES = {
     "series_maximum": Variable(COUNTED, "largest displacement by harmonic balance", "max |Z1|"),
     "series_error": Variable(
         (*ERRORS, *COUNTED),
-        "error against the exact orbit: of max |Z1|, of Z1 in the harmonics up to N and beyond N "
+        "difference from the exact orbit: of max |Z1|, of Z1 in the harmonics up to N and beyond N "
         "(root mean square), all relative to max |Z1|; and of a Floquet multiplier",
     ),
     "cold_status": Variable(
         COUNTED,
-        "result of Newton's method, started from the single-term solution",
+        "how Newton's method ended when started from the single-term solution",
         flags={
             "not_tried": -1,
             "same_motion": 0,
@@ -56,7 +56,9 @@ VARIABLES = {
     "exact_multiplier_imaginary": Variable(
         ("exponent",), "exact Floquet multiplier, imaginary part"
     ),
-    "asymptotic_harmonic": Variable((), "lowest N of the errors fitted"),
+    "asymptotic_harmonic": Variable(
+        (), "lowest N whose errors are used in the fit of the decrease"
+    ),
     "decay_kind": Variable(
         (),
         "decrease of the errors: a power of N, or exponential",
@@ -65,6 +67,6 @@ VARIABLES = {
     "decay_observed": Variable(
         ERRORS, "fitted power of 1/N, or rate per harmonic, at which an error decreases"
     ),
-    "decay_fitted": Variable(ERRORS, "number of errors fitted"),
+    "decay_fitted": Variable(ERRORS, "number of errors used in the fit"),
     "decay_predicted": Variable(ERRORS, "predicted power of 1/N, or rate per harmonic"),
 }

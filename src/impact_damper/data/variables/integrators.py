@@ -1,4 +1,9 @@
-"""Failures of integrators: contacts missed near grazing, unstable steps, wrong verdicts."""
+"""Failures of integrators: contacts missed near grazing, unstable steps, wrong verdicts.
+
+A passage is a free flight past a wall placed close to its largest |Z2| (`rivals.passages`). A scene
+is a test case: a motion of which is known whether it settles on a certain orbit. The verdict of a
+method on a scene says whether the method finds that.
+"""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -25,16 +30,16 @@ VARIABLES = {
     "integrator": Variable(("integrator",), "method of integration"),
     "method_tolerance": Variable(("method_tolerance",), "tolerance of the method"),
     # contacts missed near grazing
-    "depth": Variable(("depth",), "depth of the passage beyond the wall"),
+    "depth": Variable(("depth",), "distance by which a passage without wall would go beyond it"),
     "contact_outcome": Variable(("contact_outcome",), "how a method treats a contact"),
     "passage_count": Variable(
         ("integrator", "method_tolerance", "depth", "contact_outcome"),
-        "number of contacts that are found, passed between two steps, or not reached by the "
-        "inaccurate motion, and of failed runs",
+        "number of contacts that a method finds, passes between two steps, or does not reach since "
+        "its motion is inaccurate, and number of failed runs",
     ),
     "spurious_count": Variable(
         ("integrator", "method_tolerance", "depth"),
-        "number of contacts reported in passages without contact",
+        "number of contacts that a method reports in passages without contact",
     ),
     "mean_steps": Variable(
         ("integrator", "method_tolerance"),
@@ -45,24 +50,24 @@ VARIABLES = {
         "median error of the largest |Z2| of a passage, failed runs excluded",
     ),
     "passages": Variable(("integrator",), "number of passages run for each tolerance"),
-    "passages_drawn": Variable((), "number of random flights drawn to obtain the passages"),
+    "passages_drawn": Variable((), "number of random flights among which the passages were chosen"),
     "fixed_steps": Variable(
         ("method_tolerance",), "steps per forcing period of the fixed-step method"
     ),
     "expected_unseen": Variable(
         ("method_tolerance", "depth"),
-        "share of contacts passed between two steps if the phase of fixed steps is random",
+        "expected share of contacts that lie between two ends of fixed steps, at random times",
     ),
     "extremum_time": Variable(("passage",), "time of the largest |Z2| of a passage", "T"),
     "extremum": Variable(("passage",), "largest |Z2| of a passage"),
-    "extremum_curvature": Variable(("passage",), "|Z2''| at the extremum"),
+    "extremum_curvature": Variable(("passage",), "|Z2''| at the largest |Z2| of a passage"),
     # largest stable steps
     "fixed_method": Variable(("fixed_method",), "method with equal steps"),
     "scaled_step": Variable(("scaled_step",), "step times contact frequency", "h omega_c"),
     "accuracy": Variable(("accuracy",), "relative deviation allowed in max |Z1|"),
     "step_verdict": Variable(
         ("fixed_method", "contact_stiffness", "scaled_step"),
-        "how well the method keeps the quiet motion",
+        "how closely the method stays on the quiet motion",
         flags=STEP_VERDICT,
     ),
     "step_deviation": Variable(
@@ -72,7 +77,7 @@ VARIABLES = {
     "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps per forcing period"),
     "stable_step": Variable(
         ("fixed_method", "contact_stiffness", "accuracy"),
-        "largest step such that it and all smaller ones keep the accuracy",
+        "largest step such that this step and all smaller ones keep the accuracy",
         "h",
     ),
     "largest_holding_step": Variable(
@@ -80,10 +85,14 @@ VARIABLES = {
         "largest step that keeps the accuracy",
         "h",
     ),
-    "step_slope": Variable(("fixed_method", "accuracy"), "slope of log(1/h) over log r1"),
-    "step_slope_error": Variable(("fixed_method", "accuracy"), "standard error of the slope"),
+    "step_slope": Variable(
+        ("fixed_method", "accuracy"),
+        "slope of log(1/h) as a function of log r1, h the largest stable step",
+    ),
+    "step_slope_error": Variable(("fixed_method", "accuracy"), "standard error of step_slope"),
     "linear_limit": Variable(
-        ("fixed_method",), "largest step times contact frequency by linear stability"
+        ("fixed_method",),
+        "largest product of step and contact frequency by linear stability theory",
     ),
     "contact_frequency": Variable(
         ("contact_stiffness",), "natural frequency of an undamped contact", "omega_c"
@@ -96,16 +105,19 @@ VARIABLES = {
     ),
     "free_bound": Variable((), "displacement beyond which a run has escaped", "max |Z1|"),
     # verdicts by tolerance
-    "scene": Variable(("scene",), "motion whose verdict is known"),
+    "scene": Variable(
+        ("scene",), "test case: motion of which is known whether it settles on an orbit"
+    ),
     "verdict_method": Variable(("verdict_method",), "method of integration"),
     "verdict": Variable(
         ("scene", "verdict_method", "method_tolerance"),
-        "verdict of the method, compared with the exact one",
+        "verdict of the method, and how it is wrong",
         flags=VERDICT,
     ),
     "right_from": Variable(
         ("scene", "verdict_method"),
-        "largest tolerance, or smallest number of steps, from which on all verdicts are right",
+        "largest tolerance, or smallest number of steps, such that it and all stricter ones give "
+        "the right verdict",
     ),
     "verdict_steps": Variable(
         ("method_tolerance",), "steps per forcing period of fixed-step methods"
@@ -117,7 +129,7 @@ VARIABLES = {
     "landing_period": Variable(
         ("scene",), "period of the motion that results, 0 if it does not settle", "n"
     ),
-    "scene_periods": Variable(("scene",), "number of forcing periods run"),
+    "scene_periods": Variable(("scene",), "number of forcing periods of a run"),
     "scene_frequency": Variable(("scene",), "forcing frequency", "Omega"),
     "scene_truth": Variable(
         ("scene",),

@@ -1,4 +1,4 @@
-"""Machines in SI units: without a damper, over the gap of a damper, and contacts after Hertz."""
+"""Machines in SI units: without a damper, for various gaps of a damper, contacts after Hertz."""
 
 from impact_damper.data.variables.variable import STABILITY, Variable
 
@@ -14,7 +14,7 @@ VARIABLES = {
         ("bare_point",), "stability of an orbit without the damper", flags=STABILITY
     ),
     "bare_branch": Variable(("bare_point",), "branch of an orbit without the damper"),
-    # over the gap
+    # various gaps
     "swept_frequency": Variable(
         (), "forcing frequency at which the gap is varied", quantity="frequency"
     ),
@@ -28,15 +28,17 @@ VARIABLES = {
     # contacts after Hertz
     "hertz_status": Variable(
         (),
-        "whether the stiffness of the contact agrees with the motion that has this stiffness",
+        "whether the contact stiffness after Hertz agrees with the stiffness used for the motion",
         flags={"consistent": 0, "not_consistent": 1, "no_contact": 2, "not_settled": 3},
     ),
-    "hertz_iterations": Variable((), "number of motions computed"),
+    "hertz_iterations": Variable((), "number of motions computed to find this stiffness"),
     "hertz_stiffness": Variable(
-        (), "stiffness of the spring that stands for the contact", quantity="stiffness"
+        (),
+        "stiffness of the linear spring that replaces the contact after Hertz",
+        quantity="stiffness",
     ),
     "hertz_displacement": Variable(
-        (), "largest displacement with this stiffness", quantity="displacement"
+        (), "largest displacement with the stiffness hertz_stiffness", quantity="displacement"
     ),
     "impact_speed": Variable(
         (), "largest relative speed at the beginning of a contact", quantity="velocity"
@@ -45,5 +47,5 @@ VARIABLES = {
         (), "largest compression of the contact", quantity="displacement"
     ),
     "impact_force": Variable((), "largest force of the contact", quantity="force"),
-    "impact_duration": Variable((), "time in contact", quantity="time"),
+    "impact_duration": Variable((), "time in contact in one impact", quantity="time"),
 }

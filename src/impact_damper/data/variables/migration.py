@@ -1,4 +1,10 @@
-"""Migration control, releases of damped motions, and the lifetime of the violent transient."""
+"""Migration control, releases of damped motions, and the lifetime of the violent transient.
+
+The controller of figure 17 switches the damper on and off (a switching) until the free motion, that
+without the damper, is the non-resonance one; one run of the controller is a trial. A damped motion
+is one with the damper on; its release is the switching off. A violent transient is a motion that is
+large at first, after the damper has been switched on.
+"""
 
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, Variable
 
@@ -8,13 +14,19 @@ VARIABLES = {
     "off_time": Variable(("trial", "switching"), "time at which the damper is switched off", "T"),
     "end_time": Variable(("trial", "switching"), "time at which the free motion has settled", "T"),
     "released_from": Variable(
-        ("trial", "switching"), "damped motion when it is switched off", flags=DAMPED_MOTION
+        ("trial", "switching"),
+        "damped motion in which the damper is switched off",
+        flags=DAMPED_MOTION,
     ),
     "released_period": Variable(
-        ("trial", "switching"), "period of released_from in forcing periods, 0 if not settled", "n"
+        ("trial", "switching"),
+        "period in forcing periods of the motion released_from, 0 if it has not settled",
+        "n",
     ),
     "released_displacement": Variable(
-        ("trial", "switching"), "largest displacement of released_from, if settled", "max |Z1|"
+        ("trial", "switching"),
+        "largest displacement of the motion released_from, if it has settled",
+        "max |Z1|",
     ),
     "destination": Variable(
         ("trial", "switching"), "free motion that a release leads to", flags=FREE_MOTION
@@ -30,18 +42,19 @@ VARIABLES = {
     "switchings": Variable(("trial",), "number of times that the damper is switched on in a run"),
     "damper_time": Variable(("trial",), "forcing periods with the damper on"),
     "release_time": Variable(
-        ("trial",), "forcing periods from the first switching on to the last switching off"
+        ("trial",), "forcing periods from first switching the damper on to last switching it off"
     ),
     "total_time": Variable(
-        ("trial",), "forcing periods from the first switching on to the end of the last free run"
+        ("trial",),
+        "forcing periods from first switching the damper on to the end of the last free run",
     ),
-    "example": Variable((), "number of the run whose displacement is stored"),
+    "example": Variable((), "index of the run whose displacement is stored"),
     "bound": Variable(("bound",), "share, or lower or upper end of its 95 % interval"),
     "damped_motion": Variable(("damped_motion",), "kind of damped motion"),
     "free_motion": Variable(("free_motion",), "kind of free motion"),
     "destination_count": Variable(
         ("damped_motion", "free_motion"),
-        "number of switchings of all runs, by damped and by free motion",
+        "number of releases in all runs for each pair of a damped and a following free motion",
     ),
     "reached_share": Variable(("bound",), "share of runs that arrive on the non-resonance branch"),
     "within_share": Variable(("bound",), "share of runs that arrive within 350 forcing periods"),
@@ -73,13 +86,14 @@ VARIABLES = {
     ),
     # lifetime of the violent transient
     "life": Variable(
-        ("run",), "forcing periods until the violent transient ends, if before the horizon"
+        ("run",),
+        "forcing periods until the violent transient ends, if it ends before the time horizon",
     ),
-    "landing_time": Variable(("run",), "forcing periods until the run has settled, if settled"),
+    "landing_time": Variable(("run",), "forcing periods until the run has settled, if it has"),
     "landed_on": Variable(("run",), "motion on which the run settles", flags=DAMPED_MOTION),
     "age": Variable(("age",), "forcing periods since the damper was switched on"),
-    "survival": Variable(("age", "bound"), "share of runs whose transient lasts longer than age"),
-    "at_risk": Variable(("age",), "number of runs whose transient lasts longer than age"),
+    "survival": Variable(("age", "bound"), "share of runs whose transient is longer than age"),
+    "at_risk": Variable(("age",), "number of runs whose transient is longer than age"),
     "escape_rate": Variable(("bound",), "rate at which transients end, per run and forcing period"),
     "horizon": Variable((), "forcing periods after which a run is cut off"),
 }

@@ -1,4 +1,4 @@
-"""Coordinates, states and motions, and responses over a parameter."""
+"""Coordinates, states and motions, and responses as functions of a parameter."""
 
 from impact_damper.data.variables.variable import END, OUTCOME, Variable
 
@@ -20,12 +20,15 @@ VARIABLES = {
     "velocity": Variable(("time",), "velocity of the primary mass", "Z1'", quantity="velocity"),
     "relative_displacement": Variable(
         ("time",),
-        "displacement of the primary relative to the loose mass",
+        "displacement of the primary mass relative to the loose mass",
         "Z2",
         quantity="displacement",
     ),
     "relative_velocity": Variable(
-        ("time",), "velocity of the primary relative to the loose mass", "Z2'", quantity="velocity"
+        ("time",),
+        "velocity of the primary mass relative to the loose mass",
+        "Z2'",
+        quantity="velocity",
     ),
     # motions
     "component": Variable(("component",), "component of the state"),
@@ -76,18 +79,21 @@ VARIABLES = {
     "lyapunov_error": Variable(
         ("frequency", "motion"), "standard error of the largest Lyapunov exponent", quantity="rate"
     ),
-    "periods_run": Variable(("frequency", "motion"), "forcing periods run before it settled"),
+    "periods_run": Variable(
+        ("frequency", "motion"), "forcing periods run before the motion settled"
+    ),
     # frequency responses
     "branch": Variable(("frequency", "motion"), "number of the branch that a motion lies on"),
     "share": Variable(("frequency", "motion"), "number of random starts that lead to the motion"),
     "origin": Variable(
         ("frequency", "motion"),
-        "how the motion was found first",
+        "how the motion was first found",
         flags={"absent": 0, "random_start": 1, "followed": 2, "placed_start": 3},
     ),
     "run_outcome": Variable(("frequency", "start"), "outcome of a random start", flags=OUTCOME),
     "run_motion": Variable(
-        ("frequency", "start"), "index along motion of the motion that a random start leads to"
+        ("frequency", "start"),
+        "index along the dimension `motion` of the motion that a random start leads to",
     ),
     "run_length": Variable(("frequency", "start"), "forcing periods run from a random start"),
     "end_value": Variable(
@@ -107,7 +113,7 @@ VARIABLES = {
     "end_multiplier_imaginary": Variable(
         ("end",), "dominant Floquet multiplier at the end, imaginary part"
     ),
-    # how wide a search was
+    # how wide the search by random starts was
     "start_displacement": Variable(
         ("frequency",),
         "largest displacement of a random start",
@@ -130,10 +136,10 @@ VARIABLES = {
         quantity="velocity",
     ),
     "missed_share": Variable(
-        (), "bound, at 95 %, on the share of random starts of a motion that no start reached"
+        (), "upper bound, at 95 % confidence, of the share of starts of a motion that none reached"
     ),
     # first collisions
-    "ball": Variable(("ball",), "ball from which random starts are drawn"),
+    "ball": Variable(("ball",), "ball of states from which random starts are drawn"),
     "beyond_wall": Variable(("ball",), "share of starts that lie beyond a wall"),
     "colliding": Variable(("ball",), "share of starts that lead to a collision"),
     "longest_wait": Variable(("ball",), "longest time to the first collision, forcing periods"),

@@ -25,19 +25,21 @@ BRANCH_END = {
 VARIABLES = {
     # orbits along branches
     "followed_value": Variable(
-        ("point",), "parameter along a branch of orbits", quantity="followed"
+        ("point",),
+        "value of the parameter that is varied along a branch of orbits",
+        quantity="followed",
     ),
     "orbit_branch": Variable(("point",), "number of the branch an orbit lies on"),
     "orbit_displacement": Variable(
         ("point",), "largest displacement in an orbit", "max |Z1|", quantity="displacement"
     ),
     "orbit_stability": Variable(
-        ("point",), "whether all Floquet multipliers are less than 1", flags=STABILITY
+        ("point",), "whether all Floquet multipliers are less than 1 in modulus", flags=STABILITY
     ),
     "orbit_status": Variable(
         ("point",),
-        "whether Newton's method converged, and whether a contact begins so slowly that the "
-        "multipliers hold for infinitesimal disturbances only",
+        "whether Newton's method converged, and whether a contact begins so slowly (near grazing) "
+        "that the multipliers hold for infinitesimal disturbances only",
         flags={"not_converged": 0, "regular": 1, "near_grazing": 2},
     ),
     "orbit_contacts": Variable(("point",), "contacts begun per forcing period in an orbit"),
@@ -88,7 +90,7 @@ VARIABLES = {
     # design points
     "design_orbit_status": Variable(
         (),
-        "whether the quiet orbit was found at heavy damping and continued to the design point",
+        "whether the quiet orbit was found at heavy damping and followed to the design point",
         flags={"no_start": 0, "found": 1, "not_followed": 2},
     ),
     "design_run_outcome": Variable(
@@ -108,7 +110,9 @@ VARIABLES = {
     "branch_end": Variable(
         ("branch", "edge"), "event or limit that ends a branch", flags=BRANCH_END
     ),
-    "seeds": Variable((), "number of motions from which branches were started or recognised"),
+    "seeds": Variable(
+        (), "number of motions from which Newton's method looked for an orbit on a branch"
+    ),
     "seeds_lost": Variable(
         (), "number of motions from which Newton's method converged to no orbit"
     ),
@@ -116,7 +120,7 @@ VARIABLES = {
     "event_branch": Variable(("event",), "branch on which an event lies"),
     "event_place": Variable(("event",), "index along the branch of the orbit at an event"),
     "event_kind": Variable(("event",), "kind of event", flags=EVENT),
-    "event_value": Variable(("event",), "parameter at an event", quantity="followed"),
+    "event_value": Variable(("event",), "varied parameter at an event", quantity="followed"),
     "event_displacement": Variable(
         ("event",), "largest displacement at an event", "max |Z1|", quantity="displacement"
     ),
@@ -130,6 +134,10 @@ VARIABLES = {
         "smallest relative speed at the beginning of a contact at an event",
         quantity="velocity",
     ),
-    "walls_before": Variable(("event",), "walls touched in order, before an event"),
-    "walls_after": Variable(("event",), "walls touched in order, after an event"),
+    "walls_before": Variable(
+        ("event",), "walls in the order in which orbits before an event touch them"
+    ),
+    "walls_after": Variable(
+        ("event",), "walls in the order in which orbits after an event touch them"
+    ),
 }

@@ -1,4 +1,4 @@
-"""Our numbers beside published ones."""
+"""Published numbers beside those computed here."""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -24,7 +24,7 @@ VARIABLES = {
     "our_value": Variable(EACH, "number computed here"),
     "difference_reason": Variable(
         EACH,
-        "why the numbers differ: contacts of finite stiffness, closed form of first order in the "
+        "why the numbers differ: finite contact stiffness, closed form of first order in the "
         "mass ratio, height of fixed points in place of peaks, tolerance of a direct search, "
         "closed form of first order in the force, random starts, closed form with one harmonic, "
         "linear contact",
@@ -40,7 +40,8 @@ VARIABLES = {
         },
     ),
     "difference_order": Variable(
-        EACH, "observed exponent with which the difference depends on the parameter of its reason"
+        EACH,
+        "exponent n of difference ~ parameter^n, with the parameter that difference_reason names",
     ),
     "difference_error": Variable(EACH, "standard error of the difference of two random counts"),
     "limit_value": Variable(EACH, "number computed here, extrapolated to rigid walls"),

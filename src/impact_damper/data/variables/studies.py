@@ -14,7 +14,7 @@ VARIABLES = {
     "quiet_count": Variable(("cell",), "number of random starts that lead to the quiet motion"),
     "best_clearance": Variable(
         ("mass_ratio", "frequency", "restitution"),
-        "clearance of the grid with the smallest largest_displacement",
+        "clearance of the grid at which the largest motion reached is smallest",
         "d0",
     ),
 }

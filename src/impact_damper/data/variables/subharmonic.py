@@ -11,7 +11,9 @@ VARIABLES = {
         quantity="displacement",
     ),
     "free_subharmonic_frequency": Variable(
-        ("edge",), "ends of the subharmonic without the damper", quantity="frequency"
+        ("edge",),
+        "ends of the frequency range of the subharmonic without the damper",
+        quantity="frequency",
     ),
     "free_subharmonic_event": Variable(
         ("edge",), "event that ends the subharmonic without the damper", flags=SUBHARMONIC_END
@@ -23,7 +25,7 @@ VARIABLES = {
         quantity="displacement",
     ),
     "damped_subharmonic_period": Variable(
-        ("frequency",), "period of damped_subharmonic in forcing periods, 0 without one", "n"
+        ("frequency",), "period of damped_subharmonic in forcing periods, 0 if there is none", "n"
     ),
     "damped_subharmonic_contacts": Variable(
         ("frequency",), "contacts begun per forcing period in damped_subharmonic"
@@ -34,16 +36,16 @@ VARIABLES = {
         quantity="displacement",
     ),
     "subharmonic_ratio": Variable(
-        ("frequency",), "damped_subharmonic divided by free_subharmonic, 0 if removed"
+        ("frequency",), "damped_subharmonic divided by free_subharmonic, 0 if the damper removes it"
     ),
     "suppression": Variable(
         ("frequency",),
-        "effect of the damper on the subharmonic, by all motions found",
+        "effect of the damper on the subharmonic, judged by all motions found",
         flags=SUPPRESSION,
     ),
     "reached_suppression": Variable(
         ("frequency",),
-        "effect of the damper on the subharmonic, by motions that random starts lead to",
+        "effect of the damper on the subharmonic, judged by motions that random starts lead to",
         flags=SUPPRESSION,
     ),
     "switched_motion": Variable(
@@ -51,7 +53,7 @@ VARIABLES = {
     ),
     "switched_share": Variable(
         ("frequency", "switched_motion"),
-        "share of starts on the free subharmonic, damper switched on, by resulting motion",
+        "share of starts on the free subharmonic that lead to each motion, damper switched on",
     ),
     "subharmonic_branch": Variable(("subharmonic",), "number of a branch of damped subharmonics"),
     "subharmonic_period": Variable(

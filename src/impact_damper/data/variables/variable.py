@@ -15,13 +15,14 @@ class Variable(NamedTuple):
     symbol : str
         Symbol of the paper, or "".
     units : str
-        "1": dimensionless, as in section 2.1 of the paper. "radian": an angle.
+        "1": a dimensionless number, scaled as in section 2.1 of the paper. "radian": an angle.
     flags : dict of int or None
-        For a status: the stored value of each meaning.
+        For a variable with named values: the stored number of each name; otherwise None.
     quantity : str
-        Physical quantity, a key of `machine.units.QUANTITIES`. "state": displacements and
-        velocities. "followed": that of the parameter of a sweep or a branch. "mixed": a number in
-        which several stand together, as the distance of two states.
+        Physical quantity, by which results are converted to SI units: a key of
+        `machine.units.QUANTITIES`; "state" for displacements and velocities; "followed" for the
+        parameter that a sweep or a branch varies; "mixed" for a number that combines several
+        quantities, such as the distance of two states.
     """
 
     dims: tuple

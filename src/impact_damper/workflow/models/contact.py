@@ -1,4 +1,4 @@
-"""The contact: its model, the limit of rigid walls, and what integrators make of it."""
+"""The contact: its model, the limit of rigid walls, and how integrators handle contacts."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Methods compared: verdicts of integrators, scenes with exact references, and settings."""
+"""Methods compared: verdicts of integrators, test cases (scenes) with references, settings."""
 
 from pydantic import create_model
 

@@ -1,4 +1,4 @@
-"""Published numbers and closed forms that ours are held against."""
+"""Published numbers and closed forms with which results of this package are compared."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Chapter of the report: published numbers beside ours; not part of the paper."""
+"""Chapter of the report: numbers that others published beside those computed here."""
 
 from impact_damper.workflow.registry.records import Stage, Table
 from impact_damper.workflow.registry.values import settling

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class Stage(NamedTuple):
-    """A stage; its rule, script, folder of results and key of datasets have its name.
+    """A stage; its rule, script, folder of results and key of datasets all have the name `name`.
 
     Attributes
     ----------
@@ -14,13 +14,14 @@ class Stage(NamedTuple):
         Section of the configuration. The stage makes a dataset of each entry; an entry of `curves`
         lists the stages that it goes through.
     parameters : callable
-        From the configuration and the name of an entry to the parameters of its job: the values
-        that the job reads and no others, since a change of any of them reruns the job.
+        Maps the configuration and the name of an entry to the parameters of the entry's job: the
+        values that the job reads and no others, since a change of any of them reruns the job.
     reads : tuple of str
         Stages whose datasets of the same entry the job reads.
     paper : bool
-        Whether `snakemake` alone makes its data. Otherwise its own target `all_<name>` does, with
-        the figures and tables of its chapter, all of whose stages are such.
+        Whether the command `snakemake` without a target makes its data. Otherwise the target
+        `all_<name>` does, with the figures and tables of its chapter, whose stages are all of this
+        kind.
     """
 
     name: str
@@ -31,7 +32,7 @@ class Stage(NamedTuple):
 
 
 class Table(NamedTuple):
-    """A table, made by the function of its name.
+    """A table, made by the function with the same name as the table.
 
     Attributes
     ----------

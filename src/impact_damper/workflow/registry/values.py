@@ -16,13 +16,13 @@ def damper(config, entry) -> dict | None:
 
 
 def settling(config) -> dict:
-    """Arguments of `Settling`; the tolerance is that of the scene that the section names."""
+    """Arguments of `Settling`; the tolerance is that of the test case `settling.scene`."""
     given = {key: value for key, value in config["settling"].items() if key != "scene"}
     return given | {"tolerance": config["scenes"][config["settling"]["scene"]]["tolerance"]}
 
 
 def search(config, starts) -> dict:
-    """Number of random starts, under its key in `search`, with their radius and seed."""
+    """Arguments of a search: number of starts, from the given key of `search`, radius and seed."""
     given = config["search"]
     return {"starts": given[starts], "radius": given["radius"], "seed": config["seed"]}
 
@@ -41,7 +41,7 @@ def system(config, entry) -> dict:
 
 
 def frequencies(config, entry, points) -> list:
-    """Arguments of `numpy.linspace` over the frequencies of an entry's oscillator."""
+    """Arguments of `numpy.linspace` for the range of frequencies of an entry's oscillator."""
     span = config["oscillators"][entry["oscillator"]]["frequencies"]
     return grid(span, config["points"][points])
 
