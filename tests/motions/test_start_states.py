@@ -72,7 +72,7 @@ def test_free_motions_are_settled_ones(name, frequency):
 def test_resonance_non_resonance_and_rest_are_always_among_the_starts():
     free = free_motions(PAPER, 1.8, SETTLING)
     assert len(free.states) >= 2
-    search = search_starts(PAPER, [(DESIGN, 1.8), (None, 1.8)], 5, None, [1, 2], SETTLING)
+    search = search_starts(PAPER, [(DESIGN, 1.8), (None, 1.8)], 5, None, 1, SETTLING)
     assert search.random.shape == (2, 5, 4)
     for state in [*free.states, (0.0, 0.0)]:
         chosen = np.all(np.isclose(search.placed[0][:, :2], state), axis=1)
@@ -85,7 +85,7 @@ def test_resonance_non_resonance_and_rest_are_always_among_the_starts():
 @pytest.mark.parametrize("name", SPRINGS)
 def test_random_starts_lie_within_what_the_search_states(name):
     oscillator, damper = SPRINGS[name], Damper(0.1, 0.7)
-    search = search_starts(oscillator, [(damper, 1.1)], 2000, None, [3], SETTLING)
+    search = search_starts(oscillator, [(damper, 1.1)], 2000, None, 3, SETTLING)
     states, most = search.random[0], (search.displacement[0], search.speed[0])
     assert np.all(np.abs(states[:, 2]) < 0.7)
     assert np.all(np.abs(states[:, :2]) <= most)
@@ -100,7 +100,7 @@ def test_random_starts_lie_within_what_the_search_states(name):
 
 def test_a_free_decay_has_starts_too():
     search = search_starts(
-        Oscillator(0.1, 1.0, force=0.0), [(Damper(0.1, 0.5), 1.0)], 50, None, [1], SETTLING
+        Oscillator(0.1, 1.0, force=0.0), [(Damper(0.1, 0.5), 1.0)], 50, None, 1, SETTLING
     )
     assert search.free_displacement[0] == 0
     assert np.max(np.abs(search.random[0][:, 0])) > 0.1
@@ -109,7 +109,7 @@ def test_a_free_decay_has_starts_too():
 def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        search = search_starts(PAPER, [(DESIGN, 2.3)] * 2, 8, 2.0, [[1, 0], [1, 1]], SETTLING)
+        search = search_starts(PAPER, [(DESIGN, 2.3)] * 2, 8, 2.0, 1, SETTLING)
     assert np.all(np.linalg.norm(search.random, axis=2) <= 2)
     assert [len(each) for each in search.placed] == [0, 0]
     with pytest.warns(

@@ -12,6 +12,7 @@ from impact_damper.motions import ensemble, strobe_map
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.records import MOTION, trace
 from impact_damper.motions.simulate import random_states
+from impact_damper.motions.start_states import NO_STARTS, Search
 from impact_damper.motions.sweep import Catalogue, _end_event, sweep
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper
@@ -20,10 +21,15 @@ from impact_damper.system.settling import Settling
 FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 
 
+def random_search(states):
+    """Return a search with these random starts alone."""
+    return Search(states, [NO_STARTS] * len(states), *np.zeros((4, len(states))))
+
+
 def free_sweep(frequencies, **options):
     parameters = np.array([pack(PAPER, None, w) for w in frequencies])
     states = np.array([random_states(12, 2.5, None, [2, i]) for i in range(len(frequencies))])
-    return sweep(parameters, FREQUENCY, "frequency", states, Settling(), **options)
+    return sweep(parameters, FREQUENCY, "frequency", random_search(states), Settling(), **options)
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +116,7 @@ def test_following_finds_what_random_starts_miss():
     frequencies = np.array([0.8, 1.1, 1.4, 1.7, 2.0])
     parameters = np.array([pack(PAPER, None, w) for w in frequencies])
     states = np.full((5, 1, 4), 0.01)
-    data = sweep(parameters, FREQUENCY, "frequency", states, Settling())
+    data = sweep(parameters, FREQUENCY, "frequency", random_search(states), Settling())
     top = np.nanmax(data["maximum_displacement"][1], axis=1)
     assert np.all(np.diff(top) > 0) and top[-1] > 2.3
     assert data["origin"][1][-1, 0] == flag("origin", "followed")
@@ -139,7 +145,7 @@ def test_sweep_of_the_clearance():
     parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
     # state of the orbit for d0 = 2 at T = 0, in contact
     states = np.array([[[-0.006288, -0.060053, d + 0.020827, -0.571848]] for d in clearances])
-    data = sweep(parameters, CLEARANCE, "clearance", states, Settling())
+    data = sweep(parameters, CLEARANCE, "clearance", random_search(states), Settling())
     branch = data["branch"][1][data["contacts"][1] == 2]
     assert len(branch) == 3 and len(np.unique(branch)) == 1
     assert data["state"][0] == ("clearance", "motion", "component")

@@ -71,15 +71,13 @@ def free_subharmonic(
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     settling = check_settling(settling)
     systems = [(None, value) for value in frequencies]
-    seeds = [[seed, i] for i in range(len(systems))]
-    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
+    search = search_starts(oscillator, systems, starts, radius, seed, settling)
     data = sweep(
         parameters,
         FREQUENCY,
         "frequency",
-        search.random,
+        search,
         settling,
-        placed=search.placed,
         workers=workers,
     )
     chosen = is_subharmonic(data) & (data["period"][1] == 3) & (data["asymmetry"][1] < SAME)

@@ -93,7 +93,7 @@ def missed_share(starts) -> float:
     return min(1.0, RULE_OF_THREE / starts) if starts else 1.0
 
 
-def search_starts(oscillator, systems, count, radius, seeds, settling) -> Search:
+def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
     """Return the starts of a search; if a radius is given, warn as `warn_if_narrow` does.
 
     Parameters
@@ -105,27 +105,27 @@ def search_starts(oscillator, systems, count, radius, seeds, settling) -> Search
         Random starts of each system.
     radius : float or None
         Radius of the ball of random starts; None for a search as wide as the machine.
-    seeds : sequence
-        Seed of each system, an integer or a sequence of integers.
+    seed : int
+        Each system has random starts of its own, drawn with the seed and its place in `systems`.
     settling : Settling
         How free motions are settled.
 
     Raises
     ------
     TypeError, ValueError
-        If count, radius or a seed is out of range.
+        If count, radius or seed is out of range.
     """
     if radius is None:
         rows = [
-            wide_starts(oscillator, *system, count, seed, settling)
-            for system, seed in zip(systems, seeds, strict=True)
+            wide_starts(oscillator, *system, count, [seed, i], settling)
+            for i, system in enumerate(systems)
         ]
     else:
         frequencies = [frequency for _, frequency in systems]
         free = warn_if_narrow(oscillator, frequencies, radius)
         rows = [
-            (random_states(count, radius, damper, seed), NO_STARTS, radius, radius, *free[w])
-            for (damper, w), seed in zip(systems, seeds, strict=True)
+            (random_states(count, radius, damper, [seed, i]), NO_STARTS, radius, radius, *free[w])
+            for i, (damper, w) in enumerate(systems)
         ]
     random, placed, *scales = zip(*rows, strict=True)
     return Search(np.array(random), list(placed), *np.array(scales))

@@ -28,7 +28,6 @@ ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest
 CRITICAL = 0.98
 COMPLEX = 1e-3
 CLOSE = 0.05
-NO_STARTS = np.empty((0, 4))
 
 
 class Catalogue:
@@ -203,7 +202,7 @@ def _tables(catalogues, branches, dimension):
     }
 
 
-def sweep(parameters, index, dimension, states, settling, *, placed=None, workers=1, progress=None):
+def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter.
 
     Parameters
@@ -214,11 +213,9 @@ def sweep(parameters, index, dimension, states, settling, *, placed=None, worker
         Place of the parameter that varies: FREQUENCY or CLEARANCE.
     dimension : str
         Name of the dimension of the data that stands for this parameter.
-    states : array, shape (n, m, 4)
-        Random starts at T = 0.
+    search : start_states.Search
+        Random and placed starts at each value.
     settling : Settling
-    placed : list of array, shape (k, 4), optional
-        Further starts at each value, which do not count as random ones.
     workers, progress
         As in `ensemble.settle`.
 
@@ -226,21 +223,21 @@ def sweep(parameters, index, dimension, states, settling, *, placed=None, worker
     -------
     dict
         Registered variables: with the dimensions (dimension, motion) the distinct motions, with
-        (dimension, start) the outcomes of the runs, with `end` the ends of branches.
+        (dimension, start) the outcomes of the runs, with `end` the ends of branches; and how wide
+        the search was.
     """
-    size, starts = states.shape[:2]
-    placed = placed or [NO_STARTS] * size
+    size, starts = search.random.shape[:2]
     runs = ensemble.settle(
         np.repeat(parameters, starts, axis=0),
-        states.reshape(-1, 4),
+        search.random.reshape(-1, 4),
         settling,
         workers=workers,
         progress=progress,
     ).reshape(size, starts)
-    counts = [len(each) for each in placed]
+    counts = [len(each) for each in search.placed]
     others = ensemble.settle(
         np.repeat(parameters, counts, axis=0),
-        np.concatenate(placed),
+        np.concatenate(search.placed),
         settling,
         workers=workers,
         progress=progress if any(counts) else None,
@@ -282,7 +279,7 @@ def sweep(parameters, index, dimension, states, settling, *, placed=None, worker
     ):
         data[name] = np.array([end[name] for end in ends])
     data["end_branch"] = np.array([branches[end["end_motion"]] for end in ends], int)
-    return data
+    return data | search.variables(dimension)
 
 
 def reached(data):

@@ -58,7 +58,7 @@ def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settl
     peak = peak_frequency(oscillator)
     damping = max(HEAVY, 2 * oscillator.damping, HEAVY_SHARE * peak)
     heavy = replace(oscillator, damping=min(damping, 10.0))
-    search = search_starts(oscillator, [(damper, peak)], starts, radius, [seed], settling)
+    search = search_starts(oscillator, [(damper, peak)], starts, radius, seed, settling)
     states = np.concatenate([search.random[0], search.placed[0]])
     branches, status = [], "no_start"
     p = pack(heavy, damper, peak)

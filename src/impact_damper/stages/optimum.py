@@ -95,19 +95,16 @@ def clearance_sweep(
     dampers = [Damper(clearance=float(value), **damper) for value in clearances]
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
     systems = [(each, frequency) for each in dampers]
-    seeds = [[seed, i] for i in range(len(systems))]
-    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
+    search = search_starts(oscillator, systems, starts, radius, seed, settling)
     data = sweep(
         parameters,
         CLEARANCE,
         "clearance",
-        search.random,
+        search,
         settling,
-        placed=search.placed,
         workers=workers,
         progress=progress,
     )
-    data |= search.variables("clearance")
     forcing = oscillator.forcing_amplitude(frequency)
     inertia = dampers[0].mass_ratio * frequency**2
     branch = _quiet_branch(data, parameters, forcing / inertia)

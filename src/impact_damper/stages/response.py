@@ -76,19 +76,16 @@ def frequency_response(
     check_count("seed", seed, **SEED_RANGE)
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
     systems = [(damper, value) for value in frequencies]
-    seeds = [[seed, i] for i in range(len(systems))]
-    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
+    search = search_starts(oscillator, systems, starts, radius, seed, settling)
     data = sweep(
         parameters,
         FREQUENCY,
         "frequency",
-        search.random,
+        search,
         settling,
-        placed=search.placed,
         workers=workers,
         progress=progress,
     )
-    data |= search.variables("frequency")
     made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
     coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
     return dataset(data, coordinates, made, "Frequency response")

@@ -108,20 +108,17 @@ def subharmonic_suppression(
         frequencies = np.linspace(free.ends[0] - margin, free.ends[1] + margin, len(frequencies))
     parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
     systems = [(damper, value) for value in frequencies]
-    seeds = [[seed, i] for i in range(len(systems))]
-    search = search_starts(oscillator, systems, starts, radius, seeds, settling)
+    search = search_starts(oscillator, systems, starts, radius, seed, settling)
     size = _switch_half(oscillator, parameters, free, search.random, seed)
     data = sweep(
         parameters,
         FREQUENCY,
         "frequency",
-        search.random,
+        search,
         settling,
-        placed=search.placed,
         workers=workers,
         progress=progress,
     )
-    data |= search.variables("frequency")
     data |= _subharmonic_table(data, size) | _branch_table(data, frequencies)
     data |= {
         "switched_share": _shares(data, np.isfinite(size), starts // 2),
