@@ -105,7 +105,7 @@ def _frequencies(machine, name, values):
 
 def _clearances(machine, name, values):
     scales = machine.scales
-    bounds = {end: scales.to_si(CLEARANCE_RANGE[end], "clearance") for end in ("least", "most")}
+    bounds = scales.range_to_si(CLEARANCE_RANGE, "clearance")
 
     def convert(place, value):
         return scales.from_si(check_si(place, value, "clearance", **bounds), "clearance")

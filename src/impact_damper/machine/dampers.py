@@ -68,17 +68,13 @@ class MachineDamper:
         the force with which the loose mass follows the machine at its static deflection.
         """
         scales = machine.scales
-        for name, value, quantity, bounds, factor in (
-            ("mass", self.mass, "mass", MASS_RATIO_RANGE, 1),
-            ("gap", self.gap, "clearance", CLEARANCE_RANGE, 2),
-            ("contact_stiffness", self.contact_stiffness, "stiffness", STIFFNESS_RANGE, 1),
-        ):
-            if value is not None:
-                least, most = (
-                    factor * scales.to_si(bounds[end], quantity) for end in ("least", "most")
-                )
-                check_si(name, value, quantity, least=least, most=most)
+        clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")
+        gaps = {end: 2 * value for end, value in clearances.items()}
+        check_si("mass", self.mass, "mass", **scales.range_to_si(MASS_RATIO_RANGE, "mass"))
+        check_si("gap", self.gap, "clearance", **gaps)
         if self.contact_stiffness is not None:
+            bounds = scales.range_to_si(STIFFNESS_RANGE, "stiffness")
+            check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
             share = self.mass / (machine.mass + self.mass)
             play = 2 * share * machine.static_force / self.contact_stiffness
             why = "static play: what the contact gives way on both sides"

@@ -102,10 +102,8 @@ class Machine:
         if self.damping is not None and critical:
             why = "critical damping: above, nothing swings"
             check_si("damping", self.damping, "damping", most=critical, why=why)
-        least, most = (
-            self.scales.to_si(DAMPING_RANGE[end], "damping") for end in ("least", "most")
-        )
-        check_si("damping", self.viscous_damping, "damping", least=least, most=most)
+        bounds = self.scales.range_to_si(DAMPING_RANGE, "damping")
+        check_si("damping", self.viscous_damping, "damping", **bounds)
 
     @property
     def viscous_damping(self) -> float:
@@ -214,11 +212,8 @@ class Machine:
 
     def check_frequency(self, name, value) -> float:
         """Return a forcing frequency in Hz, or raise an error that names what is allowed."""
-        least, most = (
-            self.scales.to_si(FREQUENCY_RANGE[end], "frequency") for end in ("least", "most")
-        )
-        why = FREQUENCY_RANGE["why"]
-        return check_si(name, value, "frequency", least=least, most=most, why=why)
+        bounds = self.scales.range_to_si(FREQUENCY_RANGE, "frequency")
+        return check_si(name, value, "frequency", **bounds, why=FREQUENCY_RANGE["why"])
 
     def damper(self, *, mass, gap=None, clearance_each_side=None, **contact) -> MachineDamper:
         """Return a damper for this machine.

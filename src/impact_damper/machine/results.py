@@ -96,7 +96,7 @@ def _name_unit(variable, quantity):
     elif quantity == "mixed":
         variable.attrs["long_name"] += ", in the scales of the machine"
     elif quantity != "number":
-        variable.attrs["units"] = QUANTITIES[quantity].shown or QUANTITIES[quantity].unit
+        variable.attrs["units"] = QUANTITIES[quantity].label
         variable.attrs.pop("symbol", None)
     if quantity == "clearance":
         variable.attrs["long_name"] += ", on each side"

@@ -45,6 +45,10 @@ class Scales(NamedTuple):
         """Return the SI value of a dimensionless number or array."""
         return value * self.unit(quantity)
 
+    def range_to_si(self, bounds, quantity) -> dict:
+        """Return `least` and `most` of a dimensionless range in SI units."""
+        return {end: self.to_si(bounds[end], quantity) for end in ("least", "most")}
+
     def from_si(self, value, quantity):
         """Return the dimensionless value of an SI number or array."""
         return value / self.unit(quantity)
@@ -53,16 +57,12 @@ class Scales(NamedTuple):
 def static_deflection(force, linear, cubic) -> float:
     """Return the deflection x > 0 at which linear x + |cubic| x^3 equals a force, all in SI units.
 
-    Newton's method, which from the smaller of the two deflections by one spring alone descends
-    without fail, since the force grows with x and its slope too.
+    The only real root of the cubic equation, in hyperbolic form.
     """
     cubic = abs(cubic)
-    x = min(
-        force / linear if linear else math.inf, (force / cubic) ** (1 / 3) if cubic else math.inf
-    )
-    for _ in range(60):
-        step = (linear * x + cubic * x**3 - force) / (linear + 3 * cubic * x**2)
-        x -= step
-        if abs(step) < 1e-15 * x:
-            break
-    return x
+    if cubic == 0:
+        return force / linear
+    if linear == 0:
+        return (force / cubic) ** (1 / 3)
+    length = math.sqrt(linear) / math.sqrt(3 * cubic)
+    return 2 * length * math.sinh(math.asinh(1.5 * force / (linear * length)) / 3)

@@ -36,6 +36,11 @@ class Quantity(NamedTuple):
     shown: str = ""
     share: float = 1.0
 
+    @property
+    def label(self) -> str:
+        """Unit in datasets, "1" for a number."""
+        return self.shown or self.unit or "1"
+
 
 # Keyed by name; `Variable.quantity`, in the registry of variables, is one of these names.
 QUANTITIES = {

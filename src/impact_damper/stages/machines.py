@@ -111,8 +111,8 @@ def machine_study(
 
 def _labelled(name, values):
     """Return a variable, its attribute `units` being the unit in which datasets show it."""
-    found, quantity = variable(name, values), QUANTITIES[VARIABLES[name].quantity]
-    found.attrs["units"] = quantity.shown or quantity.unit or "1"
+    found = variable(name, values)
+    found.attrs["units"] = QUANTITIES[VARIABLES[name].quantity].label
     return found
 
 

@@ -27,9 +27,7 @@ class RigidWalls(Section):
     damping_ratio: DAMPING_RATIO
     restitutions: several(RESTITUTION, least=1, distinct=True)
     mass_ratios: several(MASS_RATIO, least=1, distinct=True)
-    gaps: several(
-        number("full gap in static deflections", above=0, most=1000), least=1, distinct=True
-    )
+    gaps: several(GAP, least=1, distinct=True)
     frequencies: several(FREQUENCY, least=1, distinct=True)
     stiffnesses: several(CONTACT_STIFFNESS, "r1 of ours, increasing", least=2)
 
@@ -75,9 +73,7 @@ class NonlinearAbsorbers(Section):
     """Nonlinear absorbers."""
 
     mass_ratio: MASS_RATIO
-    forces: several(
-        number("force, with unit stiffnesses", above=0, most=0.05), least=1, distinct=True
-    )
+    forces: several(FORCE, least=1, distinct=True)
 
 
 class BasinShares(Section):
@@ -97,9 +93,7 @@ class JumpFrequencies(Section):
 class HertzImpacts(Section):
     """Impacts of a steel ball."""
 
-    speeds: several(
-        number("speed before the impact, m/s", above=0, most=10), least=1, distinct=True
-    )
+    speeds: several(SPEED, least=1, distinct=True)
 
 
 class Published(Section):
