@@ -13,7 +13,8 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, oscillator_of
 
 SYMMETRIC = 1e-6  # largest asymmetry of a symmetric orbit
-HALF = 0.5  # an orbit is high if max |Z1| exceeds this share of that of the free resonance branch
+# An orbit is high if its max |Z1| exceeds this share of max |Z1| on the free resonance branch.
+HALF = 0.5
 # Columns of `pieces` that are interpolated within a piece.
 INTERPOLATED = ("frequency", "size", "amplitude", "loose")
 
