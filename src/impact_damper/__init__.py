@@ -37,10 +37,14 @@ _OF_MACHINES = {
     "frequency_response",
     "harmonic_balance_response",
     "suppression_band",
+    "optimum_clearance",
     "clearance_sweep",
+    "subharmonic_suppression",
+    "migrate",
     "periodic_orbit",
     "orbit_branch",
     "complete_branches",
+    "harmonic_convergence",
 }
 
 __all__ = list(_HOMES)

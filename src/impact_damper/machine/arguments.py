@@ -1,6 +1,8 @@
 """Functions of the dimensionless equations, called with a machine and in SI units."""
 
 import inspect
+import re
+import warnings
 from functools import wraps
 
 import numpy as np
@@ -9,14 +11,26 @@ import xarray as xr
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.results import FOLLOWED, STATE, from_si, in_si
-from impact_damper.machine.units import check_si, si_value
+from impact_damper.machine.units import NUMBER, QUANTITIES, check_si, si_value
 from impact_damper.system.bounds import CLEARANCE_RANGE, RADIUS_RANGE, shown
 
 NOTE = """
 
 With a `Machine` in place of the oscillator, and a `MachineDamper` in place of the damper, all
-arguments and the dataset returned are in SI units: see `Machine`.
+arguments and the result are in SI units: see `Machine`.
 """
+# Numbers in errors and warnings of the dimensionless functions: for each name that for a machine
+# and its quantity. Mass ratios stay ratios.
+TOLD = {inner: (name, kind) for name, (inner, kind) in FOLLOWED.items() if inner != "mass_ratio"}
+TOLD |= {
+    "frequencies": ("frequencies", "frequency"),
+    "clearances": ("clearances", "clearance"),
+    "radius": ("radius", "displacement"),
+    "displacement": ("displacement", "displacement"),
+    "speed": ("speed", "velocity"),
+    "linear_frequency": ("natural_frequency", "frequency"),
+}
+TOLD_NUMBER = re.compile(rf"\b({'|'.join(TOLD)})((?:\[\d+\])?) = (\[[^\]]*\]|{NUMBER})")
 
 
 def takes_machine(function):
@@ -25,13 +39,14 @@ def takes_machine(function):
     Arguments are known by their names, which mean the same in all functions: `frequency` and
     `frequencies` (Hz), `state` (m, m/s), `clearances` (m, on each side), `radius` (m; of speeds as
     in the scales of the machine), `start` (s), `damper`, `parameter` with `span`, `motions`. Each
-    number may be text with units or a quantity of pint. The dataset is returned by `in_si`. With
-    an `Oscillator` nothing is converted.
+    number may be text with units or a quantity of pint; `mass_ratio` is a ratio for a machine too.
+    The dataset is returned by `in_si`; a single number is a clearance on each side, in m. Numbers
+    in errors and warnings are in SI units. With an `Oscillator` nothing is converted.
 
     Parameters
     ----------
     function : callable
-        Its first argument is `oscillator`; it returns a dataset.
+        Its first argument is `oscillator`; it returns a dataset or a clearance.
     """
     signature = inspect.signature(function)
 
@@ -63,7 +78,31 @@ def _called(function, machine, given):
         arguments["damper"] = _damper(machine, damper, swept="clearances" in arguments)
     if "span" in arguments:
         arguments |= _span(machine, parameter, arguments["span"])
-    return in_si(function(**arguments), machine, damper)
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            found = function(**arguments)
+    except (ArithmeticError, ValueError) as error:
+        raise type(error)(_told_in_si(str(error), machine.scales)) from None
+    for each in caught:
+        warnings.warn(_told_in_si(str(each.message), machine.scales), each.category, stacklevel=3)
+    if isinstance(found, float):
+        return machine.scales.to_si(found, "clearance")
+    return in_si(found, machine, damper)
+
+
+def _told_in_si(message, scales):
+    """Return a message with its numbers in SI units, where it says `name = number`."""
+
+    def told(match):
+        name, quantity = TOLD[match[1]]
+        unit = QUANTITIES[quantity].unit
+        values = re.sub(
+            NUMBER, lambda number: f"{scales.to_si(float(number[0]), quantity):.5g}", match[3]
+        )
+        return f"{name}{match[2]} = {values} {unit}".rstrip()
+
+    return TOLD_NUMBER.sub(told, message)
 
 
 def _damper(machine, damper, swept):
@@ -136,6 +175,10 @@ def _start(machine, name, value):
     return machine.scales.from_si(si_value(name, value, "time"), "time")
 
 
+def _mass_ratio(machine, name, value):
+    return si_value(name, value, "number")
+
+
 def _motions(machine, name, values):
     if not isinstance(values, list) or not all(isinstance(each, xr.Dataset) for each in values):
         raise TypeError(f"{name} = {shown(values)}: must be a list of datasets of motions")
@@ -149,5 +192,6 @@ CONVERTED = {
     "state": _state,
     "radius": _radius,
     "start": _start,
+    "mass_ratio": _mass_ratio,
     "motions": _motions,
 }

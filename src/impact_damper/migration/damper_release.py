@@ -72,8 +72,8 @@ def _free_motion(oscillator, frequency, start, which, settling):
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     """Return the case of a damper: start on the free resonance branch, and the goal of release.
 
-    The resonance motion is followed upward in frequency. The goal, the non-resonance motion, is
-    followed downward.
+    The resonance motion is followed upward in frequency, with a softening spring downward. The
+    goal, the non-resonance motion, is followed the other way.
 
     Raises
     ------
@@ -83,8 +83,9 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
     above = min(1.1 * frequency, FREQUENCY_RANGE["most"])
     below = max(0.9 * frequency, FREQUENCY_RANGE["least"])
-    goal = _free_motion(oscillator, frequency, above, 0, settling)
-    resonance = _free_motion(oscillator, frequency, below, -1, settling)
+    ends = (above, below) if oscillator.hardening >= 0 else (below, above)
+    goal = _free_motion(oscillator, frequency, ends[0], 0, settling)
+    resonance = _free_motion(oscillator, frequency, ends[1], -1, settling)
     known = np.array(
         [
             np.nan if record is None else record["maximum_displacement"]
@@ -93,8 +94,9 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     )
     if not known[0] + ALIKE < known[1]:
         raise ValueError(
-            f"frequency = {frequency:g}: the free oscillator must have a non-resonance and a "
-            "resonance motion case, since migration leads from one to the other"
+            f"frequency = {frequency:g}: without the damper there must be both a non-resonance and "
+            "a resonance motion, since migration leads from one to the other (a linear spring has "
+            "but one motion)"
         )
     return ReleaseCase(on, off, resonance["state"].copy(), known)
 

@@ -147,8 +147,8 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
     most, fastest = sizes[worst], sizes[worst] * worst
     if max(most, fastest) > radius:
         warnings.warn(
-            f"radius = {radius:g}: smaller than the free motion at frequency = {worst:g}, with a "
-            f"displacement of {most:.3g} and a speed of {fastest:.3g} by harmonic balance; motions "
+            f"radius = {radius:g}: smaller than the free motion at frequency = {worst:g}, with "
+            f"displacement = {most:.3g} and speed = {fastest:.3g} by harmonic balance; motions "
             "may be missed, without a radius a search is as wide as the machine",
             stacklevel=4,
         )

@@ -36,6 +36,11 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     mass_ratio : float
         rm, dimensionless.
 
+    Returns
+    -------
+    float
+        Clearance on each side, half the free space.
+
     Raises
     ------
     TypeError, ValueError

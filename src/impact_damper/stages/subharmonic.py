@@ -20,7 +20,7 @@ from impact_damper.motions.sweep import SAME, reached, sweep
 from impact_damper.system.bounds import SEED_RANGE, check_count
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.system.parameters import check_damper, describe
+from impact_damper.system.parameters import check_damper, check_oscillator, describe
 from impact_damper.system.settling import check_settling
 
 # Margin of the frequencies beyond each end of the free subharmonic, as a share of its width.
@@ -86,10 +86,15 @@ def subharmonic_suppression(
     TypeError
         If there is no damper.
     ValueError
-        If frequencies are not increasing, or a parameter is out of range.
+        If the spring is linear, frequencies are not increasing, or a parameter is out of range.
     """
     settling = check_settling(settling)
     check_damper(damper)
+    check_oscillator(oscillator)
+    if oscillator.cubic == 0:
+        raise ValueError(
+            "cubic = 0: must not be 0 (without the damper a linear spring has no subharmonic)"
+        )
     frequencies = check_frequencies(frequencies, "two")
     check_starts(starts, max(SEARCHED, len(frequencies)), least=2)
     check_count("seed", seed, **SEED_RANGE)

@@ -30,7 +30,7 @@ def peak_frequency(oscillator) -> float:
         raise ValueError(
             f"unbalance = {oscillator.unbalance:g}: the response has no peak, it grows with the "
             f"frequency without end; with cubic = {oscillator.cubic:g} and damping = "
-            f"{oscillator.damping:g} a peak needs an unbalance below "
+            f"{oscillator.damping:g} a peak needs less than unbalance = "
             f"{oscillator.damping / math.sqrt(hardening):g}"
         )
     cubic = 2 * math.sqrt(abs(hardening)) * oscillator.force / oscillator.damping

@@ -15,8 +15,13 @@ VARIABLES = {
         flags=SEARCH,
     ),
     "series_steps": Variable(COUNTED, "number of steps of Newton's method"),
-    "series_residual": Variable(COUNTED, "largest residual of the balance"),
-    "series_maximum": Variable(COUNTED, "largest displacement by harmonic balance", "max |Z1|"),
+    "series_residual": Variable(COUNTED, "largest residual of the balance", quantity="mixed"),
+    "series_maximum": Variable(
+        COUNTED,
+        "largest displacement by harmonic balance",
+        "max |Z1|",
+        quantity="displacement",
+    ),
     "series_error": Variable(
         (*ERRORS, *COUNTED),
         "difference from the exact orbit: of max |Z1|, of Z1 in the harmonics up to N and beyond N "
@@ -43,15 +48,21 @@ VARIABLES = {
         EXPONENTS, "Floquet multiplier by Hill's method, imaginary part"
     ),
     "hill_trace_error": Variable(
-        COUNTED, "sum of the exponents by Hill's method minus the sum by Liouville's theorem"
+        COUNTED,
+        "sum of the exponents by Hill's method minus the sum by Liouville's theorem",
+        quantity="rate",
     ),
     "exact_status": Variable(
         (), "whether the exact orbit was found", flags={"not_found": 0, "found": 1}
     ),
     "exact_residual": Variable(
-        (), "distance between the state of the exact orbit and the state a period later"
+        (),
+        "distance between the state of the exact orbit and the state a period later",
+        quantity="mixed",
     ),
-    "exact_maximum": Variable((), "largest displacement of the exact orbit", "max |Z1|"),
+    "exact_maximum": Variable(
+        (), "largest displacement of the exact orbit", "max |Z1|", quantity="displacement"
+    ),
     "exact_multiplier_real": Variable(("exponent",), "exact Floquet multiplier, real part"),
     "exact_multiplier_imaginary": Variable(
         ("exponent",), "exact Floquet multiplier, imaginary part"

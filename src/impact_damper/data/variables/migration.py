@@ -10,9 +10,15 @@ from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, Va
 
 VARIABLES = {
     # migration control
-    "on_time": Variable(("trial", "switching"), "time at which the damper is switched on", "T"),
-    "off_time": Variable(("trial", "switching"), "time at which the damper is switched off", "T"),
-    "end_time": Variable(("trial", "switching"), "time at which the free motion has settled", "T"),
+    "on_time": Variable(
+        ("trial", "switching"), "time at which the damper is switched on", "T", quantity="time"
+    ),
+    "off_time": Variable(
+        ("trial", "switching"), "time at which the damper is switched off", "T", quantity="time"
+    ),
+    "end_time": Variable(
+        ("trial", "switching"), "time at which the free motion has settled", "T", quantity="time"
+    ),
     "released_from": Variable(
         ("trial", "switching"),
         "damped motion in which the damper is switched off",
@@ -27,12 +33,16 @@ VARIABLES = {
         ("trial", "switching"),
         "largest displacement of the motion released_from, if it has settled",
         "max |Z1|",
+        quantity="displacement",
     ),
     "destination": Variable(
         ("trial", "switching"), "free motion that a release leads to", flags=FREE_MOTION
     ),
     "destination_displacement": Variable(
-        ("trial", "switching"), "largest displacement of the free motion", "max |Z1|"
+        ("trial", "switching"),
+        "largest displacement of the free motion",
+        "max |Z1|",
+        quantity="displacement",
     ),
     "trial_outcome": Variable(
         ("trial",),
@@ -64,7 +74,7 @@ VARIABLES = {
         ("damped",), "period in forcing periods, 0 if it has not settled", "n"
     ),
     "damped_displacement": Variable(
-        ("damped",), "largest displacement, if it has settled", "max |Z1|"
+        ("damped",), "largest displacement, if it has settled", "max |Z1|", quantity="displacement"
     ),
     "damped_contacts": Variable(
         ("damped",), "contacts begun per forcing period, if it has settled"
@@ -73,10 +83,16 @@ VARIABLES = {
         ("damped", "release"), "forcing periods from Omega T = pi/2 to the release"
     ),
     "release_displacement": Variable(
-        ("damped", "release"), "displacement of the primary mass at the release", "Z1"
+        ("damped", "release"),
+        "displacement of the primary mass at the release",
+        "Z1",
+        quantity="displacement",
     ),
     "release_velocity": Variable(
-        ("damped", "release"), "velocity of the primary mass at the release", "Z1'"
+        ("damped", "release"),
+        "velocity of the primary mass at the release",
+        "Z1'",
+        quantity="velocity",
     ),
     "release_destination": Variable(
         ("damped", "release"), "free motion that the release leads to", flags=FREE_MOTION

@@ -42,7 +42,10 @@ VARIABLES = {
         ("contact",), "relative velocity at the beginning of a contact", "Z2'", quantity="velocity"
     ),
     "escape_time": Variable(
-        (), "time of the first sample after the motion has escaped over a barrier, or NaN", "T"
+        (),
+        "time of the first sample after the motion has escaped over a barrier, or NaN",
+        "T",
+        quantity="time",
     ),
     "departure_velocity": Variable(
         ("contact",), "relative velocity at the end of a contact", "Z2'", quantity="velocity"

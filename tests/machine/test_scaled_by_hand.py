@@ -1,0 +1,165 @@
+"""Functions called with a machine, against the same with numbers scaled by hand.
+
+The oscillator of the paper in units of 2 mm, 10 ms and 3 kg. The scales of the machine are others.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import impact_damper as idm
+from impact_damper.data.datasets import flag
+
+LENGTH, TIME, MASS = 2e-3, 1e-2, 3.0
+FORCE, STIFFNESS = MASS * LENGTH / TIME**2, MASS / TIME**2
+PAPER, PAPER_DAMPER = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+HARD = idm.Machine(
+    mass=MASS, cubic_stiffness=STIFFNESS / LENGTH**2, damping=0.215 * MASS / TIME, force=FORCE
+)
+DAMPER = HARD.damper(
+    mass=0.12 * MASS, clearance_each_side=2 * LENGTH, contact_stiffness=2000 * STIFFNESS
+)
+SOFTENING = {
+    "mass": MASS,
+    "linear_stiffness": STIFFNESS,
+    "cubic_stiffness": -STIFFNESS / LENGTH**2,
+    "damping": 0.05 * MASS / TIME,
+}
+SOFT = idm.Machine(**SOFTENING, force=0.02 * FORCE)
+LINEAR = idm.Machine(mass=MASS, linear_stiffness=STIFFNESS, damping_ratio=0.01, force=FORCE)
+# value in a dataset of the dimensionless 1
+UNITS = {
+    "mm": 1e3 * LENGTH,
+    "s": TIME,
+    "Hz": 1 / (2 * math.pi * TIME),
+    "1/s": 1 / TIME,
+    "1": 1.0,
+    "radian": 1.0,
+}
+
+
+def hertz(frequency):
+    return frequency * UNITS["Hz"]
+
+
+def assert_scaled(found, by_hand, names, **tolerances):
+    """The variables are those scaled by hand, by the unit that each one names."""
+    for name in names:
+        expected = by_hand[name].values * UNITS[found[name].attrs.get("units", "1")]
+        np.testing.assert_allclose(found[name], expected, err_msg=name, **tolerances)
+
+
+def test_optimum_clearance_of_a_machine():
+    """Against the dimensionless rule, and F/(m2 (2 pi f)^2) of a linear machine."""
+    found = idm.optimum_clearance(HARD, "12 %")
+    assert found == pytest.approx(LENGTH * idm.optimum_clearance(PAPER, 0.12), rel=1e-12)
+    closed = LINEAR.force / (0.05 * MASS) / (2 * math.pi * LINEAR.natural_frequency) ** 2
+    assert idm.optimum_clearance(LINEAR, 0.05) == pytest.approx(closed, rel=1e-12)
+
+
+def test_harmonic_convergence_of_a_machine():
+    found = idm.harmonic_convergence(HARD, DAMPER, hertz(2.0), [1, 5, 21], cold=[5])
+    by_hand = idm.harmonic_convergence(PAPER, PAPER_DAMPER, 2.0, [1, 5, 21], cold=[5])
+    names = ("series_maximum", "exact_maximum", "hill_trace_error", "hill_multiplier_real")
+    assert [found[name].attrs["units"] for name in names] == ["mm", "mm", "1/s", "1"]
+    names += ("exact_multiplier_imaginary", "series_error", "decay_predicted", "cold_status")
+    assert_scaled(found, by_hand, names, rtol=1e-7, atol=1e-12)
+    assert found["exact_residual"].attrs["long_name"].endswith("in the scales of the machine")
+
+
+def test_subharmonic_suppression_of_a_machine():
+    """Ends of the free subharmonic, and the damped motions."""
+    frequencies = np.array([1.7, 1.72, 1.75])
+    # narrow, to be fast
+    with pytest.warns(UserWarning, match="radius"):
+        by_hand = idm.subharmonic_suppression(
+            PAPER, PAPER_DAMPER, frequencies, starts=6, radius=2.0
+        )
+    with pytest.warns(UserWarning, match=r"radius = 0\.004 m"):
+        found = idm.subharmonic_suppression(
+            HARD, DAMPER, hertz(frequencies), starts=6, radius=2 * LENGTH
+        )
+    assert float(by_hand["free_subharmonic_frequency"][0]) == pytest.approx(1.7104, abs=1e-4)
+    names = ("frequency", "free_subharmonic_frequency", "free_subharmonic")
+    assert [found[name].attrs["units"] for name in names] == ["Hz", "Hz", "mm"]
+    names += ("free_subharmonic_event", "damped_subharmonic", "suppression", "switched_share")
+    assert_scaled(found, by_hand, names, rtol=1e-6, atol=1e-9)
+
+
+def test_migration_of_a_machine():
+    """Released after 3 forcing periods, so that chaos does not magnify rounding."""
+    given = {"seed": 1, "longest_hold": 3}
+    found = idm.migrate(HARD, DAMPER, hertz(1.95), **given)
+    by_hand = idm.migrate(PAPER, PAPER_DAMPER, 1.95, **given)
+    names = ("on_time", "off_time", "destination", "destination_displacement", "switchings")
+    assert [found[name].attrs.get("units") for name in names[:4]] == ["s", "s", "1", "mm"]
+    assert_scaled(found, by_hand, names, rtol=1e-6)
+    short = {"time": slice(0, 1000)}
+    assert_scaled(
+        found.isel(short), by_hand.isel(short), ("time", "displacement"), rtol=1e-6, atol=1e-6
+    )
+
+
+def test_migration_of_a_softening_machine():
+    """The resonance branch of a softening spring comes from high frequencies."""
+    damper = SOFT.damper(
+        mass=0.1 * MASS,
+        clearance_each_side=0.4 * LENGTH,
+        restitution=0.8,
+        contact_stiffness=2000 * STIFFNESS,
+    )
+    found = idm.migrate(SOFT, damper, hertz(0.93), seed=1)
+    assert int(found["trial_outcome"]) == flag("trial_outcome", "reached")
+    free = idm.frequency_response(SOFT, None, [hertz(0.93)], starts=8)["maximum_displacement"]
+    least, most = np.nanmin(free), np.nanmax(free)
+    assert most > 2 * least
+    assert float(found["destination_displacement"][-1]) == pytest.approx(least, rel=1e-6)
+    assert float(found["displacement"][:100].max()) == pytest.approx(most, rel=1e-2)
+
+
+def test_the_radius_of_a_search_is_warned_of_in_si_units():
+    expected = r"^radius = 1e-05 m: .* at frequency = 31 Hz, with displacement = 0\.00\d+ m and"
+    with pytest.warns(UserWarning, match=expected):
+        idm.frequency_response(HARD, None, [31], starts=1, radius="10 µm")
+
+
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (
+            lambda: idm.migrate(HARD, DAMPER, 40.0),
+            "frequency = 40 Hz: without the damper there must be both a non-resonance and a res",
+        ),
+        (lambda: idm.migrate(LINEAR, DAMPER, 16.0), "frequency = 16 Hz: without the damper there"),
+        (
+            lambda: idm.subharmonic_suppression(LINEAR, DAMPER, [14, 15]),
+            "cubic_stiffness = 0 N/m^3: must not be 0 (without the damper a linear spring has no",
+        ),
+        (
+            lambda: idm.optimum_clearance(idm.Machine(**SOFTENING, force="8 N"), 0.1),
+            "force = 8 N: the response has no peak, the motion goes over the barrier of the "
+            "softening spring (cubic_stiffness = -7.5e+09 N/m^3) before",
+        ),
+        (
+            lambda: idm.optimum_clearance(idm.Machine(**SOFTENING, force=0), 0.1),
+            "force = 0 N, unbalance = 0 kg m: the rule for the clearance needs a forcing",
+        ),
+        (
+            lambda: idm.optimum_clearance(LINEAR, "0.3 kg"),
+            "mass_ratio = '0.3 kg': must be a number, or text such as",
+        ),
+        (
+            lambda: idm.harmonic_convergence(HARD, DAMPER, 300.0, [1, 2]),
+            "harmonics = [1, 2]: must be odd",
+        ),
+        (
+            lambda: idm.frequency_response(LINEAR, DAMPER, [16, 15.5]),
+            "frequencies = [16, 15.5] Hz: must be increasing",
+        ),
+    ],
+)
+def test_what_makes_no_sense_is_said_in_si_units(call, told):
+    with pytest.raises((TypeError, ValueError)) as raised:
+        call()
+    assert str(raised.value).startswith(told)
