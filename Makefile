@@ -21,10 +21,8 @@ slurm: $(READY)
 	profiles/slurm/try.sh $(abspath $(BIN))/snakemake
 
 # Compiled before the tests, so that their processes load the kernels and do not all compile them.
-COMPILE := from impact_damper.workflow import compile_kernels as all; \
-	all.warm_up(); all.warm_up_rivals()
 kernels: $(READY)
-	$(BIN)/python -c "$(COMPILE)"
+	$(BIN)/python -m impact_damper.workflow.compile_kernels '[2, []]'
 
 # On all cores, each file in one process, so that its fixtures are made once.
 # PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".

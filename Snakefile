@@ -33,6 +33,7 @@ include: "workflow/rules/report.smk"
 
 onstart:
     check_writable(Path(config["results"]))
+    compile_again()
 
 
 onsuccess:

@@ -13,7 +13,10 @@ FIRST = {
     "simulate": f"import impact_damper as idm; idm.simulate({SYSTEM}, periods=50)",
     "steady_motion": f"import impact_damper as idm; idm.steady_motion({SYSTEM})",
 }
-ALL = "from impact_damper.workflow.compile_kernels import warm_up; warm_up()"
+ALL = (
+    "from impact_damper.workflow.compile_kernels import warm_up_orbits, warm_up_settling; "
+    "warm_up_orbits(); warm_up_settling()"
+)
 IMPORTS = ("numpy", "numba", "xarray", "scipy.integrate", "matplotlib.figure", "impact_damper")
 
 

@@ -12,13 +12,14 @@ from pathlib import Path
 
 import pytest
 import yaml
+from faults.project import Project
 from helpers import planning
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
 from impact_damper.workflow import selection
 from impact_damper.workflow.registry import CHAPTERS, STAGES
-from impact_damper.workflow.sources import module_file, sources
+from impact_damper.workflow.sources import compiled_kernels, module_file, sources
 
 pytestmark = pytest.mark.workflow
 
@@ -63,6 +64,10 @@ FILES = {
     "src/impact_damper/figures/response.py": chapters("responses"),
     "workflow/scripts/motion.py": {"motion/figure_04", *chapters("responses", "claims")},
     "src/impact_damper/stages/studies.py": {"studies/design_plane", *chapters("clearance")},
+    "src/impact_damper/migration/legs.py": {
+        *("migration/*", "release_scan/*"),
+        *chapters("migration", "claims"),
+    },
 }
 
 
@@ -75,6 +80,8 @@ def project(tmp_path_factory):
         output.parent.mkdir(parents=True, exist_ok=True)
         with Dataset(output, "w") if output.suffix == ".nc" else output.open("w"):
             pass
+    config = yaml.safe_load((project / "config/config.yaml").read_text())
+    (project / "results/kernels.compiled").write_text(compiled_kernels(config))
     result = snakemake(project, "everything", "--touch", "--forceall")
     assert result.returncode == 0, result.stdout + result.stderr
     return project
@@ -192,7 +199,29 @@ def test_an_edit_of_a_value_reruns_what_reads_it(path, project, edit, config, jo
 @pytest.mark.parametrize("path", FILES)
 def test_an_edit_of_a_file_reruns_what_runs_it(path, project, edit, config, jobs):
     edit(path, (project / path).read_text() + "\n")
-    assert to_do(project, config) == (FILES[path] or set(jobs))
+    assert to_do(project, config) == matching(jobs, FILES[path] or jobs)
+
+
+def test_an_edit_of_the_orders_of_the_series_reruns_what_reads_them(project, edit, config, jobs):
+    edited = copy.deepcopy(config)
+    edited["comparison"]["orders"] = [[12, 16]]
+    edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
+    assert to_do(project, config) == matching(jobs, {"accuracy/*", "chapter/methods"})
+
+
+def test_kernels_that_were_edited_are_compiled_before_the_first_job(tmp_path):
+    project, output = Project(tmp_path), "results/harmonic_balance/figure_05a.nc"
+    marker = tmp_path / "results/kernels.compiled"
+    marker.parent.mkdir()
+    marker.write_text("the digest of other sources")
+    told = "Compiling the kernels again"
+    assert told not in project.run("-n", targets=[output])[1]
+    code, words = project.run(targets=[output])
+    assert code == 0 and words.count(told) == 1, words
+    assert marker.read_text() == compiled_kernels({"comparison": {"orders": []}})
+    (tmp_path / output).unlink()
+    code, words = project.run(targets=[output])
+    assert code == 0 and told not in words, words
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
@@ -234,9 +263,11 @@ def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
         return {key: turned(part) for key, part in reversed(value.items())}
 
     edit("config/config.yaml", f"# A word.\n{yaml.safe_dump(turned(config), sort_keys=False)}")
-    (project / "results/kernels.compiled").unlink()
+    marker = project / "results/kernels.compiled"
+    text = marker.read_text()
+    marker.unlink()
     result = snakemake(project, "-n")
-    (project / "results/kernels.compiled").touch()
+    marker.write_text(text)
     assert "Nothing to be done" in result.stdout + result.stderr
 
 

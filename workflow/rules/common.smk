@@ -25,7 +25,7 @@ gc.set_threshold(100_000)
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
-# Compiled kernels. A job that needs them waits for this file, but its age reruns nothing.
+# A job that needs compiled kernels waits for this file, but its age reruns nothing.
 KERNELS = ancient("<results>/kernels.compiled")
 
 

@@ -1,9 +1,15 @@
-# The marker file says only that kernels were compiled on this machine. It has no inputs, and the
-# jobs that need it declare it `ancient`, so compiling again never reruns them. Compiled kernels are
-# stored under a digest of their sources, so an outdated one is never run.
+import subprocess
+import sys
+
+from impact_damper.workflow.sources import compiled_kernels
+
+
+# The marker file states which kernels were compiled. This rule has neither inputs nor parameters:
+# if an edit of them started it, Snakemake would not examine the jobs that take the marker for
+# changes of their own (its issue 4166). So `compile_again` follows edits.
 rule compile_kernels:
     output:
-        touch("<results>/kernels.compiled"),
+        "<results>/kernels.compiled",
     log:
         "<logs>/compile_kernels.log",
     # Most jobs wait for it. Next (2) are the jobs that others wait for, then (1) the longest ones,
@@ -14,9 +20,20 @@ rule compile_kernels:
     threads: 2
     resources:
         mem_mb=2000,
-    params:
-        orders=config["comparison"]["orders"],
     message:
         "Compiling the kernels, once for all jobs"
     script:
         "../scripts/compile_kernels.py"
+
+
+def compile_again():
+    """Before the first job: compile kernels that were edited since the marker file was written."""
+    marker, now = Path(config["results"]) / "kernels.compiled", compiled_kernels(config)
+    if not marker.exists() or marker.read_text() == now:
+        return
+    logger.info("Compiling the kernels again: they were edited")
+    program = [sys.executable, "-m", "impact_damper.workflow.compile_kernels"]
+    arguments = json.dumps([workflow.cores or 1, config["comparison"]["orders"]])
+    if subprocess.run([*program, arguments]).returncode:
+        raise WorkflowError("The kernels cannot be compiled: see the error above.")
+    marker.write_text(now)

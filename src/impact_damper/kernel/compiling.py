@@ -8,7 +8,6 @@ numba notices an edit of the file in which a cached function stands, and not an 
 function calls. So the cache is a folder named by the digest of all modules a kernel can depend on.
 """
 
-import hashlib
 import os
 import tempfile
 from contextlib import contextmanager
@@ -18,29 +17,8 @@ from pathlib import Path
 import numba
 import platformdirs
 
+from impact_damper.kernel import source_digest
 from impact_damper.kernel.progress import show_progress
-
-# These rooms call kernels and hold none, and no room with kernels may import them.
-ROOMS_WITHOUT_KERNELS = (
-    "literature",
-    "comparisons",
-    "stages",
-    "claims",
-    "tables",
-    "figures",
-    "workflow",
-)
-
-
-def source_digest() -> str:
-    """Return the digest of numba's version and of the sources that kernels can depend on."""
-    digest = hashlib.sha256(numba.__version__.encode())
-    package = Path(__file__).parents[1]
-    for path in sorted(package.rglob("*.py")):
-        name = path.relative_to(package)
-        if name.parts[0] not in ROOMS_WITHOUT_KERNELS:
-            digest.update(name.as_posix().encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 def _cache_directory() -> Path:

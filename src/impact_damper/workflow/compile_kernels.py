@@ -4,10 +4,17 @@ A module that holds steps of the series compiles them when it is imported. So ea
 imports what it compiles, which lets two processes share the work.
 """
 
+import gc
+import json
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
 import numpy as np
 
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.workflow.job import end_with_parent
 
 OSCILLATOR = Oscillator(damping=0.215)
 # With this damper motions settle soon at this frequency, so that following orbits is compiled too.
@@ -15,14 +22,27 @@ DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
 FREQUENCY = 1.95
 
 
-def warm_up() -> None:
-    """Call each kernel once, with the types that all calls have."""
-    warm_up_orbits()
-    warm_up_settling()
+def compile_all(processes, orders) -> None:
+    """Compile and cache all kernels, on up to two cores.
+
+    Parameters
+    ----------
+    processes : int
+        Number of processes.
+    orders : list of list of int
+        Further pairs of orders of the Taylor series.
+    """
+    gc.disable()  # compiling makes little garbage, and its collection takes a fifth of the time
+    fork = get_context("fork")  # workers keep the setting
+    with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
+        for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
+            half.result()
+        # These call kernels of both halves.
+        pool.submit(warm_up_rivals, orders).result()
 
 
 def warm_up_orbits() -> None:
-    """Do the part of `warm_up` for kernels that take one motion after the other.
+    """Call once each kernel that takes one motion after the other.
 
     First come kernels that `warm_up_settling` needs too, and last those that need its kernels.
     """
@@ -45,7 +65,7 @@ def warm_up_orbits() -> None:
 
 
 def warm_up_settling() -> None:
-    """Do the part of `warm_up` for kernels that run many motions until they settle."""
+    """Call once each kernel that runs many motions until they settle."""
     from impact_damper.kernel import batch
 
     pool, places = batch.make_pool(1), np.zeros(batch.LANES, np.int64)
@@ -93,3 +113,7 @@ def warm_up_rivals(orders=()) -> None:
     for name in COMPARED["stable_steps"]:
         rivals[name].largest_displacements(p, start, begin, 1, 100)
     draw_passages(p, 1, 2.0, 0.1, 1995)
+
+
+if __name__ == "__main__":
+    compile_all(*json.loads(sys.argv[1]))

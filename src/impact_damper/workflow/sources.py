@@ -1,12 +1,15 @@
 """Source files that a job runs: a script, and every module of the package that it imports.
 
-They are inputs of the job, so that Snakemake compares their contents.
+They are inputs of the job, so that Snakemake compares their contents. The sources of kernels are
+compared by the text of a marker file.
 """
 
 import ast
 import re
 from functools import cache
 from pathlib import Path
+
+from impact_damper.kernel import source_digest
 
 PACKAGE = Path(__file__).parents[1]
 
@@ -57,3 +60,8 @@ def module_file(name) -> Path:
             if file.exists():
                 return file
     raise ModuleNotFoundError(f"there is no module {PACKAGE.name}.{name}")
+
+
+def compiled_kernels(config) -> str:
+    """Return the text of the marker file: digest of the sources, and orders of the series."""
+    return f"{source_digest()} {config['comparison']['orders']}\n"
