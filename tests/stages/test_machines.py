@@ -51,6 +51,9 @@ def test_gaps_are_full_plays(study):
     np.testing.assert_allclose(study["gap"], 2 * study["clearance"])
     assert json.loads(study.attrs["machine"])["gap"] == 0.008
     assert float(study["optimum_gap"]) == 2 * float(study["optimum_clearance"])
+    size, gap = float(study["optimum_displacement"]), float(study["optimum_gap"])
+    words = f"quiet motion of {size:.4g} mm at the gap {gap:.4g} mm (full play)"
+    assert study.attrs["optimum"].startswith(words)
 
 
 def test_the_loose_mass_of_the_quiet_motion_holds_the_force():
@@ -75,8 +78,8 @@ def test_without_a_quiet_motion_words_say_so():
     data = machine_study(MACHINE, DAMPER, [20.5, 20.6], frequency, gaps, starts=2, workers=2)
     assert int(data["optimum_kind"]) == flag("optimum_kind", "not_found")
     assert data.attrs["optimum"] == (
-        "no quiet motion at 20.5468 Hz: none of 2 starts at each of 3 gaps from 1 to 2 mm leads to "
-        "one"
+        "no quiet motion: none of the starts, 2 of them random, at each of 3 gaps from 1 to 2 mm "
+        "(full play) leads to one"
     )
     assert (data["quiet_share"] == 0).all()
 

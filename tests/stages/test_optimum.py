@@ -150,6 +150,10 @@ def test_optimum_at_the_edge_of_the_sweep():
     sweep = run(ELASTIC, 2.6, 3.0, points=3)
     assert sweep.optimum_kind == flag("optimum_kind", "edge")
     assert_allclose(sweep.optimum_clearance, 2.6, rtol=1e-6)
+    assert sweep.attrs["optimum"] == (
+        f"quiet motion of {float(sweep.optimum_displacement):.4g} at the clearance 2.6, the end of "
+        "the clearances from 2.6 to 3"
+    )
     assert sweep.near_status[0] == flag("near_status", "sweep_ends")
 
 
@@ -161,6 +165,10 @@ def test_no_quiet_motion(tmp_path):
     sweep = run(INELASTIC | {"mass_ratio": 0.12}, 2.6, 3.0, points=3)
     assert np.all(sweep.quiet_status == flag("quiet_status", "absent"))
     assert sweep.optimum_kind == flag("optimum_kind", "not_found")
+    assert sweep.attrs["optimum"] == (
+        f"no quiet motion: none of the starts, {sweep.sizes['start']} of them random, at each of 3 "
+        "clearances from 2.6 to 3 leads to one"
+    )
     save(sweep, tmp_path / "sweep.nc")
     assert load(tmp_path / "sweep.nc").identical(sweep)
 

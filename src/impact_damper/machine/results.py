@@ -9,6 +9,7 @@ import json
 import numpy as np
 
 from impact_damper.data.datasets import parameters_of
+from impact_damper.data.optimum_words import optimum_in_words
 from impact_damper.data.variables import VARIABLES
 from impact_damper.machine.machine import describe_si
 from impact_damper.machine.units import QUANTITIES
@@ -54,6 +55,8 @@ def in_si(data, machine, damper=None):
     for name in converted.variables:
         _name_unit(converted[name], _quantity(name, data))
     texts = {name: json.dumps(value, sort_keys=True) for name, value in made.items()}
+    if "optimum" in data.attrs:
+        texts["optimum"] = optimum_in_words(converted)
     return converted.assign_attrs(texts)
 
 

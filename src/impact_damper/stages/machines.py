@@ -104,9 +104,8 @@ def machine_study(
     clearances = np.asarray(gaps, float) / 2
     sweep = _sweep(machine, damper, frequency, clearances, **searched, progress=progress)
     parts = [motions, orbits, bare, sweep[list(SWEPT)], _over_gap(sweep, frequency)]
-    words = optimum_in_words(sweep, frequency)
     merged = xr.merge(parts, compat="override", join="outer", combine_attrs="override")
-    return merged.assign_attrs(title="A machine with its damper", optimum=words)
+    return merged.assign_attrs(title="A machine with its damper", optimum=sweep.attrs["optimum"])
 
 
 def _labelled(name, values):
@@ -127,33 +126,6 @@ def _over_gap(sweep, frequency):
         "quiet_share": counts.values / sweep.sizes["start"],
     }
     return xr.Dataset({name: _labelled(name, values) for name, values in found.items()})
-
-
-def optimum_in_words(sweep, frequency) -> str:
-    """Return in words the optimum gap that a sweep of the clearance found.
-
-    Parameters
-    ----------
-    sweep : xarray.Dataset
-        Returned by `clearance_sweep` for a machine.
-    frequency : float
-        Forcing frequency, Hz.
-    """
-    least, most = 2 * sweep["clearance"].values[[0, -1]]
-    kind = int(sweep["optimum_kind"])
-    if kind == flag("optimum_kind", "not_found"):
-        return (
-            f"no quiet motion at {frequency:g} Hz: none of {sweep.sizes['start']} starts at each of"
-            f" {sweep.sizes['clearance']} gaps from {least:g} to {most:g} mm leads to one"
-        )
-    best = 2 * float(sweep["optimum_clearance"])
-    size = float(sweep["optimum_displacement"])
-    where = {
-        "jump": ", where it ends",
-        "edge": f", the end of the gaps from {least:g} to {most:g} mm",
-    }
-    meanings = {flag("optimum_kind", name): text for name, text in where.items()}
-    return f"quiet motion of {size:.4g} mm at the gap {best:.4g} mm{meanings.get(kind, '')}"
 
 
 def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):

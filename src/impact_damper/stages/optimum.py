@@ -11,6 +11,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.optimum_words import optimum_in_words
 from impact_damper.motions.following import RESOLUTION, follow_stable
 from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import COMPONENTS
@@ -72,7 +73,8 @@ def clearance_sweep(
         forcing amplitude f, and the shares of its excess over 1 that two corrections of (18)
         explain: pi^2/8, the first harmonic for a loose mass in straight flight, and
         `optimum_clearance.straight_flight_ratio`. For each `edge` an end of the range of clearance
-        in which max |Z1| is within 10 % of its minimum.
+        in which max |Z1| is within 10 % of its minimum. The attribute `optimum` says in words what
+        the optimum is, or that there is no quiet motion.
 
     Raises
     ------
@@ -130,7 +132,8 @@ def clearance_sweep(
         "component": list(COMPONENTS),
         "edge": ["lower", "upper"],
     }
-    return dataset(data, coordinates, made, "Largest displacement against clearance")
+    found = dataset(data, coordinates, made, "Largest displacement against clearance")
+    return found.assign_attrs(optimum=optimum_in_words(found))
 
 
 def _peak_rule(oscillator, mass_ratio):

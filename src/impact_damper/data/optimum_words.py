@@ -1,0 +1,34 @@
+"""The optimum of a sweep of the clearance in words."""
+
+from impact_damper.data.datasets import flag
+
+
+def optimum_in_words(sweep) -> str:
+    """Return in words the optimum that a sweep of the clearance found, or that there is none.
+
+    Parameters
+    ----------
+    sweep : xarray.Dataset
+        Returned by `stages.optimum.clearance_sweep`. In SI units the words tell the gap, the full
+        play; otherwise the clearance, half of it.
+    """
+    unit = sweep["clearance"].attrs["units"]
+    what, times, end, play = "clearance", 1, "", ""
+    if unit != "1":
+        what, times, end, play = "gap", 2, f" {unit}", " (full play)"
+    least, most = times * sweep["clearance"].values[[0, -1]]
+    swept = f"{what}s from {least:g} to {most:g}{end}"
+    kind = int(sweep["optimum_kind"])
+    if kind == flag("optimum_kind", "not_found"):
+        number = sweep.sizes["clearance"]
+        return (
+            f"no quiet motion: none of the starts, {sweep.sizes['start']} of them random, at each "
+            f"of {number} {swept}{play} leads to one"
+        )
+    best, size = times * float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
+    where = {"jump": ", where it ends", "edge": f", the end of the {swept}"}
+    meanings = {flag("optimum_kind", name): text for name, text in where.items()}
+    return (
+        f"quiet motion of {size:.4g}{end} at the {what} {best:.4g}{end}{play}"
+        f"{meanings.get(kind, '')}"
+    )
