@@ -19,6 +19,7 @@ FLOORS = (
     "kernel",
     "theory",
     "literature",
+    "absorbers",
     "motions",
     "contact",
     "orbits",

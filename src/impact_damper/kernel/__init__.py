@@ -13,6 +13,7 @@ ROOMS_WITHOUT_KERNELS = (
     "machine",
     "theory",
     "literature",
+    "absorbers",
     "orbits",
     "comparisons",
     "stages",

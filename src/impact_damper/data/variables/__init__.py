@@ -4,6 +4,7 @@ Each module holds the variables of one subject. A name may occur in one module o
 """
 
 from impact_damper.data.variables import (
+    absorbers,
     accuracy,
     balance_map,
     contact,
@@ -36,6 +37,7 @@ MODULES = (
     studies,
     published,
     machines,
+    absorbers,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

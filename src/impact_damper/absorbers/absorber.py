@@ -1,0 +1,70 @@
+"""A tuned absorber in SI units."""
+
+from dataclasses import dataclass, replace
+
+from impact_damper.machine.machine import Machine
+from impact_damper.machine.units import check_si, convert, physical, with_unit
+from impact_damper.system.bounds import MASS_RATIO_RANGE, check_number, shown
+
+
+@dataclass(frozen=True, kw_only=True)
+class TunedAbsorber:
+    """A mass that hangs on a machine by a spring and a dashpot; all in SI units.
+
+    Each value is a number in the SI unit, text with units, or a quantity of pint. At the
+    displacement u of the machine relative to the absorber its spring and dashpot hold the machine
+    back with the force stiffness u + cubic_stiffness u^3 + damping u'.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    stiffness, cubic_stiffness : float
+        N/m and N/m^3.
+    damping : float
+        N s/m.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is out of range.
+    """
+
+    mass: float = physical("mass", above=0)
+    stiffness: float = physical("stiffness", least=0)
+    damping: float = physical("damping", least=0)
+    cubic_stiffness: float = physical("cubic_stiffness", default=0.0)
+
+    def __post_init__(self):
+        convert(self)
+        if self.stiffness == 0 and self.cubic_stiffness <= 0:
+            raise ValueError(
+                f"stiffness = {with_unit(0.0, 'N/m')}: must be greater than 0 N/m with "
+                f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')} (without a force "
+                "that restores it the absorber drifts away)"
+            )
+
+    def detuned(self, share) -> "TunedAbsorber":
+        """Return the absorber with both stiffnesses raised by a share: 0.1 is 10 per cent."""
+        factor = 1 + check_number("detuning", share, above=-1, most=10)
+        return replace(
+            self,
+            stiffness=self.stiffness * factor,
+            cubic_stiffness=self.cubic_stiffness * factor,
+        )
+
+
+def check_mass(machine, mass) -> float:
+    """Return the mass of an absorber in kg.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `machine` is no machine, or the mass is out of range for it.
+    """
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
+    least = MASS_RATIO_RANGE["least"] * machine.mass
+    return check_si(
+        "mass", mass, "mass", least=least, most=machine.mass, why="the mass of the machine"
+    )

@@ -1,0 +1,165 @@
+"""Response of a linear machine with a linear absorber in closed form, and its exact maxima.
+
+Frequencies r are divided by the natural frequency of the machine, s = r^2. With the damping ratio
+z1 of the machine and the mass ratio m, tuning f and damping ratio z of the absorber, the square of
+the machine's displacement is g(s) N(s)/D(s), in units of the excitation:
+
+    N = (f^2 - s)^2 + 4 z^2 f^2 s
+    D = [(1 - s)(f^2 - s) - 4 z1 z f s - m f^2 s]^2 + 4 s [z1 (f^2 - s) + z f (1 - s) - m z f s]^2
+
+    excitation                        unit of displacement    g
+    force F                           F/k                     1
+    unbalance m_e r_e                 m_e r_e/m1              s^2
+    displacement A of the base        A                       1 + 4 z1^2 s
+    acceleration B of the base        B/w1^2                  (1 + 4 z1^2 s)/s^2
+
+g N and D are polynomials, so that all maxima of the response follow from the roots of a polynomial.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import polynomial
+
+from impact_damper.literature.tuned_mass_damper import Tuning
+from impact_damper.machine.machine import Machine
+
+# Largest imaginary part of a real root, relative to its modulus.
+REAL = 1e-7
+
+
+class LinearMachine(NamedTuple):
+    """The dimensionless numbers of a linear machine.
+
+    Attributes
+    ----------
+    damping_ratio : float
+        z1.
+    forcing : numpy.ndarray
+        Coefficients of the polynomial g(s), without its denominator.
+    falling : int
+        2 if g(s) has the denominator s^2, else 0.
+    unit : float
+        Unit of displacement, m.
+    natural_frequency : float
+        Hz.
+    """
+
+    damping_ratio: float
+    forcing: np.ndarray
+    falling: int
+    unit: float
+    natural_frequency: float
+
+
+def linear_machine(machine: Machine) -> LinearMachine:
+    """Return the numbers of a machine, without its cubic stiffness.
+
+    Raises
+    ------
+    ValueError
+        If the machine has no linear stiffness.
+    """
+    stiffness, mass = machine.linear_stiffness, machine.mass
+    if stiffness == 0:
+        raise ValueError(
+            "linear_stiffness = 0 N/m: must be greater than 0 N/m for a tuned absorber (the "
+            "machine has no natural frequency to tune to)"
+        )
+    ratio = machine.viscous_damping / (2 * math.sqrt(stiffness * mass))
+    based = np.array([1.0, 4 * ratio**2])
+    kinds = {
+        "force": (np.ones(1), 0, (machine.force or 0.0) / stiffness),
+        "unbalance": (np.array([0.0, 0.0, 1.0]), 0, (machine.unbalance or 0.0) / mass),
+        "base_displacement": (based, 0, machine.base_displacement),
+        "base_acceleration": (based, 2, (machine.base_acceleration or 0.0) * mass / stiffness),
+    }
+    given = next(name for name in kinds if getattr(machine, name) is not None)
+    return LinearMachine(ratio, *kinds[given], machine.natural_frequency)
+
+
+def squared(linear, tuning, frequency):
+    """Return the squared displacement, in squared units, at frequencies r; broadcasts.
+
+    Without an absorber `tuning` is None.
+    """
+    s = np.square(frequency)
+    forcing = polynomial.polyval(s, linear.forcing) / s**linear.falling
+    if tuning is None:
+        return forcing / ((1 - s) ** 2 + 4 * linear.damping_ratio**2 * s)
+    (mass, f, z), z1 = tuning, linear.damping_ratio
+    real = (1 - s) * (f**2 - s) - 4 * z1 * z * f * s - mass * f**2 * s
+    imaginary = 2 * (z1 * (f**2 - s) + z * f * (1 - s) - mass * z * f * s)
+    return forcing * ((f**2 - s) ** 2 + (2 * z * f) ** 2 * s) / (real**2 + s * imaginary**2)
+
+
+def response(machine, absorber, frequencies):
+    """Return the amplitude of a linear machine, m, at forcing frequencies in Hz.
+
+    The cubic stiffnesses are left out.
+
+    Parameters
+    ----------
+    machine : Machine
+    absorber : TunedAbsorber or None
+    frequencies : array_like
+        Hz.
+    """
+    linear = linear_machine(machine)
+    tuning = None if absorber is None else tuning_of(machine, absorber)
+    r = np.asarray(frequencies) / linear.natural_frequency
+    return linear.unit * np.sqrt(squared(linear, tuning, r))
+
+
+def tuning_of(machine, absorber) -> Tuning:
+    """Return mass ratio, tuning and damping ratio of an absorber on a machine.
+
+    The absorber needs a linear stiffness.
+    """
+    own = math.sqrt(absorber.stiffness / absorber.mass)
+    frequency = own / (2 * math.pi * machine.natural_frequency)
+    return Tuning(
+        absorber.mass / machine.mass, frequency, absorber.damping / (2 * absorber.mass * own)
+    )
+
+
+def maxima(linear, tuning, band):
+    """Return frequencies r and squared displacements at the maxima within a band.
+
+    Parameters
+    ----------
+    linear : LinearMachine
+    tuning : Tuning
+    band : tuple of 2 floats
+        Lowest and highest r, the highest may be infinite. Its finite ends are among the places
+        returned.
+
+    Returns
+    -------
+    tuple of numpy.ndarray, shape (count,)
+        All stationary points within the band and its ends, by rising frequency; the largest of
+        them is the maximum.
+    """
+    (mass, f, z), z1 = tuning, linear.damping_ratio
+    own, host = np.array([f**2, -1.0]), np.array([1.0, -1.0])
+    numerator = polynomial.polyadd(polynomial.polymul(own, own), [0, (2 * z * f) ** 2])
+    real = polynomial.polyadd(polynomial.polymul(host, own), [0, -4 * z1 * z * f - mass * f**2])
+    imaginary = 2 * (z1 * own + z * f * host - [0, mass * z * f])
+    above = polynomial.polymul(linear.forcing, numerator)
+    below = polynomial.polyadd(
+        polynomial.polymul(real, real),
+        polynomial.polymulx(polynomial.polymul(imaginary, imaginary)),
+    )
+    below = np.concatenate([np.zeros(linear.falling), below])
+    slope = polynomial.polysub(
+        polynomial.polymul(polynomial.polyder(above), below),
+        polynomial.polymul(above, polynomial.polyder(below)),
+    )
+    roots = polynomial.polyroots(polynomial.polytrim(slope, 0))
+    real_roots = roots.real[np.abs(roots.imag) <= REAL * np.abs(roots)]
+    places = np.sqrt(real_roots[real_roots > 0])
+    ends = np.array([end for end in band if math.isfinite(end)])
+    inside = places[(places > band[0]) & (places < band[1])]
+    found = np.sort(np.concatenate([ends, inside]))
+    return found, squared(linear, tuning, found)

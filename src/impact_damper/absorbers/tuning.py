@@ -1,0 +1,166 @@
+"""Ways to tune an absorber of given mass to a machine.
+
+`exact_absorber` is the H-infinity optimum for the machine as it is: with its own damping, its own
+kind of excitation, and if wanted in a band of frequencies alone. `den_hartog_absorber` and
+`undamped_optimum` are closed forms for an undamped machine under a force. `nonlinear_absorber` adds
+the cubic spring that keeps the peaks of a machine with a cubic spring equal. All need a linear
+stiffness of the machine: without one it has no natural frequency to tune to.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from impact_damper.absorbers.absorber import TunedAbsorber, check_mass
+from impact_damper.absorbers.linear_response import linear_machine, maxima, squared
+from impact_damper.literature.nonlinear_absorber import tuned_cubic
+from impact_damper.literature.tuned_mass_damper import Tuning, den_hartog, exact_optimum
+from impact_damper.system.bounds import shown
+
+# Tunings and damping ratios among which the optimum is looked for before it is refined, and the
+# frequencies of the response there.
+TUNINGS = np.geomspace(0.25, 4, 121)
+DAMPINGS = np.geomspace(1e-3, 1, 31)
+FREQUENCIES = np.geomspace(0.1, 10, 400)
+# Tolerances of tuning and damping ratio when the optimum is refined.
+TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-13, 1e-10
+
+
+def den_hartog_absorber(machine, mass) -> TunedAbsorber:
+    """Return the absorber by Den Hartog's tuning and Brock's damping, for an undamped machine.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the mass is out of range, or the machine has no linear stiffness.
+    """
+    return _absorber(machine, den_hartog(_mass_ratio(machine, mass)))
+
+
+def undamped_optimum(machine, mass) -> TunedAbsorber:
+    """Return the absorber by the exact optimum of Nishihara and Asami, for an undamped machine.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As by `den_hartog_absorber`.
+    """
+    return _absorber(machine, exact_optimum(_mass_ratio(machine, mass)))
+
+
+def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
+    """Return the absorber with which the largest displacement over a band is least.
+
+    The machine's cubic stiffness is left out. The two highest maxima, or a maximum and an end of
+    the band, are then equally high.
+
+    Parameters
+    ----------
+    machine : Machine
+    mass : float, str or pint.Quantity
+        kg.
+    band : sequence of 2 floats, optional
+        Lowest and highest forcing frequency, Hz; all frequencies if not given. In a narrow band the
+        best damping is small; damping ratios below DAMPINGS[0] are not tried.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range, the machine has no linear stiffness, or a base moves with
+        given acceleration and there is no band.
+    """
+    ratio, linear = _mass_ratio(machine, mass), linear_machine(machine)
+    limits = _limits(machine, linear, band)
+
+    def highest(f, z):
+        return maxima(linear, Tuning(ratio, f, z), limits)[1].max()
+
+    def best_tuning(z, around):
+        # at the optimum two maxima cross: a method that fits parabolas stops too early there
+        return minimize_scalar(
+            lambda log: highest(math.exp(log), z),
+            bracket=np.log(around),
+            method="golden",
+            tol=TUNING_TOLERANCE,
+        )
+
+    tunings, dampings = _around_optimum(linear, ratio, limits)
+    logarithm = minimize_scalar(
+        lambda log: best_tuning(math.exp(log), tunings).fun,
+        bounds=np.log(dampings),
+        method="bounded",
+        options={"xatol": DAMPING_TOLERANCE},
+    ).x
+    damping = math.exp(logarithm)
+    tuning = math.exp(best_tuning(damping, tunings).x)
+    return _absorber(machine, Tuning(ratio, tuning, damping))
+
+
+def nonlinear_absorber(machine, mass, band=None) -> TunedAbsorber:
+    """Return the absorber of `exact_absorber` with a cubic spring that follows the machine's.
+
+    The cubic stiffness is 2 m^2 k3/(1 + 4 m) for the mass ratio m and the cubic stiffness k3 of the
+    machine (Habib, Detroux, Viguie and Kerschen 2015): the peaks then stay equal to first order in
+    the cubic force. The absorber of a softening machine softens too.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As by `exact_absorber`, and if the machine's spring is linear: the best absorber is then
+        that of `exact_absorber`.
+    """
+    if check_mass(machine, mass) and machine.cubic_stiffness == 0:
+        raise ValueError(
+            "cubic_stiffness = 0 N/m^3: must not be 0 for a nonlinear absorber (with a linear "
+            "spring of the machine it is the tuned absorber)"
+        )
+    linear = exact_absorber(machine, mass, band)
+    cubic = tuned_cubic(linear.mass / machine.mass, machine.cubic_stiffness)
+    return replace(linear, cubic_stiffness=cubic)
+
+
+def _mass_ratio(machine, mass):
+    return check_mass(machine, mass) / machine.mass
+
+
+def _absorber(machine, tuning):
+    """Return the absorber of a tuning on a machine."""
+    linear = linear_machine(machine)
+    mass = tuning.mass_ratio * machine.mass
+    own = 2 * math.pi * linear.natural_frequency * tuning.frequency
+    return TunedAbsorber(
+        mass=mass, stiffness=mass * own**2, damping=2 * mass * tuning.damping_ratio * own
+    )
+
+
+def _limits(machine, linear, band):
+    """Return a band as lowest and highest r."""
+    if band is None:
+        if linear.falling:
+            raise ValueError(
+                "band = None: must be given with base_acceleration (the displacement grows without "
+                "limit as the frequency falls)"
+            )
+        return 0.0, math.inf
+    if np.ndim(band) != 1 or len(band) != 2:
+        raise TypeError(f"band = {shown(band)}: must be lowest and highest frequency")
+    ends = [machine.check_frequency(f"band[{place}]", end) for place, end in enumerate(band)]
+    if ends[0] >= ends[1]:
+        raise ValueError(f"band = {shown(band)}: must be lowest and highest frequency, in order")
+    return tuple(end / linear.natural_frequency for end in ends)
+
+
+def _around_optimum(linear, ratio, limits):
+    """Return bounds of tuning and of damping ratio around the best point of a grid."""
+    least, most = max(limits[0], FREQUENCIES[0]), min(limits[1], FREQUENCIES[-1])
+    frequencies = np.geomspace(least, most, len(FREQUENCIES))
+    grid = Tuning(ratio, TUNINGS[:, None, None], DAMPINGS[:, None])
+    best = np.argmin(squared(linear, grid, frequencies).max(axis=2))
+    i, j = np.unravel_index(best, (len(TUNINGS), len(DAMPINGS)))
+    return _neighbours(TUNINGS, i, 4), _neighbours(DAMPINGS, j, 3)
+
+
+def _neighbours(values, place, steps):
+    return values[max(place - steps, 0)], values[min(place + steps, len(values) - 1)]

@@ -1,0 +1,37 @@
+"""Tuned absorbers in place of an impact damper."""
+
+from impact_damper.data.variables.variable import Variable
+
+GRID = ("competitor", "detuning", "frequency", "force_share")
+VARIABLES = {
+    "competitor": Variable(("competitor",), "what is built in place of an impact damper"),
+    "detuning": Variable(
+        ("detuning",), "share by which the absorber's springs are stiffer than designed"
+    ),
+    "force_share": Variable(("force_share",), "factor of the machine's excitation"),
+    "competitor_displacement": Variable(
+        GRID,
+        "largest displacement in the largest stable motion found",
+        quantity="displacement",
+    ),
+    "competitor_least_displacement": Variable(
+        GRID,
+        "largest displacement in the smallest stable motion found",
+        quantity="displacement",
+    ),
+    "competitor_motions": Variable(GRID, "number of stable periodic motions found"),
+    "competitor_status": Variable(
+        GRID,
+        "how the search for motions ended",
+        flags={"not_possible": -1, "not_found": 0, "found": 1, "not_periodic": 2},
+    ),
+    "absorber_stiffness": Variable(
+        GRID[:2], "stiffness of the absorber's spring", quantity="stiffness"
+    ),
+    "absorber_damping": Variable(
+        GRID[:2], "coefficient of the absorber's dashpot", quantity="damping"
+    ),
+    "absorber_cubic_stiffness": Variable(
+        GRID[:2], "cubic stiffness of the absorber's spring", quantity="cubic_stiffness"
+    ),
+}
