@@ -26,6 +26,7 @@ FLOORS = (
     "migration",
     "rivals",
     "comparisons",
+    "design",
     "stages",
     "claims",
     "tables",

@@ -1,5 +1,7 @@
 """Hertz's impact against its equation of motion, and a steel ball of the literature."""
 
+import math
+
 import pytest
 from scipy.integrate import solve_ivp
 
@@ -48,11 +50,37 @@ def test_two_equal_materials_halve_the_modulus():
     )
 
 
+def test_pressure_is_that_over_the_circle_of_contact():
+    """p0 = 3 F/(2 pi a^2) with a^3 = 3 F R/(4 E*) (Johnson, 1985, equations 4.22 and 4.24)."""
+    contact, force = HertzContact("1 cm", STEEL), 300.0
+    area = math.pi * (3 * force * 0.01 / (4 * contact.modulus)) ** (2 / 3)
+    assert contact.pressure(force) == pytest.approx(1.5 * force / area, rel=1e-13)
+    assert contact.pressure(0) == 0
+
+
+@pytest.mark.parametrize(
+    ("loose", "wall", "share", "expected"),
+    [
+        ("400 MPa", "400 MPa", 0.99, "no"),
+        ("400 MPa", "400 MPa", 1.01, "yes"),
+        ("400 MPa", "300 MPa", 0.8, "yes"),
+        ("400 MPa", None, 0.99, "unknown"),
+        (None, "400 MPa", 1.01, "yes"),
+        (None, None, 0.0, "unknown"),
+    ],
+)
+def test_a_ball_yields_from_1_6_times_the_yield_strength(loose, wall, share, expected):
+    """Johnson, 1985, section 6.1."""
+    contact = HertzContact(0.01, Material(2.1e11, 0.3, loose), Material(2.1e11, 0.3, wall))
+    assert contact.yields(share * 1.6 * 400e6) == expected
+
+
 @pytest.mark.parametrize(
     ("make", "told"),
     [
         (lambda: Material(-1, 0.3), "youngs_modulus = -1 Pa: must be greater than 0 Pa"),
         (lambda: Material(1e9, 0.6), "poissons_ratio = 0.6: must be at least 0 and at most 0.5"),
+        (lambda: Material(1e9, 0.3, 0), "yield_strength = 0 Pa: must be greater than 0 Pa"),
         (lambda: HertzContact(0, STEEL), "radius = 0 m: must be greater than 0 m"),
         (lambda: HertzContact(1, "steel"), "loose = 'steel': must be a Material"),
     ],

@@ -16,6 +16,7 @@ ROOMS_WITHOUT_KERNELS = (
     "absorbers",
     "orbits",
     "comparisons",
+    "design",
     "stages",
     "claims",
     "tables",

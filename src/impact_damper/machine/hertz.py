@@ -4,6 +4,7 @@ Here q is the approach of the bodies, 1/E* the sum of (1 - nu^2)/E of both and 1
 curvatures (K. L. Johnson, Contact Mechanics, 1985, sections 4.2 and 11.4).
 """
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -21,6 +22,8 @@ class Material:
         E, Pa; given as a number, text with units or quantity of pint.
     poissons_ratio : float
         nu, from 0 to 0.5.
+    yield_strength : float or None
+        Y in tension, Pa; None if it is not known.
 
     Raises
     ------
@@ -30,6 +33,7 @@ class Material:
 
     youngs_modulus: float = physical("pressure", above=0)
     poissons_ratio: float = physical("number", least=0, most=0.5)
+    yield_strength: float | None = physical("pressure", above=0, default=None)
 
     def __post_init__(self):
         convert(self)
@@ -59,6 +63,9 @@ class Impact(NamedTuple):
 # Duration of an impact, in units of the largest compression divided by the speed:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
+# Pressure p0 of a ball at which a material begins to yield, in units of its yield strength, for
+# nu = 0.3 (Johnson, section 6.1).
+YIELD = 1.6
 
 
 @dataclass(frozen=True)
@@ -92,12 +99,38 @@ class HertzContact:
                 raise TypeError(f"{name} = {shown(getattr(self, name))}: must be a Material")
 
     @property
-    def coefficient(self) -> float:
-        """K of the force K q^(3/2), N/m^1.5."""
+    def modulus(self) -> float:
+        """E*, Pa."""
         compliances = [
             (1 - each.poissons_ratio**2) / each.youngs_modulus for each in (self.loose, self.wall)
         ]
-        return 4 / 3 * self.radius**0.5 / sum(compliances)
+        return 1 / sum(compliances)
+
+    @property
+    def coefficient(self) -> float:
+        """K of the force K q^(3/2), N/m^1.5."""
+        return 4 / 3 * self.radius**0.5 * self.modulus
+
+    def pressure(self, force) -> float:
+        """Return the largest pressure p0 = (6 F E*^2/(pi^3 R^2))^(1/3), Pa, under a force F, N.
+
+        Johnson, equation 4.24. The mean pressure is 2/3 of it.
+        """
+        return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
+
+    def yields(self, pressure) -> str:
+        """Return whether the loose mass or the wall yields at a largest pressure p0, Pa.
+
+        Returns
+        -------
+        str
+            "yes" if p0 is at least YIELD times the yield strength of a material, "unknown" if not
+            and the yield strength of a material is not given, "no" otherwise.
+        """
+        strengths = [each.yield_strength for each in (self.loose, self.wall)]
+        if any(each is not None and pressure >= YIELD * each for each in strengths):
+            return "yes"
+        return "unknown" if None in strengths else "no"
 
     def impact(self, speed, mass) -> Impact:
         """Return the elastic impact of two bodies.

@@ -59,6 +59,10 @@ QUANTITIES = {
     "damping": Quantity("N s/m", time=-1, mass=1),
     "unbalance": Quantity("kg m", length=1, mass=1),
     "pressure": Quantity("Pa", length=-1, time=-2, mass=1),
+    "impulse": Quantity("N s", length=1, time=-1, mass=1),
+    "energy": Quantity("J", length=2, time=-2, mass=1),
+    "power": Quantity("W", length=2, time=-3, mass=1),
+    "impulse_noise": Quantity("N^2 s", length=2, time=-3, mass=2),
 }
 # A text may hold a number and units with powers only: pint would also evaluate an expression,
 # however long that takes.

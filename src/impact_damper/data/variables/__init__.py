@@ -8,6 +8,7 @@ from impact_damper.data.variables import (
     accuracy,
     balance_map,
     contact,
+    costs,
     design_rules,
     harmonic_balance,
     harmonics,
@@ -38,6 +39,7 @@ MODULES = (
     published,
     machines,
     absorbers,
+    costs,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

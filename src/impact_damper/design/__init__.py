@@ -1,0 +1,1 @@
+"""Design of an impact damper for a machine, in SI units."""

@@ -1,0 +1,243 @@
+"""What a motion with a damper costs: impacts, forces, losses, noise, and the pressure of contacts.
+
+The force of a wall over the primary mass is f = r1 q + D q', with the penetration q, the contact
+stiffness r1 and the dashpot D; it accelerates the primary mass by -f and the loose mass by f/rm.
+A contact loses the work of D. Over a time in which a motion repeats,
+
+    work of the external force = loss in the machine's dashpot + loss in contacts,
+
+and otherwise the difference is stored; the variable `power_error` says how well this holds.
+
+As a measure of noise, impulses J at the rate n give the sum of J^2 per time, n <J^2>. By Campbell's
+theorem this is the two-sided spectral density of the force of impacts at random times, from
+frequencies above their rate to the inverse of their duration: with which they excite the panels of
+a machine. (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
+"""
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag, variable
+from impact_damper.data.variables import VARIABLES
+from impact_damper.design.panels import integrals, largest, logged, sampled
+from impact_damper.kernel.single import side_of
+from impact_damper.machine.arguments import takes_machine
+from impact_damper.machine.hertz import HertzContact
+from impact_damper.machine.units import QUANTITIES
+from impact_damper.motions.simulate import check_state
+from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.system.bounds import check_count, check_number, shown
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    CUBIC,
+    DAMPING,
+    DASHPOT,
+    FORCE,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+    UNBALANCE,
+    pack,
+)
+from impact_damper.system.parameters import check_damper, describe
+
+# Forcing periods within which a motion that starts in a contact must leave the wall.
+PATIENCE = 2
+# Most forcing periods of a motion; each takes about 10 kB of memory.
+MOST_PERIODS = 10**4
+
+
+def motion_costs(machine, damper, frequency, state, periods, *, start=None, contact=None):
+    """Return what a motion of a machine with its damper costs.
+
+    Parameters
+    ----------
+    machine : Machine
+    damper : MachineDamper
+        With a contact stiffness.
+    frequency : float
+        Forcing frequency, Hz.
+    state : sequence of 4 floats
+        A state of the motion, m and m/s.
+    periods : int
+        Forcing periods over which it is measured: its period, or for a chaotic motion as many as
+        its means need.
+    start : float, optional
+        Time of the state, s; a quarter of a forcing period if it is not given, the phase at which
+        `steady_motion` returns states.
+    contact : HertzContact, optional
+        Radius and materials with which the pressure in the contact is computed.
+
+    Returns
+    -------
+    xarray.Dataset
+        In SI units, with the variables of `measured_costs` and of `pressure_costs`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    if contact is not None and not isinstance(contact, HertzContact):
+        raise TypeError(f"contact = {shown(contact)}: must be a HertzContact")
+    found = _costs(machine, damper, frequency, state, periods, start=start)
+    pressed = pressure_costs(machine, damper, contact, float(found["impact_speed"]))
+    return found.assign({name: _in_si_unit(name, value) for name, value in pressed.items()})
+
+
+def _in_si_unit(name, value):
+    """Return a variable that is given in the unit in which datasets show it."""
+    made = variable(name, value)
+    made.attrs["units"] = QUANTITIES[VARIABLES[name].quantity].label
+    return made
+
+
+def pressure_costs(machine, damper, contact, speed) -> dict:
+    """Return force and pressure after Hertz of an elastic impact, and whether it yields.
+
+    Parameters
+    ----------
+    machine : Machine
+    damper : MachineDamper
+    contact : HertzContact or None
+    speed : float
+        Largest speed of impact, m/s; 0 without impacts.
+
+    Returns
+    -------
+    dict
+        `hertz_force` (N) and `contact_pressure` (Pa), NaN without a contact; `contact_yields`.
+    """
+    force = pressure = np.nan
+    yields = "unknown"
+    if contact is not None:
+        mass = machine.mass * damper.mass / (machine.mass + damper.mass)
+        force = contact.impact(speed, mass).force if speed > 0 else 0.0
+        pressure = contact.pressure(force)
+        yields = contact.yields(pressure)
+    return {
+        "hertz_force": force,
+        "contact_pressure": pressure,
+        "contact_yields": flag("contact_yields", yields),
+    }
+
+
+@takes_machine
+def _costs(oscillator, damper, frequency, state, periods, *, start=None):
+    """Return the dataset of `measured_costs`; arguments as in `motion_costs`."""
+    check_damper(damper)
+    p = pack(oscillator, damper, frequency)
+    y = check_state(state, damper)
+    check_count("periods", periods, most=MOST_PERIODS)
+    begin = strobe_time(p) if start is None else check_number("start", start)
+    made = describe(oscillator, damper) | {"frequency": float(frequency), "periods": int(periods)}
+    return dataset(measured_costs(p, y, begin, periods), {}, made, "Costs of a motion")
+
+
+def measured_costs(p, y, begin, periods) -> dict:
+    """Return what a motion costs.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters, with a damper.
+    y : array, shape (4,)
+        State Z1, Z1', Z2, Z2' at the time `begin`.
+    begin : float
+    periods : int
+        Forcing periods. They begin with the next flight if the state is in a contact.
+
+    Returns
+    -------
+    dict
+        Values of registered variables (`data.variables.costs`), keyed by name: dimensionless,
+        forces and powers divided by the primary mass. Arrays, one entry for each whole contact, are
+        its log, impulse and loss; all others are scalars. Means over impacts are NaN without
+        impacts. After an escape all per time, forces and powers are NaN.
+    """
+    begin, y = _in_flight(p, y, begin)
+    time = periods * 2 * np.pi / p[FREQUENCY]
+    panels = sampled(p, y, begin, begin + time)
+    escaped = np.isnan(panels.states[-1, -1, 0])
+    time = np.nan if escaped else time
+    data = {"costs_time": time} | _impacts(p, panels, time) | _extremes_and_powers(p, panels, time)
+    status = "escaped" if escaped else "impacts" if data["impact_rate"] > 0 else "no_impact"
+    return data | {"costs_status": flag("costs_status", status)}
+
+
+def _in_flight(p, y, begin):
+    """Return a time and the state then, in the middle of a flight if the state is in a contact."""
+    if side_of(p, y) == 0:
+        return begin, y
+    _, log = logged(p, y, begin, np.array([begin + PATIENCE * 2 * np.pi / p[FREQUENCY]]))
+    if not np.isfinite(log[0, 2]):
+        return begin, y
+    following = log[1, 1] if len(log) > 1 else log[0, 2] + np.pi / p[FREQUENCY]
+    middle = (log[0, 2] + following) / 2
+    states, _ = logged(p, y, begin, np.array([middle]))
+    return middle, states[-1]
+
+
+def _penetration(p, panels):
+    """Return penetration and its rate at the nodes, 0 in flight."""
+    wall = panels.wall[:, None]
+    depth = np.where(wall, wall * panels.states[..., 2] - p[CLEARANCE], 0.0)
+    return depth, wall * panels.states[..., 3]
+
+
+def _impacts(p, panels, time):
+    """Return the log of whole contacts, and what follows from it."""
+    depth, rate = _penetration(p, panels)
+    force = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
+    impulse, loss = (
+        np.bincount(panels.contact + 1, integrals(panels, values), len(panels.log) + 1)[1:]
+        for values in (force, p[DASHPOT] * rate**2)
+    )
+    wall, start, end, approach, departure = panels.log.T
+    whole = np.isfinite(end) & (start > panels.times[0, 0])
+    speed, count = np.abs(approach[whole]), np.sum(whole)
+    return {
+        "contact_wall": wall[whole],
+        "contact_begin": start[whole],
+        "contact_end": end[whole],
+        "approach_velocity": approach[whole],
+        "departure_velocity": departure[whole],
+        "contact_impulse": impulse[whole],
+        "contact_loss": loss[whole],
+        "impact_rate": count / time,
+        "impact_speed": np.max(speed, initial=0.0),
+        "mean_impact_speed": np.mean(speed) if count else np.nan,
+        "mean_impact_loss": np.mean(loss[whole]) if count else np.nan,
+        "impulse_noise": np.sum(impulse[whole] ** 2) / time,
+    }
+
+
+def _extremes_and_powers(p, panels, time):
+    """Return the largest force, penetration and acceleration, and the mean powers."""
+    depth, rate = _penetration(p, panels)
+    contact = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
+    x, v = panels.states[..., 0], panels.states[..., 1]
+    amplitude = p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2
+    external = amplitude * np.cos(p[FREQUENCY] * panels.times)
+    acceleration = external - p[DAMPING] * v - (p[STIFFNESS] + p[CUBIC] * x**2) * x
+    powers = external * v, p[DAMPING] * v**2, p[DASHPOT] * rate**2
+    work, damped, lost = (np.sum(integrals(panels, each)) / time for each in powers)
+    stored = (_energy(p, panels.states[-1, -1]) - _energy(p, panels.states[0, 0])) / time
+    return {
+        "contact_force": largest(contact),
+        "penetration": largest(depth),
+        "largest_acceleration": largest(acceleration - panels.wall[:, None] * contact),
+        "force_power": work,
+        "dashpot_power": damped,
+        "impact_power": lost,
+        "stored_power": stored,
+        "power_error": (work - damped - lost - stored) / (damped + lost),
+    }
+
+
+def _energy(p, y):
+    """Return the energy of a state, over the primary mass."""
+    depth = max(abs(y[2]) - p[CLEARANCE], 0.0)
+    spring = (p[STIFFNESS] / 2 + p[CUBIC] / 4 * y[0] ** 2) * y[0] ** 2
+    kinetic = y[1] ** 2 / 2 + (y[1] - y[3]) ** 2 / (2 * p[INVERSE_MASS_RATIO])
+    return kinetic + spring + p[CONTACT_STIFFNESS] * depth**2 / 2

@@ -1,0 +1,134 @@
+"""A motion sampled so that integrals and largest values of smooth functions of it are exact.
+
+Time is divided at the beginnings and ends of contacts, and further into panels short enough that a
+polynomial through the Chebyshev nodes of a panel gives the motion there to about twelve digits.
+(L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12.)
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from impact_damper.motions.records import trace
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.system.packed import (
+    CONTACT_STIFFNESS,
+    CUBIC,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+)
+
+# Nodes of a panel on [-1, 1]; matrix from values at the nodes to coefficients of Chebyshev
+# polynomials; weights of an integral (Clenshaw and Curtis), the integrals of the even polynomials
+# being 2/(1 - k^2).
+NODES = -np.cos(np.pi * np.arange(14) / 13)
+COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
+_INTEGRALS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))]
+WEIGHTS = _INTEGRALS @ COEFFICIENTS
+# Values at so many points find the panels that may hold the largest value: within a panel it can
+# exceed the largest of them by less than the share MISSED.
+FINE = chebyshev.chebvander(np.linspace(-1, 1, 33), len(NODES) - 1) @ COEFFICIENTS
+MISSED = 0.01
+# Longest panel, as angle (radian) of the fastest oscillation.
+LONGEST_ANGLE = 2.0
+# Samples in a forcing period that tell how far the motion goes, and contacts in the first log.
+SAMPLES = 32
+FIRST_LOG = 256
+
+
+class Panels(NamedTuple):
+    """A motion in panels.
+
+    Attributes
+    ----------
+    log : numpy.ndarray, shape (contacts, 5)
+        Contacts, as from `records.trace`.
+    lengths : numpy.ndarray, shape (panels,)
+        Times.
+    times : numpy.ndarray, shape (panels, nodes)
+    states : numpy.ndarray, shape (panels, nodes, 4)
+        Z1, Z1', Z2, Z2'; NaN after an escape.
+    contact : numpy.ndarray of int, shape (panels,)
+        Index of the contact in the log, or -1 in flight.
+    wall : numpy.ndarray, shape (panels,)
+        Wall in contact, -1 or 1, or 0 in flight.
+    """
+
+    log: np.ndarray
+    lengths: np.ndarray
+    times: np.ndarray
+    states: np.ndarray
+    contact: np.ndarray
+    wall: np.ndarray
+
+
+def sampled(p, state, begin, end) -> Panels:
+    """Run a motion and return its panels.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    state : array, shape (4,)
+        State at the time `begin`.
+    begin, end : float
+        Dimensionless times.
+    """
+    rough = np.linspace(begin, end, int(SAMPLES * (end - begin) * p[FREQUENCY] / (2 * np.pi)) + 2)
+    states, log = logged(p, state, begin, rough)
+    # beginnings and ends of contacts in turn, so that every second interval is a flight
+    ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
+    edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
+    walls = np.zeros(len(edges) - 1)
+    walls[1::2] = log[:, 0]
+    farthest = np.nanmax(np.abs(states[:, 0]))
+    fastest = np.sqrt(p[STIFFNESS] + 3 * abs(p[CUBIC]) * farthest**2) + p[FREQUENCY]
+    contact = np.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
+    rates = np.where(walls, fastest + contact, fastest)
+    counts = np.ceil(np.diff(edges) * rates / LONGEST_ANGLE).astype(int)
+    interval = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(interval)) - np.repeat(np.cumsum(counts) - counts, counts)
+    lengths = (np.diff(edges) / np.maximum(counts, 1))[interval]
+    begins = edges[interval] + place * lengths
+    times = begins[:, None] + lengths[:, None] * (NODES + 1) / 2
+    states, _ = logged(p, state, begin, times.ravel(), len(log))
+    return Panels(
+        log,
+        lengths,
+        times,
+        states.reshape(*times.shape, 4),
+        np.where(interval % 2, interval // 2, -1),
+        walls[interval],
+    )
+
+
+def logged(p, state, begin, times, room=FIRST_LOG):
+    """Return the states of a motion at given times, and its log of contacts, with room for some."""
+    states = np.empty((len(times), 4))
+    while True:
+        log = np.empty((room, 5))
+        count = trace(p, np.array(state), begin, times, POLISH_TOLERANCE, states, log)
+        if count <= room:
+            return states, log[:count]
+        room = count
+
+
+def integrals(panels, values):
+    """Return the integral over each panel of values given at its nodes, shape (panels,)."""
+    return values @ WEIGHTS * panels.lengths / 2
+
+
+def largest(values) -> float:
+    """Return the largest modulus of a function given at the nodes of panels, 0 without panels."""
+    if len(values) == 0:
+        return 0.0
+    fine = np.max(np.abs(values @ FINE.T), axis=1)
+    best = np.max(fine)
+    for panel in values[fine > (1 - MISSED) * best]:
+        series = COEFFICIENTS @ panel
+        roots = chebyshev.chebroots(chebyshev.chebder(series))
+        inside = roots.real[(np.abs(roots.imag) < 1e-6) & (np.abs(roots.real) < 1)]
+        best = max(best, np.max(np.abs(chebyshev.chebval(inside, series)), initial=0.0))
+    return float(best)
