@@ -196,6 +196,7 @@ def test_pressure_is_that_of_the_fastest_impact():
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
+        ({"machine": PAPER}, "machine = Oscillator("),
         ({"contact": STEEL}, "contact = Material("),
         ({"periods": 0}, "periods = 0: must be from 1 to 10000"),
         ({"damper": None}, "damper = None: must be a Damper"),
@@ -204,9 +205,10 @@ def test_pressure_is_that_of_the_fastest_impact():
     ],
 )
 def test_wrong_arguments_are_told(wrong, told):
-    given = {"damper": damper_of(LINEAR), "frequency": 20.5, "state": [0, 0, 0, 0], "periods": 1}
+    given = {"machine": LINEAR, "damper": damper_of(LINEAR), "frequency": 20.5}
+    given |= {"state": [0, 0, 0, 0], "periods": 1}
     with pytest.raises((TypeError, ValueError)) as raised:
-        motion_costs(LINEAR, **given | wrong)
+        motion_costs(**given | wrong)
     assert str(raised.value).startswith(told)
 
 

@@ -22,6 +22,7 @@ from impact_damper.design.panels import integrals, largest, logged, sampled
 from impact_damper.kernel.single import side_of
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.hertz import HertzContact
+from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.motions.simulate import check_state
 from impact_damper.motions.strobe_map import strobe_time
@@ -78,6 +79,8 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
     if contact is not None and not isinstance(contact, HertzContact):
         raise TypeError(f"contact = {shown(contact)}: must be a HertzContact")
     found = _costs(machine, damper, frequency, state, periods, start=start)
