@@ -3,7 +3,7 @@
 Kernels (compiled functions) take the parameters as an array `p` of COUNT numbers, made by `pack`,
 and read each by the name of its index, as in `p[FREQUENCY]`. The numbers are W, h, omega_l^2, k3,
 F, U, d0, r1, 1/rm (see `parameters`) and the dashpot's coefficient 2 zeta_c sqrt(r1 rm), in the
-order of NAMES.
+order of NAMES. `design_slopes` is the derivative of `pack`.
 """
 
 import math
@@ -39,6 +39,18 @@ COUNT = len(NAMES)
     INVERSE_MASS_RATIO,
     DASHPOT,
 ) = range(COUNT)
+# Parameters by which `design_slopes` differentiates; linear_stiffness is omega_l^2. Those in SIMPLE
+# are numbers of the array themselves.
+SIMPLE = {
+    "damping": DAMPING,
+    "linear_stiffness": STIFFNESS,
+    "cubic": CUBIC,
+    "force": FORCE,
+    "unbalance": UNBALANCE,
+    "clearance": CLEARANCE,
+    "frequency": FREQUENCY,
+}
+DESIGN = (*SIMPLE, "restitution", "contact_stiffness", "mass_ratio")
 
 
 def pack(oscillator, damper, frequency) -> np.ndarray:
@@ -81,3 +93,35 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     p[INVERSE_MASS_RATIO] = 1 / damper.mass_ratio
     p[DASHPOT] = damper.dashpot
     return p
+
+
+def design_slopes(p) -> np.ndarray:
+    """Return the derivative of packed parameters by the parameters DESIGN.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+
+    Returns
+    -------
+    numpy.ndarray, shape (COUNT, len(DESIGN))
+        The last three columns, of the contact, are 0 without a damper.
+    """
+    slopes = np.zeros((COUNT, len(DESIGN)))
+    for column, index in enumerate(SIMPLE.values()):
+        slopes[index, column] = 1.0
+    if not np.isfinite(p[CLEARANCE]):
+        return slopes
+    mass_ratio, stiffness = 1 / p[INVERSE_MASS_RATIO], p[CONTACT_STIFFNESS]
+    # The dashpot is `most` times s, with s = -ln e/(pi^2 + ln^2 e)^(1/2).
+    most = 2 * math.sqrt(stiffness * mass_ratio / (1 + mass_ratio))
+    share = p[DASHPOT] / most
+    rest = 1 - share**2
+    restitution = math.exp(-math.pi * share / math.sqrt(rest))
+    slopes[DASHPOT, -3] = -most * rest**1.5 / (math.pi * restitution)
+    slopes[CONTACT_STIFFNESS, -2] = 1.0
+    slopes[DASHPOT, -2] = p[DASHPOT] / (2 * stiffness)
+    slopes[INVERSE_MASS_RATIO, -1] = -1 / mass_ratio**2
+    slopes[DASHPOT, -1] = p[DASHPOT] / (2 * mass_ratio * (1 + mass_ratio))
+    return slopes

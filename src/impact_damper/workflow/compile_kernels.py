@@ -56,6 +56,10 @@ def warm_up_orbits() -> None:
     records.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
     ensemble.collide(on[None], states, 1, 1e-9)
 
+    from impact_damper.orbits.paths import follow_path
+
+    follow_path(on, np.zeros(4), 0.0, 0.01)
+
     from impact_damper.migration import legs
     from impact_damper.motions import following
 

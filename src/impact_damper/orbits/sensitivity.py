@@ -1,0 +1,177 @@
+"""Exact derivatives of a periodic orbit by its parameters: state, largest |Z1|, stability.
+
+An orbit solves y = R(y, p), where R is the map over its period or, for a symmetric orbit, the map
+over half of it with a change of sign. So its state changes by y_p = (1 - R_y)^-1 R_p. The largest
+|Z1| changes as Z1 does at that phase, since Z1' is zero there. A simple multiplier with the right
+and left eigenvectors r and l changes by l (dR_y/dp) r / (l r), where dR_y/dp is taken along the
+orbit (`variations`). No differences are taken.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from impact_damper.orbits.paths import PLACES, POINTS, Path, follow_path, interpolation
+from impact_damper.orbits.shooting import TURN, Orbit
+from impact_damper.orbits.variations import Variations
+from impact_damper.system.packed import COUNT, DESIGN, FREQUENCY, design_slopes
+
+# Corrections of the time of an extremum of Z1.
+CORRECTIONS = 4
+# Relative distance within which two extrema of |Z1|, or the moduli of two multipliers, are equal,
+# and within which two multipliers are a double one.
+EQUAL = 1e-6
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Derivatives of an orbit, with respect to its packed parameters unless said otherwise.
+
+    Attributes
+    ----------
+    orbit : Orbit
+    state_slopes : numpy.ndarray, shape (4, packed.COUNT)
+        Of the state, at the phase of the orbit.
+    maximum_displacement : float
+        max |Z1|.
+    displacement_slopes : numpy.ndarray, shape (packed.COUNT,)
+        Of max |Z1|.
+    displacement_smooth : bool
+        Whether max |Z1| has these derivatives. Not if |Z1| is largest twice in a period, with
+        different derivatives: max |Z1| then has a kink.
+    modulus : float
+        Modulus of the largest Floquet multiplier.
+    modulus_slopes : numpy.ndarray, shape (packed.COUNT,)
+        Of the modulus.
+    modulus_smooth : bool
+        Whether the modulus has these derivatives. Not if two multipliers that are no conjugate
+        pair have the largest modulus, nor if a real one is double.
+    matrix_slopes : numpy.ndarray, shape (packed.COUNT, n, n)
+        Of the root of the monodromy matrix or, if the orbit has none, of the monodromy matrix,
+        along the orbits; n is `Orbit.active`.
+    """
+
+    orbit: Orbit
+    state_slopes: np.ndarray
+    maximum_displacement: float
+    displacement_slopes: np.ndarray
+    displacement_smooth: bool
+    modulus: float
+    modulus_slopes: np.ndarray
+    modulus_smooth: bool
+    matrix_slopes: np.ndarray
+
+    def by_design(self, slopes) -> dict:
+        """Return derivatives by the parameters `packed.DESIGN`, keyed by name.
+
+        Parameters
+        ----------
+        slopes : array, shape (..., packed.COUNT)
+            Derivatives by packed parameters, such as `displacement_slopes`.
+
+        Returns
+        -------
+        dict
+            Each derivative is a number, or an array of the shape (...). By the parameters of the
+            damper it is 0 without a damper.
+        """
+        values = np.asarray(slopes) @ design_slopes(self.orbit.p)
+        return dict(zip(DESIGN, np.moveaxis(values, -1, 0), strict=True))
+
+
+def path_of(orbit) -> Path:
+    """Return the motion over the period of an orbit, or over half of it if it has a root."""
+    begin = orbit.phase / orbit.p[FREQUENCY]
+    turns = orbit.periods * (1.0 if orbit.root is None else 0.5)
+    return follow_path(orbit.p, orbit.state, begin, begin + turns * TURN / orbit.p[FREQUENCY])
+
+
+def sensitivity(orbit) -> Sensitivity:
+    """Return the derivatives of a converged orbit.
+
+    Raises
+    ------
+    ValueError
+        If the orbit has not converged.
+    numpy.linalg.LinAlgError
+        If a multiplier is exactly 1: at a fold orbits have no derivative.
+    """
+    if not orbit.converged:
+        raise ValueError(f"orbit: must have converged, its residual is {orbit.residual:.1e}")
+    path, n = path_of(orbit), orbit.active
+    variations = Variations(path)
+    matrix, sign = (orbit.monodromy, 1) if orbit.root is None else (orbit.root, -1)
+    state = np.linalg.solve(np.eye(n) - matrix[:n, :n], sign * variations.slopes()[:n])
+    if n == 2:  # the loose mass keeps its place
+        state = np.vstack([state, state])
+    along = np.eye(COUNT)
+    slopes = sign * variations.matrix_changes(state, along)[:, :n, :n]
+    largest, by_parameters, alone = _displacement(path, variations.changes(state, along)[0])
+    modulus, relative, simple = _modulus(matrix[:n, :n], slopes)
+    power = 1 if orbit.root is None else 2
+    return Sensitivity(
+        orbit,
+        state,
+        largest,
+        by_parameters,
+        alone,
+        modulus**power,
+        power * modulus**power * relative,
+        simple,
+        slopes,
+    )
+
+
+def _displacement(path, changes):
+    """Return max |Z1| on a path, its derivatives, and whether it is smooth.
+
+    Parameters
+    ----------
+    path : Path
+    changes : array, shape (n, N)
+        Changes of Z1 at the points of the path.
+    """
+    speed = path.states[1].reshape(-1, POINTS)
+    steps, points = np.nonzero(speed[:, :-1] * speed[:, 1:] <= 0)
+    before, after = speed[steps, points], speed[steps, points + 1]
+    share = before / np.where(before == after, 1.0, before - after)
+    places = PLACES[points] + share * (PLACES[points + 1] - PLACES[points])
+    times = path.lengths[steps] * places
+    z1 = path.series[steps, :, 0, 0]
+    for _ in range(CORRECTIONS):
+        slope, curve = (_derivative(z1, times, order) for order in (1, 2))
+        times = times - np.divide(slope, curve, out=np.zeros_like(slope), where=curve != 0)
+    sizes = _derivative(z1, times, 0)
+    weights = interpolation(times / path.lengths[steps])
+    at_extrema = changes.reshape(len(changes), -1, POINTS)[:, steps]
+    slopes = np.sign(sizes)[:, None] * np.einsum("nek,ek->en", at_extrema, weights)
+    first = int(np.argmax(np.abs(sizes)))
+    largest = abs(sizes[first])
+    equal = np.abs(sizes) > (1 - EQUAL) * largest
+    spread = np.max(np.abs(slopes[equal] - slopes[first]))
+    smooth = spread <= EQUAL**0.5 * np.max(np.abs(slopes[first]))
+    return float(largest), slopes[first], bool(smooth)
+
+
+def _derivative(series, times, order):
+    """Return the value of series, shape (n, terms), or a derivative of it, each at its time."""
+    for _ in range(order):
+        series = series[:, 1:] * np.arange(1, series.shape[1])
+    return np.sum(series * times[:, None] ** np.arange(series.shape[1]), axis=1)
+
+
+def _modulus(matrix, slopes):
+    """Return the largest modulus of the eigenvalues of a matrix, and its relative derivatives.
+
+    The third result says whether the modulus is smooth.
+    """
+    values, right = np.linalg.eig(matrix)
+    first = int(np.argmax(np.abs(values)))
+    value, modulus = values[first], abs(values[first])
+    left = np.linalg.inv(right)[first]
+    change = np.einsum("i,nij,j->n", left, slopes, right[:, first])
+    others = np.delete(values, first)
+    if abs(value.imag) > EQUAL * modulus:
+        others = others[np.abs(others - value.conjugate()) > EQUAL * modulus]
+    smooth = np.all(np.abs(others) < (1 - EQUAL) * modulus)
+    return float(modulus), (change / value).real, bool(smooth)

@@ -1,0 +1,192 @@
+"""First and second variations of a motion: how its end and its derivative change with parameters.
+
+Let y be the state (Z1, Z1', Z2, Z2'), f its rate, A the Jacobian of f, and P the derivative of y
+with respect to the state at the beginning. A change of that state and of the parameters by a
+direction d changes y, at a given phase W T of the forcing, by
+
+    y_d = P (s + integral of P^-1 f_d dT)
+
+with the change s of the first state (Duhamel's integral), and P by P B with
+
+    B = integral of P^-1 A_d P dT,
+
+where A_d is the change of A along the motion, by parameters and by y_d. Where a contact begins or
+ends at the wall n = -1 or 1, Z2 = n d0, the state is continuous but f and A are not. There y_d
+jumps by the jump of f times the delay of the event, and B gains a term likewise. With the phase as
+variable in place of T, f/W is the rate and the end of the motion does not move with W, so a change
+of W counts as a change of f at constant phase less f/W.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from impact_damper.orbits.paths import INTEGRALS, POINTS, Path
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    COUNT,
+    CUBIC,
+    DAMPING,
+    DASHPOT,
+    FORCE,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+    UNBALANCE,
+)
+
+
+@dataclass(frozen=True)
+class Variations:
+    """The variations of a motion.
+
+    Attributes
+    ----------
+    path : Path
+    """
+
+    path: Path
+
+    @cached_property
+    def _inverse(self):
+        """Inverse of P at all points, shape (4, 4, N)."""
+        inverse = np.linalg.inv(self.path.tangents.transpose(2, 0, 1))
+        return np.ascontiguousarray(inverse.transpose(1, 2, 0))
+
+    @cached_property
+    def _columns(self):
+        """Changes of P^-1 y_d by forces on both masses, by a wall, and on the loose mass only.
+
+        Each has the shape (4, N).
+        """
+        first, second = self._inverse[:, 1], self._inverse[:, 3]
+        return first + second, first + (1 + self.path.p[INVERSE_MASS_RATIO]) * second, second
+
+    @cached_property
+    def _integrals(self):
+        """Duhamel's integral of each parameter up to all points, shape (4, COUNT, N)."""
+        shape = 4, COUNT, len(self.path.sides), POINTS
+        rates = self._rates().reshape(shape)
+        integrals = self.path.lengths[:, None] * (rates @ INTEGRALS.T)
+        gains = integrals[..., -1].copy()
+        # Where a wall moves, the jump by the dashpot's force does not follow from Z2 alone.
+        for point, wall, begun in zip(*self.path.events, strict=True):
+            moved = begun * wall * self.path.p[DASHPOT] * self._columns[1][:, point + 1]
+            gains[:, CLEARANCE, point // POINTS] += moved
+        integrals[:, :, 1:] += np.cumsum(gains[..., :-1], axis=2)[..., None]
+        return integrals.reshape(4, COUNT, -1)
+
+    def _rates(self):
+        """Return P^-1 f_d for each parameter at all points, shape (4, COUNT, N)."""
+        p, (x, v, _, w) = self.path.p, self.path.states
+        walls, depth = self.path.contacts
+        frequency, cosine = p[FREQUENCY], np.cos(p[FREQUENCY] * self.path.times)
+        amplitude = p[FORCE] + p[UNBALANCE] * frequency**2
+        free = np.zeros((COUNT, len(x)))
+        free[DAMPING], free[STIFFNESS], free[CUBIC] = -v, -x, -(x**3)
+        free[FORCE], free[UNBALANCE] = cosine, frequency**2 * cosine
+        free[FREQUENCY] = 2 * p[UNBALANCE] * frequency * cosine
+        wall = np.zeros((COUNT, len(x)))
+        wall[CLEARANCE] = -p[CONTACT_STIFFNESS] * walls
+        wall[CONTACT_STIFFNESS], wall[DASHPOT] = depth, np.abs(walls) * w
+        both, pushed, loose = self._columns
+        rates = both[:, None] * free - pushed[:, None] * wall
+        force = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * wall[DASHPOT]
+        rates[:, INVERSE_MASS_RATIO] -= loose * force
+        drive = amplitude * cosine - p[DAMPING] * v - (p[STIFFNESS] + p[CUBIC] * x * x) * x
+        moving = self._inverse[:, 0] * v + self._inverse[:, 2] * w
+        rates[:, FREQUENCY] -= (moving + both * drive - pushed * force) / frequency
+        return rates
+
+    def slopes(self):
+        """Return the derivative of the last state by parameters, shape (4, COUNT).
+
+        The first state and both phases of the forcing stay as they are.
+        """
+        return self.path.matrix @ self._integrals[..., -1]
+
+    def changes(self, first, parameters):
+        """Return the change of the state along n directions, at all points.
+
+        Parameters
+        ----------
+        first : array, shape (4, n)
+            Changes of the first state.
+        parameters : array, shape (COUNT, n)
+            Changes of the parameters.
+
+        Returns
+        -------
+        numpy.ndarray, shape (4, n, N)
+        """
+        inner = first[..., None] + parameters.T @ self._integrals
+        return np.einsum("ijn,jkn->ikn", self.path.tangents, inner)
+
+    def matrix_changes(self, first, parameters):
+        """Return the change of `matrix` along n directions, shape (n, 4, 4).
+
+        Parameters
+        ----------
+        first, parameters
+            As of `changes`.
+        """
+        changes = self.changes(first, parameters)
+        inner = self._smooth(changes[0], parameters) + self._at_events(changes[2], parameters)
+        return self.path.matrix @ inner
+
+    def _smooth(self, change, parameters):
+        """Return the part of B between events, shape (n, 4, 4), given the change of Z1.
+
+        A change of A is a sum of products of a column and a row.
+        """
+        p, tangents, inverse = self.path.p, self.path.tangents, self._inverse
+        both, pushed, loose = self._columns
+        weights = np.outer(self.path.lengths, INTEGRALS[-1]).ravel()
+
+        def integral(column, row):
+            return (weights * column) @ row.reshape(-1, len(weights)).T
+
+        touching = np.abs(self.path.contacts[0])
+        x = self.path.states[0]
+        stiff = parameters[STIFFNESS][:, None] + 3 * x * (
+            np.outer(parameters[CUBIC], x) + 2 * p[CUBIC] * change
+        )
+        bent = integral(both, stiff[:, None] * tangents[0]).reshape(4, -1, 4).swapaxes(0, 1)
+        drag = integral(both, tangents[1])
+        spring, dashpot = (integral(touching * pushed, tangents[i]) for i in (2, 3))
+        wall = p[CONTACT_STIFFNESS] * tangents[2] + p[DASHPOT] * tangents[3]
+        lighter = integral(touching * loose, wall)
+        own = integral(both, (p[STIFFNESS] + 3 * p[CUBIC] * x * x) * tangents[0])
+        whole = integral(inverse[:, 0], tangents[1]) + integral(inverse[:, 2], tangents[3])
+        whole -= own + p[DAMPING] * drag + integral(touching * pushed, wall)
+        parts = np.stack([drag, spring, dashpot, lighter, whole / p[FREQUENCY]])
+        kinds = [DAMPING, CONTACT_STIFFNESS, DASHPOT, INVERSE_MASS_RATIO, FREQUENCY]
+        return -bent - np.tensordot(parameters[kinds].T, parts, axes=1)
+
+    def _at_events(self, change, parameters):
+        """Return the part of B that events contribute, shape (n, 4, 4), given the change of Z2."""
+        p, third = self.path.p, np.eye(4)[2]
+        column = np.array([0.0, 1.0, 0.0, 1.0 + p[INVERSE_MASS_RATIO]])
+        total = np.zeros((parameters.shape[1], 4, 4))
+        jumped = parameters[DASHPOT][:, None] * column
+        jumped[:, 3] += p[DASHPOT] * parameters[INVERSE_MASS_RATIO]
+        for point, wall, begun in zip(*self.path.events, strict=True):
+            away = wall * parameters[CLEARANCE] - change[:, point]
+            delay = away / self.path.states[3, point]
+            jump = np.eye(4) - begun * p[DASHPOT] * np.outer(column, third)
+            before, after = (self._jacobian(point, touching) for touching in (begun < 0, begun > 0))
+            bend = jump @ before - after @ jump
+            added = delay[:, None, None] * bend - begun * jumped[:, :, None] * third
+            total += self._inverse[..., point + 1] @ added @ self.path.tangents[..., point]
+        return total
+
+    def _jacobian(self, point, touching):
+        """Return the Jacobian A at a point, in flight or in contact, shape (4, 4)."""
+        p = self.path.p
+        stiffness = p[STIFFNESS] + 3 * p[CUBIC] * self.path.states[0, point] ** 2
+        free = np.array([-stiffness, -p[DAMPING], 0.0, 0.0])
+        wall = touching * np.array([0.0, 0.0, p[CONTACT_STIFFNESS], p[DASHPOT]])
+        unit = np.eye(4)
+        return np.array([unit[1], free - wall, unit[3], free - (1 + p[INVERSE_MASS_RATIO]) * wall])
