@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER
-from scipy.integrate import solve_ivp
+from helpers.si_motions import SiMotion
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
@@ -29,60 +29,19 @@ def damper_of(machine, **others):
     return machine.damper(**given)
 
 
-def in_equations(machine, damper, frequency, state, time):
-    """Integrate a motion in SI units with SciPy, and with it the works and the largest values.
-
-    The state is x, v and relative displacement and velocity; then follow the works of the external
-    force, of the machine's dashpot and of the dashpots at the walls, and the impulse of the walls.
-    """
-    k2, m2 = damper.contact_stiffness, damper.mass
-    log_e = math.log(damper.restitution)
-    zeta = -log_e / math.hypot(math.pi, log_e)
-    c2 = 2 * zeta * math.sqrt(k2 * m2 * machine.mass / (m2 + machine.mass))
+def by_scipy(machine, damper, frequency, state, time):
+    """Last state and works in SI units (`SiMotion`), largest force and acceleration."""
     angular = 2 * math.pi * frequency
     amplitude = machine.force if machine.force else machine.unbalance * angular**2
-    gap = damper.gap / 2
-
-    def force(y, wall):
-        return k2 * (wall * y[2] - gap) + c2 * wall * y[3] if wall else 0.0
-
-    def slope(t, y, wall):
-        pushed = force(y, wall)
-        external = amplitude * math.cos(angular * t)
-        spring = machine.linear_stiffness * y[0] + machine.cubic_stiffness * y[0] ** 3
-        loss = machine.viscous_damping * y[1]
-        a = (external - spring - loss - wall * pushed) / machine.mass
-        works = [external * y[1], loss * y[1], c2 * y[3] ** 2 if wall else 0.0, pushed]
-        return [y[1], a, y[3], a - wall * pushed / m2, *works]
-
-    def reached(t, y, wall):
-        return abs(y[2]) - gap
-
-    reached.terminal = True
-    t, wall, y = 0.25 / frequency, 0, np.concatenate([state, np.zeros(4)])
-    end, forces, accelerations = t + time, [0.0], []
-    while t < end:
-        reached.direction = -1 if wall else 1
-        run = solve_ivp(
-            slope,
-            (t, end),
-            y,
-            method="DOP853",
-            events=reached,
-            args=(wall,),
-            rtol=1e-12,
-            atol=1e-14,
-            max_step=2e-4 if wall else 5e-3,
-            dense_output=True,
-        )
-        for moment in np.linspace(t, run.t[-1], 2000):
+    motion = SiMotion(machine, damper, lambda t: amplitude * math.cos(angular * t))
+    forces, accelerations = [], []
+    begin = 0.25 / frequency
+    for wall, run in motion.run(state, begin, begin + time):
+        for moment in np.linspace(run.t[0], run.t[-1], 2000):
             here = run.sol(moment)
-            forces.append(abs(force(here, wall)))
-            accelerations.append(abs(slope(moment, here, wall)[1]))
-        t, y = run.t[-1], run.y[:, -1]
-        if run.status == 1:
-            wall = 0 if wall else int(np.sign(y[2]))
-    return y, max(forces), max(accelerations)
+            forces.append(abs(motion.push(here, wall)))
+            accelerations.append(abs(motion.slope(moment, here, wall)[1]))
+    return run.y[:, -1], max(forces), max(accelerations)
 
 
 @pytest.mark.parametrize(
@@ -96,7 +55,7 @@ def test_costs_are_those_that_scipy_integrates_in_si_units(machine, gap, frequen
     assert steady["contacts"] > 0
     found = motion_costs(machine, damper, frequency, steady["state"].values, periods)
     time = periods / frequency
-    y, force, acceleration = in_equations(machine, damper, frequency, steady["state"].values, time)
+    y, force, acceleration = by_scipy(machine, damper, frequency, steady["state"].values, time)
     np.testing.assert_allclose(y[:4], steady["state"], rtol=0, atol=1e-8)
     assert float(found["costs_time"]) == pytest.approx(time, rel=1e-12)
     for name, work in zip(("force_power", "dashpot_power", "impact_power"), y[4:], strict=False):
@@ -199,7 +158,7 @@ def test_pressure_is_that_of_the_fastest_impact():
         ({"machine": PAPER}, "machine = Oscillator("),
         ({"contact": STEEL}, "contact = Material("),
         ({"periods": 0}, "periods = 0: must be from 1 to 10000"),
-        ({"damper": None}, "damper = None: must be a Damper"),
+        ({"damper": None}, "damper = None: must be a MachineDamper"),
         ({"frequency": -1}, "frequency = -1 Hz: must be at least"),
         ({"state": [0, 0]}, "state = "),
     ],

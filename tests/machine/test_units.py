@@ -51,6 +51,13 @@ def test_angular_frequencies_are_divided_by_two_pi(text, value):
     assert of_pint.to("Hz").magnitude == pytest.approx(2 * math.pi * value)
 
 
+@pytest.mark.parametrize(
+    "text", ["0.5 Hz/s", "30 Hz/minute", "3.141592653589793 rad/s^2", "30 rpm/s"]
+)
+def test_rates_of_angular_frequencies_are_divided_too(text):
+    assert si_value("rate", text, "sweep_rate") == pytest.approx(0.5, rel=1e-14)
+
+
 def test_numbers_are_si_units():
     assert si_value("gap", 3, "clearance") == 3.0
     assert si_value("gap", 3 * REGISTRY.mm, "clearance") == pytest.approx(0.003, rel=1e-15)

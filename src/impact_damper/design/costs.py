@@ -22,7 +22,7 @@ from impact_damper.design.panels import integrals, largest, logged, sampled
 from impact_damper.kernel.single import side_of
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.hertz import HertzContact
-from impact_damper.machine.machine import Machine
+from impact_damper.machine.machine import check_fit
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.motions.simulate import check_state
 from impact_damper.motions.strobe_map import strobe_time
@@ -79,8 +79,7 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
-    if not isinstance(machine, Machine):
-        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
+    check_fit(machine, damper)
     if contact is not None and not isinstance(contact, HertzContact):
         raise TypeError(f"contact = {shown(contact)}: must be a HertzContact")
     found = _costs(machine, damper, frequency, state, periods, start=start)
@@ -225,7 +224,7 @@ def _extremes_and_powers(p, panels, time):
     acceleration = external - p[DAMPING] * v - (p[STIFFNESS] + p[CUBIC] * x**2) * x
     powers = external * v, p[DAMPING] * v**2, p[DASHPOT] * rate**2
     work, damped, lost = (np.sum(integrals(panels, each)) / time for each in powers)
-    stored = (_energy(p, panels.states[-1, -1]) - _energy(p, panels.states[0, 0])) / time
+    stored = (energy(p, panels.states[-1, -1]) - energy(p, panels.states[0, 0])) / time
     return {
         "contact_force": largest(contact),
         "penetration": largest(depth),
@@ -238,9 +237,11 @@ def _extremes_and_powers(p, panels, time):
     }
 
 
-def _energy(p, y):
-    """Return the energy of a state, over the primary mass."""
+def energy(p, y):
+    """Return the energy of a state, of both masses and all springs, over the primary mass."""
     depth = max(abs(y[2]) - p[CLEARANCE], 0.0)
     spring = (p[STIFFNESS] / 2 + p[CUBIC] / 4 * y[0] ** 2) * y[0] ** 2
-    kinetic = y[1] ** 2 / 2 + (y[1] - y[3]) ** 2 / (2 * p[INVERSE_MASS_RATIO])
-    return kinetic + spring + p[CONTACT_STIFFNESS] * depth**2 / 2
+    found = y[1] ** 2 / 2 + spring + p[CONTACT_STIFFNESS] * depth**2 / 2
+    if p[INVERSE_MASS_RATIO] > 0:
+        found += (y[1] - y[3]) ** 2 / (2 * p[INVERSE_MASS_RATIO])
+    return found

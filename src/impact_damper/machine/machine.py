@@ -7,7 +7,7 @@ from functools import cached_property
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.scales import Scales, static_deflection
 from impact_damper.machine.units import check_si, convert, physical, with_unit
-from impact_damper.system.bounds import DAMPING_RANGE, FREQUENCY_RANGE
+from impact_damper.system.bounds import DAMPING_RANGE, FREQUENCY_RANGE, shown
 from impact_damper.system.parameters import Oscillator
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
@@ -178,7 +178,7 @@ class Machine:
             If the base moves, no frequency is given, and the force is not of this kind.
         """
         scales = self.scales
-        force, unbalance = self._forcing(frequency)
+        force, unbalance = self.forcing(frequency)
         return Oscillator(
             damping=scales.from_si(self.viscous_damping, "damping"),
             linear_frequency=math.sqrt(scales.from_si(self.linear_stiffness, "stiffness")),
@@ -187,8 +187,8 @@ class Machine:
             unbalance=scales.from_si(unbalance, "unbalance"),
         )
 
-    def _forcing(self, frequency):
-        """Return force (N) and unbalance (kg m) for `oscillator`."""
+    def forcing(self, frequency=None) -> tuple[float, float]:
+        """Return amplitude of the force, N, and unbalance, kg m; argument as of `oscillator`."""
         if self.force is not None:
             return self.force, 0.0
         if self.unbalance is not None:
@@ -245,6 +245,15 @@ class Machine:
         damper = MachineDamper(mass=mass, gap=gap, **contact)
         damper.check_for(self)
         return damper
+
+
+def check_fit(machine, damper):
+    """Raise TypeError or ValueError unless these are a machine and a damper that it can have."""
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
+    if not isinstance(damper, MachineDamper):
+        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper, by machine.damper")
+    damper.check_for(machine)
 
 
 def describe_si(machine, damper=None) -> dict:

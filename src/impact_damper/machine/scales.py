@@ -39,7 +39,7 @@ class Scales(NamedTuple):
         """
         each = QUANTITIES[quantity]
         value = self.length**each.length * self.time**each.time * self.mass**each.mass
-        return value / (2 * math.pi) if quantity == "frequency" else value
+        return value / (2 * math.pi) if quantity in ("frequency", "sweep_rate") else value
 
     def to_si(self, value, quantity):
         """Return the SI value of a dimensionless number or array."""

@@ -51,6 +51,7 @@ QUANTITIES = {
     "time": Quantity("s", time=1),
     "frequency": Quantity("Hz", time=-1),
     "rate": Quantity("1/s", time=-1),
+    "sweep_rate": Quantity("Hz/s", time=-2),
     "velocity": Quantity("m/s", length=1, time=-1),
     "acceleration": Quantity("m/s^2", length=1, time=-2),
     "force": Quantity("N", length=1, time=-2, mass=1),
@@ -127,7 +128,7 @@ def _factor(text, unit):
         factor = (one / target).to_root_units()
     except (pint.PintError, AttributeError, ValueError, TypeError):
         return None
-    turns = 2 * math.pi if unit == "Hz" and "radian" in str(one.units) else 1.0
+    turns = 2 * math.pi if unit in ("Hz", "Hz/s") and "radian" in str(one.units) else 1.0
     return factor.magnitude / turns if factor.dimensionless else None
 
 

@@ -20,6 +20,7 @@ from impact_damper.data.variables import (
     published,
     studies,
     subharmonic,
+    transients,
 )
 from impact_damper.data.variables.variable import Variable
 
@@ -40,6 +41,7 @@ MODULES = (
     machines,
     absorbers,
     costs,
+    transients,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

@@ -1,0 +1,18 @@
+"""Transients of a machine with a damper and without: swept sine and ring-down."""
+
+from impact_damper.data.variables.variable import Variable
+
+ENDS = {"completed": 0, "escaped": 1, "at_rest": 2, "limit": 3}
+VARIABLES = {
+    "direction": Variable(("direction",), "direction in which the forcing frequency is swept"),
+    "equipment": Variable(("equipment",), "whether the machine has its damper"),
+    "envelope": Variable(
+        ("equipment", "window"),
+        "largest displacement in a forcing period, or in a free period",
+        quantity="displacement",
+    ),
+    "window_contacts": Variable(
+        ("equipment", "window"), "contacts begun in a forcing period, or in a free period"
+    ),
+    "transient_status": Variable(("equipment",), "how the transient ended", flags=ENDS),
+}

@@ -1,0 +1,156 @@
+"""The ring-down of a machine from a displacement, with its damper and without."""
+
+import math
+
+import numpy as np
+from scipy.special import ellipk
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.design.costs import energy
+from impact_damper.design.swept_sine import EQUIPMENT, TOLERANCE
+from impact_damper.machine.machine import check_fit
+from impact_damper.machine.results import in_si
+from impact_damper.machine.units import check_si
+from impact_damper.motions.envelopes import envelope
+from impact_damper.system.bounds import FARTHEST
+from impact_damper.system.packed import CUBIC, FORCE, STIFFNESS, UNBALANCE, pack
+
+# A ring-down ends once the energy is that at the share REST of the first displacement, and at the
+# latest after MOST_WINDOWS free periods.
+REST = 1e-3
+MOST_WINDOWS = 10**4
+# Longest window, in periods of small vibrations of a softening spring, whose period has no bound.
+LONGEST = 2.0
+
+
+def ring_down(machine, damper, displacement):
+    """Let a machine ring down without forcing from a displacement, with its damper and without.
+
+    Machine and loose mass start at rest, the loose mass in the middle of its gap.
+
+    Parameters
+    ----------
+    machine : Machine
+    damper : MachineDamper
+        With a contact stiffness.
+    displacement : float
+        m, above 0.
+
+    Returns
+    -------
+    xarray.Dataset
+        In SI units. A window is a period of the free vibration without damping that has the energy
+        at its beginning. `time` at the middle of the window, `frequency`, `envelope` and
+        `window_contacts`, all (equipment, window), NaN after the end; `transient_status`
+        (equipment): at_rest once the energy left, that of the loose mass too, is that at a
+        thousandth of the displacement; escaped over a barrier of a softening spring; limit after
+        MOST_WINDOWS windows.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    check_fit(machine, damper)
+    scales = machine.scales
+    most = scales.to_si(FARTHEST, "displacement")
+    displacement = check_si("displacement", displacement, "displacement", above=0, most=most)
+    first = scales.from_si(displacement, "displacement")
+    runs = [_decay(_unforced(machine, each), first) for each in (None, damper)]
+    padded = np.full((len(EQUIPMENT), max(len(run) for run, _ in runs), 4), np.nan)
+    for rows, (run, _) in zip(padded, runs, strict=True):
+        rows[: len(run)] = run
+    names = ("time", "frequency", "envelope", "window_contacts")
+    data = {name: (("equipment", "window"), padded[..., k]) for k, name in enumerate(names)}
+    data["transient_status"] = [flag("transient_status", status) for _, status in runs]
+    made = {"displacement": first, "tolerance": TOLERANCE}
+    labelled = dataset(data, {"equipment": list(EQUIPMENT)}, made, "Ring-down")
+    return in_si(labelled, machine, damper)
+
+
+def _unforced(machine, damper):
+    """Return the packed parameters of a machine without forcing; the frequency has no effect."""
+    scales = machine.scales
+    scaled = None if damper is None else damper.scaled(scales)
+    p = pack(machine.oscillator(scales.to_si(1.0, "frequency")), scaled, 1.0)
+    p[FORCE] = p[UNBALANCE] = 0.0
+    return p
+
+
+def _decay(p, displacement):
+    """Let an oscillator ring down.
+
+    Returns
+    -------
+    numpy.ndarray, shape (windows, 4)
+        Time at the middle of each window, frequency, largest |Z1|, contacts.
+    str
+        Status.
+    """
+    y = np.array([displacement, 0.0, 0.0, 0.0])
+    rest = energy(p, REST * y)
+    rows, begin = [], 0.0
+    while len(rows) < MOST_WINDOWS:
+        left = energy(p, y)
+        if left <= rest:
+            return np.array(rows), "at_rest"
+        length = _window(p, left)
+        (largest,), (contacts,) = envelope(p[None], np.array([length]), y, TOLERANCE)
+        rows.append((begin + length / 2, 2 * np.pi / length, largest, contacts))
+        if largest == np.inf:
+            return np.array(rows), "escaped"
+        begin += length
+    return np.array(rows), "limit"
+
+
+def _window(p, left):
+    """Return the period of a free vibration with the energy `left`, at most the longest window."""
+    period = free_period(p[STIFFNESS], p[CUBIC], free_amplitude(p[STIFFNESS], p[CUBIC], left))
+    if p[CUBIC] >= 0:
+        return period
+    return min(period, LONGEST * 2 * np.pi / np.sqrt(p[STIFFNESS]))
+
+
+def free_amplitude(stiffness, cubic, stored) -> float:
+    """Return the amplitude A of x'' + a x + b x^3 = 0: a A^2/2 + b A^4/4 is its energy.
+
+    Parameters
+    ----------
+    stiffness, cubic : float
+        a >= 0 and b, dimensionless, one of them above 0.
+    stored : float
+        Energy.
+
+    Returns
+    -------
+    float
+        Infinite if a softening spring cannot store the energy.
+    """
+    square = stiffness**2 + 4 * cubic * stored
+    if square <= 0:
+        return math.inf if stored > 0 else 0.0
+    return 2 * math.sqrt(stored / (stiffness + math.sqrt(square)))
+
+
+def free_period(stiffness, cubic, amplitude) -> float:
+    """Return the period of x'' + a x + b x^3 = 0 at an amplitude A.
+
+    The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2), of the period 4 K(m)/w.
+    (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations, 1979, section 2.1.)
+
+    Parameters
+    ----------
+    stiffness, cubic : float
+        As of `free_amplitude`.
+    amplitude : float
+        Above 0 if a is 0.
+
+    Returns
+    -------
+    float
+        Infinite from the barrier A^2 = -a/b of a softening spring on.
+    """
+    square = stiffness + cubic * amplitude**2
+    if square <= 0:
+        return math.inf
+    return 4 * float(ellipk(cubic * amplitude**2 / (2 * square))) / math.sqrt(square)

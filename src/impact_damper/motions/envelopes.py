@@ -1,0 +1,75 @@
+"""Envelopes of transients: largest |Z1| and contacts in windows, each with its own parameters.
+
+The kernel of the steps takes a fixed frequency. A sweep is run with one frequency for each forcing
+period, changed at the strobe, where the force is zero: so neither its phase nor the force jumps.
+"""
+
+import numpy as np
+
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.equation import has_escaped
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
+from impact_damper.kernel.single import X, side_of, step, workspace
+from impact_damper.motions.records import extremum
+from impact_damper.motions.strobe_map import strobe_time
+
+# Windows in one call of the kernel, a few milliseconds, since Ctrl-C waits for a kernel to end.
+AT_ONCE = 1024
+
+
+def envelope(parameters, lengths, y, tolerance):
+    """Run a motion through windows of time, one after the other.
+
+    Parameters
+    ----------
+    parameters : array, shape (n, packed.COUNT)
+        Packed parameters in each window.
+    lengths : array, shape (n,)
+        Times of the windows. Each begins at the strobe, W T = pi/2, so with forcing its length
+        is a forcing period 2 pi/W.
+    y : array, shape (4,)
+        First state; replaced by the last one, or by that at an escape.
+    tolerance : float
+        Local error allowed.
+
+    Returns
+    -------
+    largest : numpy.ndarray, shape (n,)
+        Largest |Z1| in each window; infinite where the motion escapes, and NaN afterwards.
+    contacts : numpy.ndarray, shape (n,)
+        Contacts begun in each window, NaN from an escape on.
+    """
+    largest, contacts = np.full((2, len(lengths)), np.nan)
+    side = side_of(parameters[0], y)
+    for first in range(0, len(lengths), AT_ONCE):
+        part = slice(first, first + AT_ONCE)
+        side, escaped = run_windows(
+            parameters[part], lengths[part], y, side, tolerance, largest[part], contacts[part]
+        )
+        if escaped:
+            break
+    return largest, contacts
+
+
+@kernel
+def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
+    """Do the same as `envelope`; return the wall in contact, and whether the motion escaped."""
+    work = workspace()
+    none = np.empty((0, 4))
+    for k in range(len(lengths)):
+        p = parameters[k]
+        t = strobe_time(p)
+        end = t + lengths[k]
+        farthest, begun = abs(y[0]), 0
+        while t < end:
+            before = side
+            length, side = step(p, y, none, side, t, end - t, tolerance, work)
+            if has_escaped(p, y[0], y[1]):
+                largest[k] = np.inf
+                return side, True
+            order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
+            farthest = extremum(work[X:], order, length, farthest)
+            begun += before == 0 and side != 0
+            t = end if length >= end - t else t + length
+        largest[k], contacts[k] = farthest, begun
+    return side, False

@@ -1,0 +1,78 @@
+"""Motions of a machine with a damper in SI units, integrated by SciPy with the walls as events."""
+
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+
+class SiMotion:
+    """A machine with its damper, or without, under a given force.
+
+    A state is x, v and the displacement and speed of the machine relative to the loose mass; then
+    follow the works of the force, of the machine's dashpot and of the dashpots at the walls, and
+    the impulse of the walls.
+
+    Parameters
+    ----------
+    machine : Machine
+    damper : MachineDamper or None
+    force : callable
+        Force in N of the time in s.
+    """
+
+    def __init__(self, machine, damper, force):
+        self.machine, self.damper, self.force = machine, damper, force
+        self.gap = damper.gap / 2 if damper else math.inf
+        self.dashpot = 0.0
+        if damper:
+            logarithm = math.log(damper.restitution)
+            ratio = -logarithm / math.hypot(math.pi, logarithm)
+            mass = damper.mass * machine.mass / (damper.mass + machine.mass)
+            self.dashpot = 2 * ratio * math.sqrt(damper.contact_stiffness * mass)
+
+    def push(self, y, wall):
+        """Force of the wall in contact, N."""
+        if not wall:
+            return 0.0
+        return self.damper.contact_stiffness * (wall * y[2] - self.gap) + self.dashpot * wall * y[3]
+
+    def slope(self, t, y, wall):
+        """Time derivative of a state."""
+        machine, push, force = self.machine, self.push(y, wall), self.force(t)
+        loss = machine.viscous_damping * y[1]
+        spring = machine.linear_stiffness * y[0] + machine.cubic_stiffness * y[0] ** 3
+        a = (force - spring - loss - wall * push) / machine.mass
+        works = [force * y[1], loss * y[1], self.dashpot * y[3] ** 2 if wall else 0.0, push]
+        loose = wall * push / self.damper.mass if wall else 0.0
+        return [y[1], a, y[3], a - loose, *works]
+
+    def run(self, state, begin, end, *, longest=5e-3, in_contact=2e-4):
+        """Yield each flight and each contact: its wall, 0 in flight, and SciPy's solution."""
+
+        def reached(t, y, wall):
+            return abs(y[2]) - self.gap
+
+        def turned(t, y, wall):
+            return y[1]
+
+        reached.terminal = True
+        t, wall, y = begin, 0, np.concatenate([state, np.zeros(4)])
+        while t < end:
+            reached.direction = -1 if wall else 1
+            solution = solve_ivp(
+                self.slope,
+                (t, end),
+                y,
+                method="DOP853",
+                events=(reached, turned) if self.damper else (lambda t, y, wall: 1.0, turned),
+                args=(wall,),
+                rtol=1e-12,
+                atol=1e-14,
+                max_step=in_contact if wall else longest,
+                dense_output=True,
+            )
+            yield wall, solution
+            t, y = solution.t[-1], solution.y[:, -1]
+            if solution.status == 1:
+                wall = 0 if wall else int(np.sign(y[2]))
