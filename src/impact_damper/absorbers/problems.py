@@ -1,49 +1,30 @@
-"""Machines with and without an absorber at many frequencies and forces, as arrays.
+"""Machines with and without an absorber at many frequencies and forces, as an array of parameters.
 
-In the scales of the machine, with the displacement x of the machine and u of the machine relative
-to the absorber,
-
-    x'' = f cos(W T) - h x' - (k + k3 x^2) x - n
-    u'' = x'' - n/m,    n = (kappa + kappa3 u^2) u + eta u'
-
-and n = 0 without an absorber. A state is (x, x', u, u'), or (x, x') without an absorber.
+A problem is a row of parameters of `smooth_runs`, whose equations count lengths in the scale of the
+machine and time in radian of the forcing.
 """
-
-from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.motions.smooth_runs import (
+    COUNT,
+    CUBIC,
+    DAMPING,
+    FORCE,
+    INVERSE_MASS,
+    LINK_CUBIC,
+    LINK_DAMPING,
+    LINK_STIFFNESS,
+    STIFFNESS,
+)
 
-class Problems(NamedTuple):
-    """Parameters of several problems, each an array of shape (n,), dimensionless.
-
-    Attributes
-    ----------
-    frequency, force, damping, stiffness, cubic : numpy.ndarray
-        W, f, h, k and k3.
-    link : numpy.ndarray, shape (4, n), or None
-        m, kappa, eta and kappa3 of the absorber; None without an absorber.
-    """
-
-    frequency: np.ndarray
-    force: np.ndarray
-    damping: np.ndarray
-    stiffness: np.ndarray
-    cubic: np.ndarray
-    link: np.ndarray | None
-
-    @property
-    def size(self) -> int:
-        """Components of a state: 4, or 2 without an absorber."""
-        return 2 if self.link is None else 4
-
-    def take(self, chosen) -> "Problems":
-        """Return the problems with some indices."""
-        link = None if self.link is None else self.link[:, chosen]
-        return Problems(*(each[chosen] for each in self[:5]), link)
+# Longest step in radian of the fastest vibration: COARSE on the way to an orbit, FINE on it. Least
+# number of steps in a forcing period.
+COARSE, FINE = 0.7, 0.35
+LEAST_STEPS = 8
 
 
-def problems_of(machine, absorber, frequencies, shares) -> Problems:
+def problems_of(machine, absorber, frequencies, shares):
     """Return the problems of a machine at pairs of frequency and force share.
 
     Parameters
@@ -57,69 +38,68 @@ def problems_of(machine, absorber, frequencies, shares) -> Problems:
 
     Returns
     -------
-    Problems
-        At frequency i and share j the problem with index i len(shares) + j.
+    numpy.ndarray, shape (len(frequencies) len(shares), COUNT)
+        Those of frequency i and share j have the index i len(shares) + j.
     """
     scales = machine.scales
-    angular = np.array([scales.from_si(each, "frequency") for each in frequencies])
-    given = [machine.oscillator(each) for each in frequencies]
-    forces = [each.forcing_amplitude(w) for each, w in zip(given, angular, strict=True)]
-    count = len(frequencies) * len(shares)
-    first = given[0]
-    fixed = (first.damping, first.linear_frequency**2, first.cubic)
-    link = None
+    w = np.repeat(scales.from_si(np.asarray(frequencies, float), "frequency"), len(shares))
+    given = [each for hertz in frequencies for each in [machine.oscillator(hertz)] * len(shares)]
+    force = np.array(
+        [each.forcing_amplitude(angular) for each, angular in zip(given, w, strict=True)]
+    )
+    found = np.zeros((len(w), COUNT))
+    found[:, FORCE] = force * np.tile(shares, len(frequencies)) / w**2
+    found[:, DAMPING] = given[0].damping / w
+    found[:, STIFFNESS] = given[0].linear_frequency ** 2 / w**2
+    found[:, CUBIC] = given[0].cubic / w**2
     if absorber is not None:
-        values = (
-            scales.from_si(absorber.mass, "mass"),
-            scales.from_si(absorber.stiffness, "stiffness"),
-            scales.from_si(absorber.damping, "damping"),
-            scales.from_si(absorber.cubic_stiffness, "cubic_stiffness"),
-        )
-        link = np.repeat(np.array(values)[:, None], count, axis=1)
-    return Problems(
-        np.repeat(angular, len(shares)),
-        np.outer(forces, shares).ravel(),
-        *(np.full(count, value) for value in fixed),
-        link,
+        found[:, INVERSE_MASS] = 1 / scales.from_si(absorber.mass, "mass")
+        found[:, LINK_STIFFNESS] = scales.from_si(absorber.stiffness, "stiffness") / w**2
+        found[:, LINK_DAMPING] = scales.from_si(absorber.damping, "damping") / w
+        cubic = scales.from_si(absorber.cubic_stiffness, "cubic_stiffness")
+        found[:, LINK_CUBIC] = cubic / w**2
+    return found
+
+
+def active_size(problems) -> int:
+    """Return the number of components of a state that matter: 4, or 2 without an absorber."""
+    return 4 if problems[:1, INVERSE_MASS].any() else 2
+
+
+def springs(problems):
+    """Return stiffness and cubic stiffness over moving mass, of the machine's spring and the link.
+
+    Returns
+    -------
+    tuple of pairs of numpy.ndarray, shape (n,)
+        Of the link as it vibrates against the machine.
+    """
+    share = 1 + problems[:, INVERSE_MASS]
+    return (
+        (problems[:, STIFFNESS], problems[:, CUBIC]),
+        (share * problems[:, LINK_STIFFNESS], share * problems[:, LINK_CUBIC]),
     )
 
 
-def rate(problems, springs, force, state):
-    """Return the rate of states or, without a force, of small disturbances of them.
+def steps_for(problems, states, longest):
+    """Return the number of steps in a forcing period for each problem.
+
+    The fastest vibration is estimated from the stiffness of both springs at the displacements to
+    which the states swing without force and damping.
 
     Parameters
     ----------
-    problems : Problems
-    springs : tuple of numpy.ndarray
-        Stiffness of the machine's spring and of the absorber's: `secants` of the state for the
-        motion, `slopes` for a disturbance.
-    force : numpy.ndarray, shape (n,), or float
-        Force on the machine.
-    state : numpy.ndarray, shape (size, ..., n)
+    problems : numpy.ndarray, shape (n, COUNT)
+    states : numpy.ndarray, shape (n, SIZE)
+    longest : float
+        Longest step in radian of the fastest vibration.
     """
-    speed = state[1]
-    acceleration = force - problems.damping * speed - springs[0] * state[0]
-    if problems.link is None:
-        return np.stack([speed, acceleration])
-    mass, _, damping, _ = problems.link
-    held = springs[1] * state[2] + damping * state[3]
-    acceleration -= held
-    return np.stack([speed, acceleration, state[3], acceleration - held / mass])
-
-
-def secants(problems, state):
-    """Return force over displacement of both springs."""
-    return _springs(problems, state, 1.0)
-
-
-def slopes(problems, state):
-    """Return the derivative of force by displacement of both springs."""
-    return _springs(problems, state, 3.0)
-
-
-def _springs(problems, state, factor):
-    first = problems.stiffness + factor * problems.cubic * state[0] ** 2
-    if problems.link is None:
-        return (first,)
-    _, stiffness, _, cubic = problems.link
-    return first, stiffness + factor * cubic * state[2] ** 2
+    fastest = 1.0
+    for (stiffness, cubic), place in zip(springs(problems), (0, 2), strict=True):
+        x, v = states[:, place], states[:, place + 1]
+        energy = v**2 / 2 + (stiffness / 2 + cubic / 4 * x**2) * x**2
+        root = np.sqrt(np.maximum(stiffness**2 + 4 * cubic * energy, 0.0))
+        # with the swing X, X^2 = 4 energy/(stiffness + root)
+        fastest = fastest + stiffness + 3 * np.maximum(root - stiffness, 0.0)
+    least = 2 * np.pi * np.sqrt(fastest) / longest
+    return np.ceil(np.maximum(least, LEAST_STEPS)).astype(int)

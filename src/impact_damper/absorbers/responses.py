@@ -11,25 +11,45 @@ import numpy as np
 
 from impact_damper.absorbers.absorber import check_mass
 from impact_damper.absorbers.linear_response import response
-from impact_damper.absorbers.motions import stable_motions
 from impact_damper.absorbers.problems import problems_of
+from impact_damper.absorbers.search import Search, search
 from impact_damper.absorbers.tuning import exact_absorber, nonlinear_absorber
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.machine.machine import Machine
 from impact_damper.machine.results import in_si
-from impact_damper.system.bounds import shown
+from impact_damper.system.bounds import RUNS_RANGE, SEED_RANGE, check_count, shown
 from impact_damper.system.checks import check_numbers
 
 COMPETITORS = ("bare", "tuned", "nonlinear")
 # Factors of the excitation, from a quarter to four times the machine's.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
-VALUES = ("stiffness", "damping", "cubic_stiffness")
+SPRING = ("stiffness", "damping", "cubic_stiffness")
+# Variables for the fields of `search.Search`.
+NAMES = dict(
+    zip(
+        Search._fields,
+        ("displacement", "least_displacement", "motions", "share", "escaped", "status"),
+        strict=True,
+    )
+)
 
 
 def absorber_responses(
-    machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None
+    machine,
+    mass,
+    frequencies,
+    force_shares=SHARES,
+    *,
+    detunings=DETUNINGS,
+    band=None,
+    starts=4,
+    seed=1995,
 ):
     """Return the displacements of a machine without and with tuned absorbers.
+
+    With linear springs the response has a closed form. Otherwise the motions are exact periodic
+    orbits, and random starts show that none of those they reach is missing.
 
     Parameters
     ----------
@@ -45,16 +65,20 @@ def absorber_responses(
     band : sequence of 2 floats, optional
         Lowest and highest frequency, Hz, over which the absorbers are tuned; all frequencies if
         not given (`tuning.exact_absorber`).
+    starts : int
+        Random starts at each frequency and force share.
+    seed : int
 
     Returns
     -------
     xarray.Dataset
         In SI units, over `competitor`, `detuning`, `frequency` and `force_share`: the largest
-        displacements (mm) of the largest and of the smallest stable motion, how many stable
-        periodic motions there are, and how the search for them ended; over `competitor` and
-        `detuning` the stiffness, damping and cubic stiffness of the absorbers. The bare machine
-        has the same values at all detunings. The attribute `remarks` says in words, keyed by
-        competitor, why one is not possible.
+        displacements (mm) of the largest and of the smallest motion, how many stable periodic
+        motions there are, the shares of starts that lead to the largest motion and that escape,
+        and how the search for motions ended; over `competitor` and `detuning` the stiffness,
+        damping and cubic stiffness of the absorbers. The bare machine has the same values at all
+        detunings. The attribute `remarks` says in words, keyed by competitor, why one is not
+        possible.
 
     Raises
     ------
@@ -62,37 +86,32 @@ def absorber_responses(
         If an argument is out of range; the message names it, in SI units.
     """
     mass = check_mass(machine, mass)
-    if machine.force == 0:
-        raise ValueError("force = 0 N: must be greater than 0 N (without excitation all rests)")
-    frequencies = _increasing(
-        "frequencies",
-        [machine.check_frequency(f"frequencies[{i}]", each) for i, each in enumerate(frequencies)],
-    )
-    shares = _increasing("force_shares", check_numbers("force_shares", force_shares, above=0))
+    frequencies, shares = check_grid(machine, frequencies, force_shares)
     detunings = _increasing("detunings", check_numbers("detunings", detunings, above=-1, most=10))
+    check_count("starts", starts, **RUNS_RANGE)
+    check_count("seed", seed, **SEED_RANGE)
     absorbers, remarks = competitors(machine, mass, band)
-    shape = (len(COMPETITORS), len(detunings), len(frequencies), len(shares))
-    found = _not_possible(shape)
-    for i, name in enumerate(COMPETITORS):
-        if name in remarks:
-            continue
-        for j, detuning in enumerate(detunings):
-            if absorbers[name] is None and j:
-                values = {key: found[key][i, 0] for key in found}
-            else:
-                absorber = absorbers[name] and absorbers[name].detuned(detuning)
-                values = _absorber_values(machine, absorber)
-                values |= _responses(machine, absorber, frequencies, shares)
+    found = _not_possible((len(COMPETITORS), len(detunings), len(frequencies), len(shares)))
+    sizes = None
+    for name, absorber in absorbers.items():
+        row = COMPETITORS.index(name)
+        for column, detuning in enumerate(detunings if absorber else [None]):
+            # all detunings of the bare machine at once
+            column = column if absorber else slice(None)
+            built = absorber and absorber.detuned(detuning)
+            values, sizes = _responses(machine, built, frequencies, shares, starts, seed, sizes)
             for key, value in values.items():
-                found[key][i, j] = value
+                found[key][row, column] = value
     scales = machine.scales
     coordinates = {
         "competitor": list(COMPETITORS),
         "detuning": detunings,
-        "frequency": [scales.from_si(each, "frequency") for each in frequencies],
+        "frequency": scales.from_si(frequencies, "frequency"),
         "force_share": shares,
     }
-    parameters = {"absorber_mass_ratio": mass / machine.mass, "band": band and list(band)}
+    parameters = {"absorber_mass": mass, "starts": starts, "seed": seed}
+    if band is not None:
+        parameters["band"] = [machine.check_frequency("band", end) for end in band]
     data = dataset(found, coordinates, parameters, "A machine without and with tuned absorbers")
     return in_si(data, machine).assign_attrs(remarks=json.dumps(remarks))
 
@@ -107,7 +126,7 @@ def competitors(machine, mass, band=None):
         if machine.linear_stiffness == 0:
             remarks[name] = (
                 "not possible: the machine has no linear stiffness, so that its natural frequency "
-                "depends on the amplitude alone and there is none to tune to"
+                "depends on the amplitude and there is none to tune to"
             )
         elif name == "nonlinear" and machine.cubic_stiffness == 0:
             remarks[name] = "not apart: on a machine with a linear spring it is the tuned absorber"
@@ -116,53 +135,52 @@ def competitors(machine, mass, band=None):
     return absorbers, remarks
 
 
-def _responses(machine, absorber, frequencies, shares):
-    """Return values over frequencies and shares, keyed by variable, in the machine's scales."""
+def check_grid(machine, frequencies, force_shares):
+    """Return frequencies and force shares as arrays, or raise an error that names what is wrong."""
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
+    if machine.force == 0:
+        raise ValueError("force = 0 N: must be greater than 0 N (without excitation all rests)")
+    if np.ndim(frequencies) != 1:
+        raise TypeError(f"frequencies = {shown(frequencies)}: must be a sequence of numbers")
+    checked = [
+        machine.check_frequency(f"frequencies[{i}]", each) for i, each in enumerate(frequencies)
+    ]
+    shares = check_numbers("force_shares", force_shares, above=0, most=1e6)
+    return _increasing("frequencies", checked), _increasing("force_shares", shares)
+
+
+def _responses(machine, absorber, frequencies, shares, starts, seed, sizes):
+    """Return values over frequencies and shares, keyed by variable, and the sizes for `search`.
+
+    The values are in the machine's scales.
+    """
     shape = len(frequencies), len(shares)
-    linear = machine.cubic_stiffness == 0 and (absorber is None or absorber.cubic_stiffness == 0)
-    if linear:
+    if machine.cubic_stiffness == 0 and (absorber is None or absorber.cubic_stiffness == 0):
         sizes = machine.scales.from_si(response(machine, absorber, frequencies), "displacement")
-        most = least = np.outer(sizes, shares)
-        count = np.ones(shape)
+        most = np.outer(sizes, shares)
+        one = np.ones(shape)
+        found = Search(most, most, one, one, 0 * one, flag("competitor_status", "found") * one)
     else:
-        motions = stable_motions(problems_of(machine, absorber, frequencies, shares))
-        total = shape[0] * shape[1]
-        most, least = np.full(total, -np.inf), np.full(total, np.inf)
-        np.maximum.at(most, motions.index, motions.orbits.displacement)
-        np.minimum.at(least, motions.index, motions.orbits.displacement)
-        count = np.bincount(motions.index, minlength=total).reshape(shape)
-        most, least = (
-            np.where(np.isfinite(each), each, np.nan).reshape(shape) for each in (most, least)
-        )
-    status = np.where(
-        count, flag("competitor_status", "found"), flag("competitor_status", "not_found")
-    )
-    return {
-        "competitor_displacement": most,
-        "competitor_least_displacement": least,
-        "competitor_motions": count,
-        "competitor_status": status,
+        problems = problems_of(machine, absorber, frequencies, shares)
+        found, _, sizes = search(problems, shape, starts, seed, sizes)
+    values = {
+        f"competitor_{NAMES[name]}": value.reshape(shape) for name, value in found._asdict().items()
     }
-
-
-def _absorber_values(machine, absorber):
-    """Return stiffness, damping and cubic stiffness in the scales of the machine."""
-    if absorber is None:
-        return {}
-    return {
-        f"absorber_{name}": machine.scales.from_si(getattr(absorber, name), name) for name in VALUES
-    }
+    if absorber is not None:
+        values |= {
+            f"absorber_{name}": machine.scales.from_si(getattr(absorber, name), name)
+            for name in SPRING
+        }
+    return values, sizes
 
 
 def _not_possible(shape):
     """Return arrays for all competitors, filled as if none were possible."""
-    found = {
-        "competitor_displacement": np.full(shape, np.nan),
-        "competitor_least_displacement": np.full(shape, np.nan),
-        "competitor_motions": np.zeros(shape, int),
-        "competitor_status": np.full(shape, flag("competitor_status", "not_possible")),
-    }
-    return found | {f"absorber_{name}": np.full(shape[:2], np.nan) for name in VALUES}
+    found = {f"competitor_{name}": np.full(shape, np.nan) for name in NAMES.values()}
+    found["competitor_motions"] = np.zeros(shape, int)
+    found["competitor_status"] = np.full(shape, flag("competitor_status", "not_possible"))
+    return found | {f"absorber_{name}": np.full(shape[:2], np.nan) for name in SPRING}
 
 
 def _increasing(name, values):

@@ -46,7 +46,7 @@ def warm_up_orbits() -> None:
 
     First come kernels that `warm_up_settling` needs too, and last those that need its kernels.
     """
-    from impact_damper.motions import ensemble, envelopes, records, strobe_map
+    from impact_damper.motions import ensemble, envelopes, records, smooth_runs, strobe_map
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
@@ -56,6 +56,8 @@ def warm_up_orbits() -> None:
     records.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
     ensemble.collide(on[None], states, 1, 1e-9)
     envelopes.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
+    rows, slopes = np.zeros((1, smooth_runs.COUNT)), np.zeros((1, 4, 4))
+    smooth_runs.run(rows, states, np.ones(1, int), 1, slopes, states.copy())
 
     from impact_damper.orbits.paths import follow_path
 

@@ -10,20 +10,21 @@ VARIABLES = {
     ),
     "force_share": Variable(("force_share",), "factor of the machine's excitation"),
     "competitor_displacement": Variable(
-        GRID,
-        "largest displacement in the largest stable motion found",
-        quantity="displacement",
+        GRID, "largest displacement in the largest motion found", quantity="displacement"
     ),
     "competitor_least_displacement": Variable(
-        GRID,
-        "largest displacement in the smallest stable motion found",
-        quantity="displacement",
+        GRID, "largest displacement in the smallest motion found", quantity="displacement"
     ),
     "competitor_motions": Variable(GRID, "number of stable periodic motions found"),
+    "competitor_share": Variable(GRID, "share of starts that lead to the largest motion"),
+    "competitor_escaped": Variable(
+        GRID, "share of starts that escape over the barrier of a softening spring"
+    ),
     "competitor_status": Variable(
         GRID,
-        "how the search for motions ended",
-        flags={"not_possible": -1, "not_found": 0, "found": 1, "not_periodic": 2},
+        "how the search for motions ended: all starts that do not escape lead to stable periodic "
+        "motions, some to a motion without a period of one to three forcing periods, or all escape",
+        flags={"not_possible": -1, "escaped": 0, "found": 1, "not_periodic": 2},
     ),
     "absorber_stiffness": Variable(
         GRID[:2], "stiffness of the absorber's spring", quantity="stiffness"
