@@ -22,6 +22,7 @@ FLOORS = (
     "motions",
     "contact",
     "orbits",
+    "edges",
     "absorbers",
     "migration",
     "rivals",

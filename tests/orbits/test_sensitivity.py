@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER, polished_orbit
+from helpers.symmetric import CENTRAL, converged, linear_orbit
 from numpy.testing import assert_allclose
 
-from impact_damper.literature.masri_caughey import flight_with_speed
 from impact_damper.orbits.paths import follow_path
 from impact_damper.orbits.sensitivity import _displacement, _modulus, path_of, sensitivity
 from impact_damper.orbits.shooting import TURN, find_orbit, shoot
@@ -26,47 +26,19 @@ from impact_damper.system.packed import (
 from impact_damper.system.packed import DESIGN as DESIGN_PARAMETERS
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Coefficients of a central difference of order 8.
-CENTRAL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 LINEAR = Oscillator(0.02, 1.0, cubic=0.0, unbalance=0.3)
 STIFF = Damper(0.05, 3.0, restitution=0.6, contact_stiffness=500.0)
 # Cubic coefficients with which the spring's force at max |Z1| changes by some per cent.
 SPRINGS = {"hardening": 1e-4, "softening": -1e-4, "linear": 0.0}
 
 
-def newton(p, state, phase, symmetric):
-    """The converged orbit near a state."""
-    for _ in range(12):
-        orbit, end = shoot(p, state, 1, phase, symmetric=symmetric)
-        n = orbit.active
-        matrix = (orbit.monodromy if orbit.root is None else orbit.root)[:n, :n]
-        change = np.linalg.solve(np.eye(n) - matrix, (end - state)[:n])
-        state = state + (change if n == 4 else np.tile(change, 2))
-        if np.max(np.abs(change)) < 1e-13:
-            break
-    orbit, _ = shoot(p, state, 1, phase, symmetric=symmetric)
-    assert orbit.converged
-    return orbit
-
-
-def linear_orbit(oscillator, damper, frequency, ratio):
-    """The symmetric orbit near Masri and Caughey's motion between rigid walls."""
-    linear = replace(oscillator, cubic=0.0)
-    flight = flight_with_speed(linear, damper, frequency, ratio)
-    damper = replace(damper, clearance=flight.clearance)
-    state, phase = flight.state, flight.phase
-    for share in np.linspace(0, 1, 6):
-        changed = replace(oscillator, cubic=share * oscillator.cubic)
-        orbit = newton(pack(changed, damper, frequency), state, phase, True)
-        state = orbit.state
-    return orbit
-
-
 def named_orbit(name):
     if name in ("design", "inelastic", "large", "resonance"):
         known = polished_orbit(name)
         found = find_orbit(known.parameters, known.state)
-        return newton(known.parameters, found.state, found.phase, name in ("design", "inelastic"))
+        return converged(
+            known.parameters, found.state, found.phase, name in ("design", "inelastic")
+        )
     return linear_orbit(replace(LINEAR, cubic=SPRINGS[name]), STIFF, 1.0, 0.75)
 
 
@@ -84,7 +56,7 @@ def differences(orbit, direction):
     for k, weight in CENTRAL.items():
         for sign in (-1, 1):
             p = orbit.p + sign * k * direction
-            near = newton(p, orbit.state, orbit.phase, symmetric)
+            near = converged(p, orbit.state, orbit.phase, symmetric)
             matrix = (near.root if symmetric else near.monodromy)[:n, :n]
             size, modulus = near.record["maximum_displacement"], abs(near.multipliers[0])
             numbers = np.concatenate([near.state, matrix.ravel(), [size, modulus]])
@@ -182,7 +154,7 @@ def test_derivatives_by_design_parameters():
         for k, weight in CENTRAL.items():
             for sign in (-1, 1):
                 p = packed(name, given[name] + sign * k * step)
-                near = newton(p, orbit.state, orbit.phase, True)
+                near = converged(p, orbit.state, orbit.phase, True)
                 numbers = near.record["maximum_displacement"], abs(near.multipliers[0])
                 totals = totals + sign * weight * np.append(near.state, numbers) / step
         assert_near(states[name], totals[:4], step, 20)

@@ -15,6 +15,7 @@ ROOMS_WITHOUT_KERNELS = (
     "literature",
     "absorbers",
     "orbits",
+    "edges",
     "comparisons",
     "design",
     "stages",

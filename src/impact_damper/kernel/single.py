@@ -11,6 +11,7 @@ from impact_damper.kernel import instances
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped, no_return
 from impact_damper.kernel.memory import CACHE_LINE, aligned, pointer
+from impact_damper.kernel.series import rows
 from impact_damper.system import packed
 from impact_damper.system.packed import CLEARANCE
 
@@ -28,6 +29,10 @@ SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.LENGTH,
 )
 PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
+FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
+# Indices in a workspace of the series of tangents: COLUMNS numbers for each coefficient.
+_ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
+DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
 
 @kernel

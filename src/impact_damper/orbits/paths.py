@@ -11,9 +11,18 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from impact_damper.kernel.equation import no_return
-from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.kernel.series import rows
-from impact_damper.kernel.single import BEHIND, COLUMNS, Q, X, side_of, step, workspace
+from impact_damper.kernel.single import (
+    COLUMNS,
+    CONTACT_ORDER,
+    DQ,
+    DX,
+    FLIGHT_ORDER,
+    Q,
+    X,
+    side_of,
+    step,
+    workspace,
+)
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE
 
@@ -21,9 +30,9 @@ from impact_damper.system.packed import CLEARANCE
 # 3.5 radians, and products of two of its oscillations by twice as much: with 21 points the error of
 # their integrals is about 1e-13.
 POINTS = 21
+# Corrections of the time of a turn.
+CORRECTIONS = 4
 TERMS = max(FLIGHT_ORDER, CONTACT_ORDER) + 1
-_ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
-DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 _ON_CIRCLE = -np.cos(np.pi * np.arange(POINTS) / (POINTS - 1))
 _TO_SERIES = np.linalg.inv(chebyshev.chebvander(_ON_CIRCLE, POINTS - 1))
 # Places of the points on a step of length 1, and the matrix that maps values there to integrals
@@ -98,6 +107,43 @@ class Path:
         at = np.flatnonzero(change)
         return POINTS * (at + 1) - 1, (self.sides[1:] + self.sides[:-1])[at], change[at]
 
+    def turns(self, moving):
+        """Find the turns of Z1 or of Z2, where its velocity is zero.
+
+        Parameters
+        ----------
+        moving : int
+            0 for Z1, 1 for Z2.
+
+        Returns
+        -------
+        steps : numpy.ndarray of int, shape (n,)
+            Steps that hold the turns.
+        values : numpy.ndarray, shape (n,)
+            Z1 or Z2 there.
+        weights : numpy.ndarray, shape (n, POINTS)
+            Weights of values at the points of the step, for those at the turn.
+        """
+        speed = self.states[2 * moving + 1].reshape(-1, POINTS)
+        steps, points = np.nonzero(speed[:, :-1] * speed[:, 1:] <= 0)
+        before, after = speed[steps, points], speed[steps, points + 1]
+        share = before / np.where(before == after, 1.0, before - after)
+        lengths = self.lengths[steps]
+        times = lengths * (PLACES[points] + share * (PLACES[points + 1] - PLACES[points]))
+        series = self.series[steps, :, moving, 0]
+        for _ in range(CORRECTIONS):
+            slope, curve = (_derivative(series, times, order) for order in (1, 2))
+            times = times - np.divide(slope, curve, out=np.zeros_like(slope), where=curve != 0)
+        weights = chebyshev.chebvander(2 * times / lengths - 1, POINTS - 1) @ _TO_SERIES
+        return steps, _derivative(series, times, 0), weights
+
+
+def _derivative(series, times, order):
+    """Return the value of series, shape (n, terms), or a derivative of it, each at its time."""
+    for _ in range(order):
+        series = series[:, 1:] * np.arange(1, series.shape[1])
+    return np.sum(series * times[:, None] ** np.arange(series.shape[1]), axis=1)
+
 
 def follow_path(p, state, begin, end) -> Path:
     """Follow a motion and its derivative from one time to another.
@@ -147,18 +193,3 @@ def _series(p, work, side, first):
         series[0, 1, 0] += side * p[CLEARANCE]
         series[:count, 1, 1:] = work[DQ : DQ + count * COLUMNS].reshape(count, COLUMNS)
     return series
-
-
-def interpolation(places):
-    """Return the weights of the values at the points of a step, for the values at other places.
-
-    Parameters
-    ----------
-    places : array, shape (n,)
-        Places on a step of length 1.
-
-    Returns
-    -------
-    numpy.ndarray, shape (n, POINTS)
-    """
-    return chebyshev.chebvander(2 * places - 1, POINTS - 1) @ _TO_SERIES

@@ -11,13 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from impact_damper.orbits.paths import PLACES, POINTS, Path, follow_path, interpolation
+from impact_damper.orbits.paths import POINTS, Path, follow_path
 from impact_damper.orbits.shooting import TURN, Orbit
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import COUNT, DESIGN, FREQUENCY, design_slopes
 
-# Corrections of the time of an extremum of Z1.
-CORRECTIONS = 4
 # Relative distance within which two extrema of |Z1|, or the moduli of two multipliers, are equal,
 # and within which two multipliers are a double one.
 EQUAL = 1e-6
@@ -131,18 +129,7 @@ def _displacement(path, changes):
     changes : array, shape (n, N)
         Changes of Z1 at the points of the path.
     """
-    speed = path.states[1].reshape(-1, POINTS)
-    steps, points = np.nonzero(speed[:, :-1] * speed[:, 1:] <= 0)
-    before, after = speed[steps, points], speed[steps, points + 1]
-    share = before / np.where(before == after, 1.0, before - after)
-    places = PLACES[points] + share * (PLACES[points + 1] - PLACES[points])
-    times = path.lengths[steps] * places
-    z1 = path.series[steps, :, 0, 0]
-    for _ in range(CORRECTIONS):
-        slope, curve = (_derivative(z1, times, order) for order in (1, 2))
-        times = times - np.divide(slope, curve, out=np.zeros_like(slope), where=curve != 0)
-    sizes = _derivative(z1, times, 0)
-    weights = interpolation(times / path.lengths[steps])
+    steps, sizes, weights = path.turns(0)
     at_extrema = changes.reshape(len(changes), -1, POINTS)[:, steps]
     slopes = np.sign(sizes)[:, None] * np.einsum("nek,ek->en", at_extrema, weights)
     first = int(np.argmax(np.abs(sizes)))
@@ -151,13 +138,6 @@ def _displacement(path, changes):
     spread = np.max(np.abs(slopes[equal] - slopes[first]))
     smooth = spread <= EQUAL**0.5 * np.max(np.abs(slopes[first]))
     return float(largest), slopes[first], bool(smooth)
-
-
-def _derivative(series, times, order):
-    """Return the value of series, shape (n, terms), or a derivative of it, each at its time."""
-    for _ in range(order):
-        series = series[:, 1:] * np.arange(1, series.shape[1])
-    return np.sum(series * times[:, None] ** np.arange(series.shape[1]), axis=1)
 
 
 def _modulus(matrix, slopes):

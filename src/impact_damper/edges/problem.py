@@ -1,0 +1,278 @@
+"""The equations of an edge: a curve in two parameters where a symmetric orbit loses stability.
+
+On an edge a test function is zero. With the root R, the derivative of the map over half a period
+with a change of sign, and its multipliers mu, the test functions are
+
+    fold                 det(R - 1), zero for mu = 1
+    symmetry_breaking    det(R + 1), zero for mu = -1
+    neimark_sacker       the product of mu_i mu_j - 1 over pairs, zero for a conjugate pair of
+                         modulus 1; it is det(C - 1) with the matrix C of the 2-by-2 minors of R
+    grazing              distance by which the loose mass reaches over a wall at the turn of its
+                         motion that comes next to a contact, zero where a contact begins to exist
+
+All are smooth, also where multipliers meet. The unknowns are the state and both parameters. The
+derivatives of map and test function are exact (`variations`), except for that of the packed
+parameters by the two parameters.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.orbits.paths import Path, follow_path
+from impact_damper.orbits.shooting import TURN, shoot
+from impact_damper.orbits.variations import Variations
+from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
+
+FOLD, SYMMETRY, TORUS, GRAZING = "fold", "symmetry_breaking", "neimark_sacker", "grazing"
+KINDS = (FOLD, SYMMETRY, TORUS, GRAZING)
+PAIRS = np.array(list(combinations(range(4), 2))).T
+# Change of a scaled parameter in the difference of packed parameters.
+NUDGE = 1e-5
+# Newton's method: most corrections, and the largest of them. It has converged once a correction is
+# below CLOSE, or below ROUNDING and not much smaller than the one before. A correction is slow if
+# it is larger than the share SLOW of the one before.
+NEWTON, LARGEST, CLOSE, ROUNDING, SLOW = 14, 0.2, 1e-12, 1e-9, 0.1
+# A multiplier is complex if its imaginary part exceeds this.
+COMPLEX = 1e-6
+# An edge is left where another multiplier of the root is larger: it bounds no stable orbit there.
+UNSTABLE = 3.0
+
+
+def value(kind, path, contacts):
+    """Return the test function of a kind for a motion over half a period.
+
+    Parameters
+    ----------
+    kind : str
+        One of KINDS.
+    path : Path
+    contacts : int
+        Number of contacts in half a period on the side of the edge where the motion has fewer.
+    """
+    if kind == GRAZING:
+        return _reach(path, contacts)[0]
+    return np.linalg.det(_shifted(kind, -path.matrix))
+
+
+def value_change(kind, variations, first, parameters, contacts):
+    """Return the change of a test function along directions (`Variations.changes`)."""
+    path = variations.path
+    if kind == GRAZING:
+        _, weights, wall = _reach(path, contacts)
+        changes = variations.changes(first, parameters)[2]
+        return wall * changes @ weights - parameters[CLEARANCE]
+    root, change = -path.matrix, -variations.matrix_changes(first, parameters)
+    if kind == TORUS:
+        (i, j), (k, m) = PAIRS[:, :, None], PAIRS[:, None]
+        change = (
+            change[:, i, k] * root[j, m]
+            + root[i, k] * change[:, j, m]
+            - change[:, i, m] * root[j, k]
+            - root[i, m] * change[:, j, k]
+        )
+    left, sizes, right = np.linalg.svd(_shifted(kind, root))
+    # d det(X) = trace(adj(X) dX), and the adjugate follows from the singular values
+    others = np.array([np.prod(np.delete(sizes, k)) for k in range(len(sizes))])
+    turn = np.linalg.det(left) * np.linalg.det(right)
+    adjugate = turn * (right.T * others) @ left.T
+    return np.einsum("ij,nji->n", adjugate, change)
+
+
+def _shifted(kind, root):
+    """Return the matrix whose determinant is the test function."""
+    if kind == TORUS:
+        (i, j), (k, m) = PAIRS[:, :, None], PAIRS[:, None]
+        root = root[i, k] * root[j, m] - root[i, m] * root[j, k]
+    return root + (1 if kind == SYMMETRY else -1) * np.eye(len(root))
+
+
+def _reach(path, contacts):
+    """Return by how much Z2 passes a wall at the turn that comes next to the `contacts` deepest.
+
+    Also the weights, shape (N,), of the values at the points of the path for those at this turn,
+    and the wall. Without such a turn the distance is that of no motion, minus the clearance.
+    """
+    steps, sizes, weights = path.turns(1)
+    at_points = np.zeros((len(path.sides), weights.shape[1]))
+    if len(sizes) <= contacts:
+        return -path.p[CLEARANCE], at_points.ravel(), 0.0
+    turn = np.argsort(-np.abs(sizes))[contacts]
+    at_points[steps[turn]] = weights[turn]
+    wall = np.sign(sizes[turn])
+    return wall * sizes[turn] - path.p[CLEARANCE], at_points.ravel(), wall
+
+
+def concerned(kind, root):
+    """Return the multipliers of a root that an edge of a kind concerns, and the others."""
+    values = np.linalg.eigvals(root)
+    if kind == GRAZING:
+        return values[:0], values
+    if kind == TORUS:
+        first = np.argmin(np.abs(values[PAIRS[0]] * values[PAIRS[1]] - 1))
+        chosen = PAIRS[:, first]
+    else:
+        chosen = [np.argmin(np.abs(values - (1 if kind == FOLD else -1)))]
+    return values[chosen], np.delete(values, chosen)
+
+
+def scaled_slopes(family, spans, shares):
+    """Return the derivative of packed parameters by both scaled ones, shape (COUNT, 2).
+
+    Parameters
+    ----------
+    family : callable
+        Maps both parameters to packed parameters.
+    spans : array, shape (2, 2)
+        Least and greatest value of each parameter, which are scaled to 0 and 1.
+    shares : array, shape (2,)
+        Scaled parameters.
+    """
+    columns = []
+    for k in range(2):
+        ends = np.array([shares, shares])
+        ends[:, k] = max(shares[k] - NUDGE, 0.0), min(shares[k] + NUDGE, 1.0)
+        behind, ahead = (family(*(spans[:, 0] + np.ptp(spans, axis=1) * end)) for end in ends)
+        columns.append((ahead - behind) / (ends[1, k] - ends[0, k]))
+    return np.column_stack(columns)
+
+
+class Point(NamedTuple):
+    """A point of an edge: the 6 unknowns, unit tangent, motion over half a period, and phase."""
+
+    x: np.ndarray
+    tangent: np.ndarray
+    path: Path
+    phase: float
+
+    @property
+    def root(self):
+        """Derivative of the map over half a period with a change of sign, shape (4, 4)."""
+        return -self.path.matrix
+
+
+@dataclass(frozen=True)
+class Problem:
+    """The equations of an edge.
+
+    Attributes
+    ----------
+    family : callable
+        Maps both parameters to packed parameters.
+    kind : str
+    spans : numpy.ndarray, shape (2, 2)
+        Least and greatest value of each parameter.
+    scale : float
+        Largest number of the first state.
+    contacts : int
+        Contacts in half a period.
+    phase : float
+        Phase W T of the states, radian.
+    """
+
+    family: Callable[[float, float], np.ndarray]
+    kind: str
+    spans: np.ndarray
+    scale: float
+    contacts: int
+    phase: float
+
+    def unknowns(self, state, values):
+        """Return the unknowns: scaled state and scaled parameters, shape (6,)."""
+        return np.append(state / self.scale, (values - self.spans[:, 0]) / np.ptp(self.spans, 1))
+
+    def values(self, x):
+        """Return both parameters, shape (2,)."""
+        return self.spans[:, 0] + np.ptp(self.spans, axis=1) * x[4:]
+
+    def path(self, x):
+        """Return the motion over half a period."""
+        p = self.family(*self.values(x))
+        begin = self.phase / p[FREQUENCY]
+        return follow_path(p, self.scale * x[:4], begin, begin + TURN / 2 / p[FREQUENCY])
+
+    def defects(self, x, path):
+        """Return the defects of the map and of the test function, shape (5,)."""
+        defect = -path.states[:, -1] - self.scale * x[:4]
+        return np.append(defect / self.scale, value(self.kind, path, self.contacts))
+
+    def rows(self, x, path):
+        """Return the derivative of the defects by the unknowns, shape (5, 6)."""
+        variations = Variations(path)
+        first, parameters = np.zeros((4, 6)), np.zeros((COUNT, 6))
+        first[:, :4], parameters[:, 4:] = (
+            self.scale * np.eye(4),
+            scaled_slopes(self.family, self.spans, x[4:]),
+        )
+        by_test = value_change(self.kind, variations, first, parameters, self.contacts)
+        change = -(path.matrix @ first + variations.slopes() @ parameters) - first
+        return np.vstack([change / self.scale, by_test])
+
+    def correct(self, x, border=None):
+        """Return the point that Newton's method reaches, at right angles to `border`, or None.
+
+        Without a border corrections are the shortest ones. The derivative is computed again only
+        where corrections shrink slowly.
+        """
+        rows, last, slow = None, np.inf, False
+        for _ in range(NEWTON):
+            try:
+                path = self.path(x)
+                defects = self.defects(x, path)
+                if rows is None or slow:
+                    rows = self.rows(x, path)
+                if border is None:
+                    change = np.linalg.lstsq(rows, -defects)[0]
+                else:
+                    change = np.linalg.solve(np.vstack([rows, border]), -np.append(defects, 0.0))
+            except (ArithmeticError, ValueError, np.linalg.LinAlgError):
+                return None
+            size = np.max(np.abs(change))
+            if not size < LARGEST:
+                return None
+            x = x + change
+            if size < CLOSE or last / 2 < size < ROUNDING:
+                tangent = np.linalg.svd(rows)[2][-1]
+                along = 1.0 if border is None else np.sign(tangent @ border) or 1.0
+                return Point(x, along * tangent, path, self.phase)
+            slow, last = size > SLOW * last, size
+        return None
+
+    def fault(self, point):
+        """Return why a point is not one of the edge, a reason of `Edge.ends`, or ""."""
+        begun = np.count_nonzero(point.path.events[2] > 0)
+        if begun != self.contacts and not (self.kind == GRAZING and begun == self.contacts + 1):
+            return "contacts_change"
+        pair, others = concerned(self.kind, point.root)
+        if np.max(np.abs(others)) > UNSTABLE:
+            return "too_unstable"
+        if self.kind == TORUS and not np.min(np.abs(pair.imag)) > COMPLEX:
+            return "resonance"
+        return ""
+
+    def rephased(self, point):
+        """Return problem and point at a phase far from contacts, or None if Newton's method fails.
+
+        The direction of the tangent is kept: a point displaced along it is integrated to the new
+        phase.
+        """
+        orbit = self.orbit(point)
+        phase = orbit.quiet_phase()
+        if phase == orbit.phase:
+            return self, point
+        problem = replace(self, phase=phase % TURN)
+        x, nudged = point.x.copy(), point.x + NUDGE * point.tangent
+        x[:4] = orbit.at(phase) / self.scale
+        ahead = replace(orbit, p=self.family(*self.values(nudged)), state=self.scale * nudged[:4])
+        nudged[:4] = ahead.at(phase) / self.scale
+        border = nudged - x
+        moved = problem.correct(x, border / np.linalg.norm(border))
+        return None if moved is None else (problem, moved)
+
+    def orbit(self, point):
+        """Return the orbit of a point."""
+        p = self.family(*self.values(point.x))
+        return shoot(p, self.scale * point.x[:4], 1, point.phase, symmetric=True)[0]

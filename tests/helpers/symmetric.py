@@ -1,0 +1,43 @@
+"""Orbits, among them symmetric ones, and differences of high order, for tests of derivatives."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from impact_damper.literature.masri_caughey import flight_with_speed
+from impact_damper.orbits.shooting import shoot
+from impact_damper.system.packed import pack
+
+# Coefficients of a central difference of order 8.
+CENTRAL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
+
+
+def converged(p, state, phase, symmetric):
+    """Return the orbit of period 1 near a state, converged as far as rounding allows."""
+    for _ in range(12):
+        orbit, end = shoot(p, state, 1, phase, symmetric=symmetric)
+        n = orbit.active
+        matrix = (orbit.monodromy if orbit.root is None else orbit.root)[:n, :n]
+        change = np.linalg.solve(np.eye(n) - matrix, (end - state)[:n])
+        state = state + (change if n == 4 else np.tile(change, 2))
+        if np.max(np.abs(change)) < 1e-13:
+            break
+    orbit, _ = shoot(p, state, 1, phase, symmetric=symmetric)
+    assert orbit.converged
+    return orbit
+
+
+def linear_orbit(oscillator, damper, frequency, ratio):
+    """Return the symmetric orbit near Masri and Caughey's motion between rigid walls.
+
+    It is found with a linear spring first, then with the coefficient of the cubic spring rising.
+    """
+    linear = replace(oscillator, cubic=0.0)
+    flight = flight_with_speed(linear, damper, frequency, ratio)
+    damper = replace(damper, clearance=flight.clearance)
+    state, phase = flight.state, flight.phase
+    for share in np.linspace(0, 1, 6):
+        changed = replace(oscillator, cubic=share * oscillator.cubic)
+        orbit = converged(pack(changed, damper, frequency), state, phase, True)
+        state = orbit.state
+    return orbit
