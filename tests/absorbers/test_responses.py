@@ -91,9 +91,11 @@ def test_a_motion_without_a_period_by_scipy():
         link = absorber.stiffness * u + absorber.damping * w + absorber.cubic_stiffness * u**3
         return [v, (total - link) / 12, w, (total - link) / 12 - link / 0.6]
 
-    times = np.arange(200 * 64, 300 * 64) / (64 * hertz)
-    run = solve_ivp(rate, (0, times[-1]), np.zeros(4), t_eval=times, rtol=1e-8, atol=1e-10)
-    strobes = run.y[0, ::64]
+    times = np.arange(60 * 32, 160 * 32) / (32 * hertz)
+    run = solve_ivp(
+        rate, (0, times[-1]), np.zeros(4), t_eval=times, method="DOP853", rtol=1e-7, atol=1e-9
+    )
+    strobes = run.y[0, ::32]
     assert np.ptp(strobes) > 0.1 * np.abs(run.y[0]).max()
     assert_allclose(found["competitor_displacement"], 1e3 * np.abs(run.y[0]).max(), rtol=0.01)
 
@@ -111,7 +113,7 @@ def test_a_softening_machine_escapes_from_some_starts():
 def test_wider_searches_find_nothing_larger():
     """With the starts that a table has, no motion is missed that many starts reach."""
     few = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], starts=4)
-    many = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], starts=64, seed=7)
+    many = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], starts=32, seed=7)
     assert_allclose(few["competitor_displacement"], many["competitor_displacement"], rtol=5e-3)
 
 

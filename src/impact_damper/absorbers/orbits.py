@@ -62,14 +62,13 @@ class Orbits(NamedTuple):
 
     def distinct(self) -> "Orbits":
         """Return the orbits without those that agree with an earlier one of the same problem."""
-        kept, seen = [], {}
-        for place, problem in enumerate(self.problem):
-            others = self.state[seen.setdefault(problem, [])]
-            apart = np.abs(self.state[place] - others) > SAME * self.largest[place]
-            if apart.any(axis=1).all():
-                seen[problem].append(place)
-                kept.append(place)
-        return self.take(kept)
+        order = np.argsort(self.problem, kind="stable")
+        problem, state, largest = self.problem[order], self.state[order], self.largest[order]
+        again = np.zeros(len(order), bool)
+        for lag in range(1, np.bincount(problem).max(initial=1)):
+            apart = np.abs(state[lag:] - state[:-lag]) > SAME * largest[lag:]
+            again[lag:] |= (problem[lag:] == problem[:-lag]) & ~apart.any(axis=1)
+        return self.take(np.sort(order[~again]))
 
 
 def find_orbits(problems, index, guesses, period=1) -> Orbits:

@@ -13,7 +13,7 @@ from impact_damper.absorbers.absorber import check_mass
 from impact_damper.absorbers.linear_response import response
 from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.search import Search, search
-from impact_damper.absorbers.tuning import exact_absorber, nonlinear_absorber
+from impact_damper.absorbers.tuning import exact_absorber, with_cubic
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.results import in_si
@@ -122,16 +122,19 @@ def competitors(machine, mass, band=None):
     The absorber of the bare machine is None.
     """
     absorbers, remarks = {"bare": None}, {}
-    for name, design in (("tuned", exact_absorber), ("nonlinear", nonlinear_absorber)):
-        if machine.linear_stiffness == 0:
-            remarks[name] = (
-                "not possible: the machine has no linear stiffness, so that its natural frequency "
-                "depends on the amplitude and there is none to tune to"
-            )
-        elif name == "nonlinear" and machine.cubic_stiffness == 0:
-            remarks[name] = "not apart: on a machine with a linear spring it is the tuned absorber"
-        else:
-            absorbers[name] = design(machine, mass, band)
+    if machine.linear_stiffness == 0:
+        remarks["tuned"] = remarks["nonlinear"] = (
+            "not possible: the machine has no linear stiffness, so that its natural frequency "
+            "depends on the amplitude and there is none to tune to"
+        )
+        return absorbers, remarks
+    absorbers["tuned"] = exact_absorber(machine, mass, band)
+    if machine.cubic_stiffness == 0:
+        remarks["nonlinear"] = (
+            "not apart: on a machine with a linear spring it is the tuned absorber"
+        )
+    else:
+        absorbers["nonlinear"] = with_cubic(machine, absorbers["tuned"])
     return absorbers, remarks
 
 

@@ -11,11 +11,14 @@ import numpy as np
 
 from impact_damper.absorbers.orbits import Orbits, find_orbits
 from impact_damper.absorbers.seeds import harmonic_seeds
-from impact_damper.absorbers.settling import ESCAPED, UNSETTLED, random_starts, settle
+from impact_damper.absorbers.settling import ESCAPED, UNSETTLED, WANDERING, random_starts, settle
 from impact_damper.data.datasets import flag
 
 # Times that neighbours of new orbits are searched.
 ROUNDS = 50
+# Ratio of two displacements above which they count as that of one motion.
+ALIKE = 0.95
+NEIGHBOURS = ((-1, 0), (1, 0), (0, -1), (0, 1))
 
 
 class Search(NamedTuple):
@@ -24,8 +27,8 @@ class Search(NamedTuple):
     Attributes
     ----------
     most, least : numpy.ndarray
-        Largest |x| in the largest and in the smallest motion, NaN if there is none. A motion that
-        is unsettled counts with its largest |x| in a last stretch.
+        Largest |x| in the largest and in the smallest motion, NaN if there is none. A motion
+        without a period counts with its largest |x| while it was watched.
     motions : numpy.ndarray of int
         Number of stable periodic motions.
     share : numpy.ndarray
@@ -71,8 +74,8 @@ def search(problems, shape, starts, seed, sizes=None):
     wide = most.copy()
     # an absorber may be as far from the machine as this is from its rest
     wide[:, 2:] = np.maximum(wide[:, 2:], wide[:, :2])
-    begun = random_starts(problems, np.tile(wide, (shape[0], 1)), starts, seed)
-    ends = settle(problems, known, begun)
+    wide = np.tile(wide, (shape[0], 1))
+    ends = settle(problems, known, random_starts(problems, wide, starts, seed), wide)
     orbits = _with_neighbours(problems, ends.orbits, len(known.problem), shape)
     return _summary(ends, orbits, len(problems)), orbits, most
 
@@ -86,15 +89,16 @@ def _with_neighbours(problems, orbits, first, shape):
     for _ in range(ROUNDS):
         new = orbits.take(slice(first, None))
         first = len(orbits.problem)
-        places = np.unravel_index(new.problem, shape)
-        for axis, change in ((0, -1), (0, 1), (1, -1), (1, 1)):
-            there = [place + change * (k == axis) for k, place in enumerate(places)]
-            inside = np.flatnonzero((there[axis] >= 0) & (there[axis] < shape[axis]))
-            for period in np.unique(new.period[inside]):
-                some = inside[new.period[inside] == period]
-                index = np.ravel_multi_index([each[some] for each in there], shape)
-                found = find_orbits(problems, index, new.state[some], period)
-                orbits = orbits.joined(_stable(found)).distinct()
+        for period in np.unique(new.period):
+            some = new.take(new.period == period)
+            frequency, force = np.unravel_index(some.problem, shape)
+            there = [(frequency + i, force + j) for i, j in NEIGHBOURS]
+            frequency, force = np.concatenate(there, axis=1)
+            inside = (frequency >= 0) & (frequency < shape[0]) & (force >= 0) & (force < shape[1])
+            index = np.ravel_multi_index((frequency[inside], force[inside]), shape)
+            guesses = np.tile(some.state, (len(NEIGHBOURS), 1))[inside]
+            orbits = orbits.joined(_stable(find_orbits(problems, index, guesses, period)))
+        orbits = orbits.distinct()
         if len(orbits.problem) == first:
             break
     return orbits
@@ -103,11 +107,11 @@ def _with_neighbours(problems, orbits, first, shape):
 def _summary(ends, orbits, count) -> Search:
     """Return the values of each problem."""
     displacement = orbits.largest[:, 0]
-    settled, unsettled = ends.orbit >= 0, ends.orbit == UNSETTLED
+    settled, wandering = ends.orbit >= 0, ends.orbit == WANDERING
     most, least = np.full(count, -np.inf), np.full(count, np.inf)
     for problem, sizes in (
         (orbits.problem, displacement),
-        (ends.problem[unsettled], ends.displacement[unsettled]),
+        (ends.problem[wandering], ends.displacement[wandering]),
     ):
         np.maximum.at(most, problem, sizes)
         np.minimum.at(least, problem, sizes)
@@ -118,12 +122,13 @@ def _summary(ends, orbits, count) -> Search:
     def share(mask):
         return np.bincount(ends.problem[mask], minlength=count) / starts
 
-    # runs that are unsettled on one motion differ in what they reach within a stretch
-    worst = reached >= 0.95 * most[ends.problem]
+    # runs on one motion without a period differ in what they reach
+    worst = reached >= ALIKE * most[ends.problem]
     known = np.bincount(orbits.problem, weights=1 / orbits.period, minlength=count)
     status = np.full(count, flag("competitor_status", "found"))
     status[np.isinf(most)] = flag("competitor_status", "escaped")
-    status[share(unsettled) > 0] = flag("competitor_status", "not_periodic")
+    status[share(ends.orbit == UNSETTLED) > 0] = flag("competitor_status", "not_settled")
+    status[share(wandering) > 0] = flag("competitor_status", "not_periodic")
     none = np.isinf(most)
     most[none] = least[none] = np.nan
     escaped = share(ends.orbit == ESCAPED)

@@ -13,22 +13,24 @@ from impact_damper.motions.smooth_runs import DAMPING, SIZE, run
 # largest.
 SPREAD, SMALLEST = 3.0, 0.01
 # Forcing periods between two looks at where the runs are: a multiple of PERIODS, the periods in
-# which Newton's method looks for orbits. It does so after these shares of all looks, from the runs
-# that are near no known orbit.
+# which Newton's method looks for orbits. It does so after the share SEARCHED of all looks, from the
+# runs that are near no known orbit.
 STRETCH = 12
 PERIODS = (1, 2, 3)
-SEARCHED = (0.5, 0.75)
-# Forcing periods for which a run that is given up is watched.
-WATCHED = 240
-# A run has reached an orbit when it is nearer, relative to the largest state on the orbit.
-NEAR = 0.02
-# A run is given up when a linear vibration of the machine alone would have decayed by
-# exp(-DECAY), and at most after LONGEST looks.
-DECAY, LONGEST = 12.0, 200
+SEARCHED = 0.75
+# A run has reached an orbit when it is nearer, relative to the orbit. Orbits smaller than SMALL,
+# relative to the largest known motion under the same force, count as large as that.
+NEAR, SMALL = 0.02, 0.1
+# A run is near no orbit for long when a linear vibration of the machine alone would have decayed by
+# exp(-DECAY), and at most after LONGEST looks. Then it is watched for further looks. It approaches
+# an orbit if its mean distance falls from each quarter of them to the next, in all below FALLEN;
+# and it is not settled if its largest displacement does.
+DECAY, LONGEST = 9.0, 40
+WATCHED, FALLEN = 20, 0.95
 # Beyond this number of times the largest start a run has escaped.
 OUTSIDE = 100.0
-# Ends of runs that are no indices of orbits.
-UNSETTLED, ESCAPED = -1, -2
+# Ends of runs that are no indices of orbits. A run that is wandering keeps its size.
+WANDERING, ESCAPED, UNSETTLED = -1, -2, -3
 
 
 class Settled(NamedTuple):
@@ -42,9 +44,9 @@ class Settled(NamedTuple):
     problem : numpy.ndarray of int, shape (n,)
         Problem of each start.
     orbit : numpy.ndarray of int, shape (n,)
-        Index of the orbit on which it ends; UNSETTLED or ESCAPED.
+        Index of the orbit on which it ends, or one of WANDERING, ESCAPED and UNSETTLED.
     displacement : numpy.ndarray, shape (n,)
-        Largest |x| of a run that is unsettled, in the last WATCHED periods; else NaN.
+        Largest |x| of a run that is wandering, while it is watched; else NaN.
     """
 
     orbits: Orbits
@@ -82,7 +84,7 @@ def random_starts(problems, sizes, count, seed):
     return states
 
 
-def settle(problems, orbits, starts) -> Settled:
+def settle(problems, orbits, starts, sizes) -> Settled:
     """Run starts until they are near a stable orbit, have escaped, or are given up.
 
     Parameters
@@ -92,28 +94,56 @@ def settle(problems, orbits, starts) -> Settled:
         Stable orbits that are known.
     starts : numpy.ndarray, shape (n count, SIZE)
         The same number for each problem in turn.
+    sizes : numpy.ndarray, shape (n, SIZE)
+        Components of the largest motions.
     """
     problem = np.repeat(np.arange(len(problems)), len(starts) // len(problems))
     state, end = starts.copy(), np.full(len(starts), UNSETTLED)
     bound = OUTSIDE * np.abs(starts).max(axis=0)
     decay = np.pi * problems[:, DAMPING].min()
-    looks = int(np.ceil(min(DECAY / decay / STRETCH, LONGEST)))
-    searched = {int(np.ceil(share * looks)) for share in SEARCHED}
+    needed = int(np.ceil(DECAY / decay / STRETCH))
+    looks = min(needed, LONGEST)
     active = np.arange(len(starts))
     for look in range(1, looks + 1):
         state[active], _ = _run(problems[problem[active]], state[active], COARSE, STRETCH)
         gone = ~(np.abs(state[active]) < bound).all(axis=1)
         end[active[gone]] = ESCAPED
         active = active[~gone]
-        if look in searched:
-            orbits = _with_new(problems, orbits, problem[active], state[active])
-        end[active] = _nearest(orbits, problem[active], state[active])
+        if look == np.ceil(SEARCHED * looks):
+            orbits = _with_new(problems, orbits, problem[active], state[active], sizes)
+        end[active] = _nearest(orbits, problem[active], state[active], sizes)
         active = active[end[active] == UNSETTLED]
         if not len(active):
             break
-    sizes = np.full(len(starts), np.nan)
-    sizes[active] = _run(problems[problem[active]], state[active], FINE, WATCHED)[1][:, 0]
-    return Settled(orbits, problem, end, sizes)
+    displacement = np.full(len(starts), np.nan)
+    end[active], displacement[active] = _watch(
+        problems, orbits, problem[active], state[active], sizes
+    )
+    if active_size(problems) < SIZE and needed > looks:
+        # beats of a free vibration that has not yet decayed look like a motion of their own
+        end[end == WANDERING] = UNSETTLED
+    return Settled(orbits, problem, end, displacement)
+
+
+def _watch(problems, orbits, problem, state, sizes):
+    """Return the ends of runs that were long near no orbit, and largest |x| of those wandering."""
+    distances, displacements = [], []
+    for _ in range(WATCHED):
+        state, largest = _run(problems[problem], state, COARSE, STRETCH)
+        displacements.append(largest[:, 0])
+        distances.append(_distances(orbits, problem, state, sizes))
+    distances, displacements = np.array(distances), np.array(displacements)
+    nearest, columns = distances[-1].argmin(axis=0), np.arange(len(state))
+    end = _candidates(orbits, problem)[nearest, columns]
+    approaches = _falls(distances[:, nearest, columns])
+    end = np.where(approaches, end, np.where(_falls(displacements), UNSETTLED, WANDERING))
+    return end, np.where(end == WANDERING, displacements.max(axis=0), np.nan)
+
+
+def _falls(values):
+    """Return whether the mean of each quarter of rows is below that of the quarter before."""
+    means = values.reshape(4, WATCHED // 4, values.shape[1]).mean(axis=1)
+    return (means[1:] < means[:-1]).all(axis=0) & (means[-1] < FALLEN * means[0])
 
 
 def _run(problems, state, longest, periods):
@@ -125,29 +155,41 @@ def _run(problems, state, longest, periods):
     return after, largest
 
 
-def _nearest(orbits, problem, state):
-    """Return the index of the orbit that is near each state, or UNSETTLED."""
-    order = np.argsort(orbits.problem, kind="stable")
+def _candidates(orbits, problem):
+    """Return the indices of the orbits of each problem, shape (count, n); -1 fills up."""
     counts = np.bincount(orbits.problem, minlength=problem.max(initial=-1) + 1)
-    first = np.cumsum(counts) - counts
-    best, end = np.full(len(state), NEAR), np.full(len(state), UNSETTLED)
-    for place in range(counts.max(initial=0)):
-        some = np.flatnonzero(counts[problem] > place)
-        candidate = order[first[problem[some]] + place]
-        away = np.abs(state[some] - orbits.state[candidate]) / orbits.largest[candidate]
-        away = away.max(axis=1)
-        nearer = away < best[some]
-        best[some[nearer]], end[some[nearer]] = away[nearer], candidate[nearer]
-    return end
+    order = np.argsort(orbits.problem, kind="stable")
+    table = np.full((max(counts.max(initial=0), 1), len(counts)), -1)
+    within = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
+    table[within, orbits.problem[order]] = order
+    return table[:, problem]
 
 
-def _with_new(problems, orbits, problem, state):
+def _distances(orbits, problem, state, sizes):
+    """Return the relative distances of states from the orbits of `_candidates`."""
+    candidates = _candidates(orbits, problem)
+    if not len(orbits.problem):
+        return np.full(candidates.shape, np.inf)
+    scale = np.maximum(orbits.largest[candidates], SMALL * sizes[problem])
+    away = (np.abs(state - orbits.state[candidates]) / scale).max(axis=2)
+    return np.where(candidates < 0, np.inf, away)
+
+
+def _nearest(orbits, problem, state, sizes):
+    """Return the index of the orbit that is near each state, or UNSETTLED."""
+    away, columns = _distances(orbits, problem, state, sizes), np.arange(len(state))
+    best = away.argmin(axis=0)
+    found = _candidates(orbits, problem)[best, columns]
+    return np.where(away[best, columns] < NEAR, found, UNSETTLED)
+
+
+def _with_new(problems, orbits, problem, state, sizes):
     """Return orbits with the stable ones to which Newton's method leads from states of runs.
 
     A run from which an orbit of a short period is found is not asked for longer ones.
     """
     for period in PERIODS:
-        far = np.flatnonzero(_nearest(orbits, problem, state) == UNSETTLED)
+        far = np.flatnonzero(_nearest(orbits, problem, state, sizes) == UNSETTLED)
         if not len(far):
             break
         found = find_orbits(problems, problem[far], state[far], period)

@@ -116,9 +116,13 @@ def nonlinear_absorber(machine, mass, band=None) -> TunedAbsorber:
             "cubic_stiffness = 0 N/m^3: must not be 0 for a nonlinear absorber (with a linear "
             "spring of the machine it is the tuned absorber)"
         )
-    linear = exact_absorber(machine, mass, band)
-    cubic = tuned_cubic(linear.mass / machine.mass, machine.cubic_stiffness)
-    return replace(linear, cubic_stiffness=cubic)
+    return with_cubic(machine, exact_absorber(machine, mass, band))
+
+
+def with_cubic(machine, absorber) -> TunedAbsorber:
+    """Return an absorber with the cubic spring that `nonlinear_absorber` describes."""
+    cubic = tuned_cubic(absorber.mass / machine.mass, machine.cubic_stiffness)
+    return replace(absorber, cubic_stiffness=cubic)
 
 
 def _mass_ratio(machine, mass):

@@ -22,9 +22,15 @@ VARIABLES = {
     ),
     "competitor_status": Variable(
         GRID,
-        "how the search for motions ended: all starts that do not escape lead to stable periodic "
-        "motions, some to a motion without a period of one to three forcing periods, or all escape",
-        flags={"not_possible": -1, "escaped": 0, "found": 1, "not_periodic": 2},
+        "whether all starts that do not escape led to stable periodic motions, or some to a motion "
+        "without a short period, or some did not settle; or whether all escaped",
+        flags={
+            "not_possible": -1,
+            "escaped": 0,
+            "found": 1,
+            "not_periodic": 2,
+            "not_settled": 3,
+        },
     ),
     "absorber_stiffness": Variable(
         GRID[:2], "stiffness of the absorber's spring", quantity="stiffness"
