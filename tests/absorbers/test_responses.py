@@ -55,14 +55,15 @@ def test_linear_machines(name):
 
 def test_what_is_not_possible_is_said():
     linear = absorber_responses(LINEAR["force"], 0.6, FREQUENCIES, [1.0])
-    assert "it is the tuned absorber" in json.loads(linear.attrs["remarks"])["nonlinear"]
+    remarks = json.loads(linear.attrs["remarks"])
+    assert "it is the tuned absorber" in remarks["nonlinear"] and remarks["best"]
     cubic = Machine(mass=12, cubic_stiffness=4e9, damping=15.0, force=40)
     data = absorber_responses(cubic, 0.6, FREQUENCIES, [1.0])
     assert set(json.loads(data.attrs["remarks"])) == {"tuned", "nonlinear"}
     status = data["competitor_status"].values
-    assert (status[0] == flag("competitor_status", "found")).all()
-    assert (status[1:] == flag("competitor_status", "not_possible")).all()
-    assert np.isfinite(data["competitor_displacement"].values[0]).all()
+    assert (status[[0, 3]] == flag("competitor_status", "found")).all()
+    assert (status[1:3] == flag("competitor_status", "not_possible")).all()
+    assert np.isfinite(data["competitor_displacement"].values[[0, 3]]).all()
 
 
 def test_the_published_nonlinear_absorber():
@@ -106,14 +107,16 @@ def test_a_softening_machine_escapes_from_some_starts():
     )
     data = absorber_responses(soft, 0.6, [19.0], [1.0], detunings=[0.0], starts=256)
     assert data["competitor_escaped"].sel(competitor="bare", frequency=19) > 0
-    assert (data["competitor_displacement"] < 7.1).all()
+    assert data["competitor_displacement"].max() < 7.1
     assert (data["absorber_cubic_stiffness"].sel(competitor="nonlinear") < 0).all()
 
 
 def test_wider_searches_find_nothing_larger():
     """With the starts that a table has, no motion is missed that many starts reach."""
-    few = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], starts=4)
-    many = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], starts=32, seed=7)
+    few = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], detunings=[0.0], starts=4)
+    many = absorber_responses(
+        HARD, 0.6, [21, 24, 28], [1.0, 4.0], detunings=[0.0], starts=32, seed=7
+    )
     assert_allclose(few["competitor_displacement"], many["competitor_displacement"], rtol=5e-3)
 
 

@@ -1,8 +1,12 @@
 """Absorbers that one could build in place of an impact damper, and how far the machine moves.
 
-`absorber_responses` compares, for one machine and one added mass, the bare machine, the exact tuned
-absorber and the nonlinear tuned absorber, each with its stiffness as designed and detuned, over
-forcing frequencies and forcing amplitudes.
+`absorber_responses` compares, for one machine and one added mass, over forcing frequencies and
+forcing amplitudes, each with its stiffness as designed and detuned:
+
+    bare        the machine alone
+    tuned       the absorber tuned exactly to the machine, with a linear spring
+    nonlinear   the same with the cubic spring that keeps the peaks equal
+    best        the absorber with the least largest displacement at the machine's own force
 """
 
 import json
@@ -10,6 +14,7 @@ import json
 import numpy as np
 
 from impact_damper.absorbers.absorber import check_mass
+from impact_damper.absorbers.direct import best_absorber
 from impact_damper.absorbers.linear_response import response
 from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.search import Search, search
@@ -20,7 +25,7 @@ from impact_damper.machine.results import in_si
 from impact_damper.system.bounds import RUNS_RANGE, SEED_RANGE, check_count, shown
 from impact_damper.system.checks import check_numbers
 
-COMPETITORS = ("bare", "tuned", "nonlinear")
+COMPETITORS = ("bare", "tuned", "nonlinear", "best")
 # Factors of the excitation, from a quarter to four times the machine's.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
@@ -63,8 +68,9 @@ def absorber_responses(
     detunings : sequence of float
         Increasing shares by which the absorbers' springs are stiffer than designed.
     band : sequence of 2 floats, optional
-        Lowest and highest frequency, Hz, over which the absorbers are tuned; all frequencies if
-        not given (`tuning.exact_absorber`).
+        Lowest and highest frequency, Hz, over which the absorbers are tuned. If not given, all
+        frequencies (`tuning.exact_absorber`); for the best, from the first to the last of
+        `frequencies` (`direct.best_absorber`).
     starts : int
         Random starts at each frequency and force share.
     seed : int
@@ -90,7 +96,7 @@ def absorber_responses(
     detunings = _increasing("detunings", check_numbers("detunings", detunings, above=-1, most=10))
     check_count("starts", starts, **RUNS_RANGE)
     check_count("seed", seed, **SEED_RANGE)
-    absorbers, remarks = competitors(machine, mass, band)
+    absorbers, remarks = competitors(machine, mass, frequencies, band)
     found = _not_possible((len(COMPETITORS), len(detunings), len(frequencies), len(shares)))
     sizes = None
     for name, absorber in absorbers.items():
@@ -116,10 +122,10 @@ def absorber_responses(
     return in_si(data, machine).assign_attrs(remarks=json.dumps(remarks))
 
 
-def competitors(machine, mass, band=None):
+def competitors(machine, mass, frequencies, band=None):
     """Return the absorbers keyed by competitor, and remarks on those that are not possible.
 
-    The absorber of the bare machine is None.
+    The absorber of the bare machine is None. Arguments as of `absorber_responses`.
     """
     absorbers, remarks = {"bare": None}, {}
     if machine.linear_stiffness == 0:
@@ -127,14 +133,19 @@ def competitors(machine, mass, band=None):
             "not possible: the machine has no linear stiffness, so that its natural frequency "
             "depends on the amplitude and there is none to tune to"
         )
-        return absorbers, remarks
-    absorbers["tuned"] = exact_absorber(machine, mass, band)
+    else:
+        absorbers["tuned"] = exact_absorber(machine, mass, band)
     if machine.cubic_stiffness == 0:
-        remarks["nonlinear"] = (
+        remarks["nonlinear"] = remarks["best"] = (
             "not apart: on a machine with a linear spring it is the tuned absorber"
         )
-    else:
+        return absorbers, remarks
+    if "tuned" in absorbers:
         absorbers["nonlinear"] = with_cubic(machine, absorbers["tuned"])
+    if band is None and len(frequencies) == 1:
+        remarks["best"] = "not possible: there is no band of frequencies"
+    else:
+        absorbers["best"] = best_absorber(machine, mass, band or frequencies[[0, -1]])
     return absorbers, remarks
 
 

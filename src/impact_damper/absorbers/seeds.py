@@ -25,9 +25,10 @@ from impact_damper.motions.smooth_runs import (
     STIFFNESS,
 )
 
-# Largest imaginary part of a root 1/q that counts as real, relative to its real part. Near a fold
-# the roots of one harmonic may just have left the real axis where the exact motions still exist.
-NEARLY_REAL = 0.1
+# Largest imaginary part of a root 1/q, relative to its real part: REAL allows for rounding. Near a
+# fold the roots of one harmonic may just have left the real axis where the exact motions still
+# exist, so that seeds come from NEARLY_REAL ones too.
+REAL, NEARLY_REAL = 1e-5, 0.1
 
 
 def harmonic_seeds(problems):
@@ -43,6 +44,21 @@ def harmonic_seeds(problems):
         Problem of each solution.
     state : numpy.ndarray, shape (count, SIZE)
     """
+    index, amplitude = _solutions(problems, NEARLY_REAL)
+    x, u = _motion(problems[index], amplitude)
+    return index, np.column_stack([x.real, -x.imag, u.real, -u.imag])
+
+
+def harmonic_displacements(problems):
+    """Return the amplitude of x in the largest solution of the balance, shape (n,)."""
+    index, amplitude = _solutions(problems, REAL)
+    found = np.zeros(len(problems))
+    np.maximum.at(found, index, np.abs(_motion(problems[index], amplitude)[0]))
+    return found
+
+
+def _solutions(problems, allowed):
+    """Return the problem and the amplitude of u (or x) of all roots that are nearly real."""
     power, force = _polynomial(problems), problems[:, FORCE]
     # q = scale/y, where the polynomial in y has the first coefficient 1 and the second -1
     scale, degree = force**2 / power[0], len(power)
@@ -50,9 +66,8 @@ def harmonic_seeds(problems):
     companion[:, 0, :] = (power * scale ** np.arange(1, degree + 1)[:, None] / force**2).T
     companion[:, np.arange(1, degree), np.arange(degree - 1)] = 1.0
     y = np.linalg.eigvals(companion)
-    index, place = np.nonzero((y.real > 0) & (np.abs(y.imag) <= NEARLY_REAL * y.real))
-    amplitude = np.sqrt(scale[index] / y[index, place].real)
-    return index, _states(problems[index], amplitude)
+    index, place = np.nonzero((y.real > 0) & (np.abs(y.imag) <= allowed * y.real))
+    return index, np.sqrt(scale[index] / y[index, place].real)
 
 
 def _coefficients(problems):
@@ -84,13 +99,12 @@ def _polynomial(problems):
     return found
 
 
-def _states(problems, amplitude):
-    """Return the states at T = 0 of motions with amplitudes of u (or x), turned to the force."""
+def _motion(problems, amplitude):
+    """Return x and u as complex amplitudes, turned so that the force is f cos T."""
     c0, c1, h0, h1 = _coefficients(problems)
     q = amplitude**2
     x = amplitude * (c0 + c1 * q)
     spring = problems[:, STIFFNESS] + 0.75 * problems[:, CUBIC] * np.abs(x) ** 2
     force = (spring - 1 + 1j * problems[:, DAMPING]) * x + amplitude * (h0 + h1 * q)
     turn = np.abs(force) / force
-    x, u = x * turn, amplitude * turn
-    return np.column_stack([x.real, -x.imag, u.real, -u.imag])
+    return x * turn, amplitude * turn

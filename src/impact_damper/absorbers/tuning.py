@@ -139,21 +139,26 @@ def _absorber(machine, tuning):
     )
 
 
-def _limits(machine, linear, band):
-    """Return a band as lowest and highest r."""
-    if band is None:
-        if linear.falling:
-            raise ValueError(
-                "band = None: must be given with base_acceleration (the displacement grows without "
-                "limit as the frequency falls)"
-            )
-        return 0.0, math.inf
+def check_band(machine, band) -> tuple:
+    """Return lowest and highest frequency in Hz, or raise an error that names what is wrong."""
     if np.ndim(band) != 1 or len(band) != 2:
         raise TypeError(f"band = {shown(band)}: must be lowest and highest frequency")
-    ends = [machine.check_frequency(f"band[{place}]", end) for place, end in enumerate(band)]
+    ends = tuple(machine.check_frequency(f"band[{place}]", end) for place, end in enumerate(band))
     if ends[0] >= ends[1]:
         raise ValueError(f"band = {shown(band)}: must be lowest and highest frequency, in order")
-    return tuple(end / linear.natural_frequency for end in ends)
+    return ends
+
+
+def _limits(machine, linear, band):
+    """Return a band as lowest and highest r."""
+    if band is not None:
+        return tuple(end / linear.natural_frequency for end in check_band(machine, band))
+    if linear.falling:
+        raise ValueError(
+            "band = None: must be given with base_acceleration (the displacement grows without "
+            "limit as the frequency falls)"
+        )
+    return 0.0, math.inf
 
 
 def _around_optimum(linear, ratio, limits):

@@ -1,0 +1,111 @@
+"""The best absorber for a machine with a cubic spring at its own force, by direct search.
+
+No closed form is exact there, and without linear stiffness there is none. The search takes
+stiffness, damping and cubic stiffness with which the largest displacement over a band is least. The
+displacements are those of the balance of one harmonic, of all its solutions, stable or not: that is
+quick, and misses motions without a period, so that the absorber has to be judged by its exact
+motions afterwards.
+"""
+
+from itertools import product
+
+import numpy as np
+from scipy.optimize import minimize
+
+from impact_damper.absorbers.absorber import TunedAbsorber, check_mass
+from impact_damper.absorbers.problems import problems_of
+from impact_damper.absorbers.seeds import harmonic_displacements
+from impact_damper.absorbers.tuning import check_band
+from impact_damper.literature.nonlinear_absorber import tuned_cubic
+from impact_damper.motions.smooth_runs import (
+    INVERSE_MASS,
+    LINK_CUBIC,
+    LINK_DAMPING,
+    LINK_STIFFNESS,
+)
+
+# Grid of the search: natural frequency of the absorber, from LOWEST of the lowest frequency of the
+# band to the highest; damping over 2 m w at the middle of the band; cubic stiffness over that of
+# `tuned_cubic`. Forcing frequencies of the grid, and where the best are refined.
+TUNINGS, LOWEST = 16, 0.3
+DAMPINGS = np.geomspace(0.03, 0.5, 5)
+CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
+COARSE, FINE = 31, 61
+# Factor of the machine's force in the search. With it no resonance that is detached from the rest
+# lies so near that the balance of one harmonic, which places it some per cent wrong, misses it.
+MARGIN = 1.1
+# Points of the grid that are refined, and tolerance of the logarithms.
+REFINED = 2
+TOLERANCE = 1e-3
+
+
+def best_absorber(machine, mass, band) -> TunedAbsorber:
+    """Return the absorber with the least largest displacement over a band at the machine's force.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a cubic stiffness.
+    mass : float, str or pint.Quantity
+        kg.
+    band : sequence of 2 floats
+        Lowest and highest forcing frequency, Hz.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range, or the machine's spring is linear: `exact_absorber` is
+        exact then.
+    """
+    mass = check_mass(machine, mass)
+    if machine.cubic_stiffness == 0:
+        raise ValueError(
+            "cubic_stiffness = 0 N/m^3: must not be 0 for a direct search (with a linear spring of "
+            "the machine exact_absorber is exact)"
+        )
+    low, high = check_band(machine, band)
+    unit = _unit(machine, mass, (low * high) ** 0.5)
+
+    def worst(logarithms, count):
+        frequencies = np.linspace(low, high, count)
+        return np.log(_largest(machine, mass, np.exp(logarithms) * unit, frequencies))
+
+    own = np.geomspace(LOWEST * low, high, TUNINGS)
+    grid = np.log(list(product((own / (low * high) ** 0.5) ** 2, DAMPINGS, CUBICS)))
+    order = np.argsort(worst(grid, COARSE))
+    found = [
+        minimize(
+            lambda values: worst(values[None], FINE)[0],
+            grid[place],
+            method="Nelder-Mead",
+            options={"xatol": TOLERANCE, "fatol": TOLERANCE},
+        )
+        for place in order[:REFINED]
+    ]
+    best = np.exp(min(found, key=lambda each: each.fun).x) * unit
+    names = "stiffness", "damping", "cubic_stiffness"
+    return TunedAbsorber(mass=mass, **dict(zip(names, map(float, best), strict=True)))
+
+
+def _unit(machine, mass, frequency):
+    """Return stiffness, damping and cubic stiffness in which the search counts, in SI units."""
+    w = 2 * np.pi * frequency
+    cubic = tuned_cubic(mass / machine.mass, machine.cubic_stiffness)
+    return np.array([mass * w**2, 2 * mass * w, cubic])
+
+
+def _largest(machine, mass, absorbers, frequencies):
+    """Return the largest displacement of each absorber (rows of SI values), dimensionless."""
+    scales = machine.scales
+    bare = problems_of(machine, None, frequencies, [MARGIN])
+    w = scales.from_si(frequencies, "frequency")
+    problems = np.tile(bare, (len(absorbers), 1))
+    problems[:, INVERSE_MASS] = 1 / scales.from_si(mass, "mass")
+    columns = {
+        LINK_STIFFNESS: ("stiffness", w**2),
+        LINK_DAMPING: ("damping", w),
+        LINK_CUBIC: ("cubic_stiffness", w**2),
+    }
+    for values, (column, (quantity, power)) in zip(absorbers.T, columns.items(), strict=True):
+        problems[:, column] = np.divide.outer(scales.from_si(values, quantity), power).ravel()
+    return harmonic_displacements(problems).reshape(len(absorbers), -1).max(axis=1)
