@@ -15,6 +15,8 @@ _HOMES = {
     "HertzContact": "machine.hertz",
     "Material": "machine.hertz",
     "hertz_stiffness": "stages.machines",
+    "TunedAbsorber": "absorbers.absorber",
+    "absorber_responses": "absorbers.responses",
     "simulate": "motions.simulate",
     "steady_motion": "motions.steady",
     "frequency_response": "stages.response",

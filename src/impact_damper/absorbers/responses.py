@@ -18,11 +18,11 @@ from impact_damper.absorbers.direct import best_absorber
 from impact_damper.absorbers.linear_response import response
 from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.search import Search, search
-from impact_damper.absorbers.tuning import exact_absorber, with_cubic
+from impact_damper.absorbers.tuning import check_band, exact_absorber, with_cubic
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.results import in_si
-from impact_damper.system.bounds import RUNS_RANGE, SEED_RANGE, check_count, shown
+from impact_damper.system.bounds import MOST_RUNS, SEED_RANGE, check_count, shown
 from impact_damper.system.checks import check_numbers
 
 COMPETITORS = ("bare", "tuned", "nonlinear", "best")
@@ -94,7 +94,10 @@ def absorber_responses(
     mass = check_mass(machine, mass)
     frequencies, shares = check_grid(machine, frequencies, force_shares)
     detunings = _increasing("detunings", check_numbers("detunings", detunings, above=-1, most=10))
-    check_count("starts", starts, **RUNS_RANGE)
+    band = None if band is None else check_band(machine, band)
+    most = max(MOST_RUNS // (len(frequencies) * len(shares)), 1)
+    why = f"with {len(frequencies)} frequencies and {len(shares)} force shares"
+    check_count("starts", starts, least=1, most=most, why=why)
     check_count("seed", seed, **SEED_RANGE)
     absorbers, remarks = competitors(machine, mass, frequencies, band)
     found = _not_possible((len(COMPETITORS), len(detunings), len(frequencies), len(shares)))
@@ -117,7 +120,7 @@ def absorber_responses(
     }
     parameters = {"absorber_mass": mass, "starts": starts, "seed": seed}
     if band is not None:
-        parameters["band"] = [machine.check_frequency("band", end) for end in band]
+        parameters["band"] = band
     data = dataset(found, coordinates, parameters, "A machine without and with tuned absorbers")
     return in_si(data, machine).assign_attrs(remarks=json.dumps(remarks))
 
@@ -155,11 +158,8 @@ def check_grid(machine, frequencies, force_shares):
         raise TypeError(f"machine = {shown(machine)}: must be a Machine")
     if machine.force == 0:
         raise ValueError("force = 0 N: must be greater than 0 N (without excitation all rests)")
-    if np.ndim(frequencies) != 1:
-        raise TypeError(f"frequencies = {shown(frequencies)}: must be a sequence of numbers")
-    checked = [
-        machine.check_frequency(f"frequencies[{i}]", each) for i, each in enumerate(frequencies)
-    ]
+    listed = frequencies if isinstance(frequencies, list | tuple) else np.atleast_1d(frequencies)
+    checked = [machine.check_frequency(f"frequencies[{i}]", each) for i, each in enumerate(listed)]
     shares = check_numbers("force_shares", force_shares, above=0, most=1e6)
     return _increasing("frequencies", checked), _increasing("force_shares", shares)
 
