@@ -79,6 +79,17 @@ def test_absorbers(data):
     assert np.all(np.abs(differences(of(data, "one_harmonic"))) < 2e-3)
 
 
+def test_differences_are_as_large_as_expected(data):
+    """Of rigid walls by another stiffness, of Hertz by closed forms, of light masses in size."""
+    for reason, tolerance in (("contact_stiffness", 0.05), ("linear_contact", 1e-3)):
+        each = of(data, reason)
+        known = np.isfinite(each.expected_difference.values)
+        expected = each.expected_difference.values[known]
+        np.testing.assert_allclose(np.abs(differences(each))[known], expected, rtol=tolerance)
+    light = of(data, "mass_ratio")
+    assert np.all(np.abs(differences(light)) < 3 * light.expected_difference.values)
+
+
 def test_shares_differ_by_chance(data):
     each = of(data, "random_starts")
     off = (each.our_value - each.published_value) / each.difference_error

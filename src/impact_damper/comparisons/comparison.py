@@ -26,6 +26,8 @@ class Comparison(NamedTuple):
         not extrapolated.
     error : float
         Standard error of the difference of numbers found by random starts; NaN for other numbers.
+    expected : float
+        Size of ours/published - 1 that is to be expected for this reason; NaN if it is not known.
     """
 
     publication: str
@@ -36,6 +38,7 @@ class Comparison(NamedTuple):
     order: float = np.nan
     limit: float = np.nan
     error: float = np.nan
+    expected: float = np.nan
 
 
 def observed_order(parameters, differences) -> float:

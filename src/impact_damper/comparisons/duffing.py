@@ -71,6 +71,7 @@ def basin_shares(starts, seed, settling):
                 float(share),
                 "random_starts",
                 error=float(np.sqrt(variance)),
+                expected=float(1.96 * np.sqrt(variance) / motion.share),
             )
         )
     return found

@@ -100,6 +100,7 @@ def _compared(quantity, published, ours, stiffnesses):
     """Return the comparison of `ours`, a number for each stiffness, with the published limit."""
     ours = np.array(ours)
     gain = (stiffnesses[-1] / stiffnesses[-2]) ** -ORDER - 1
+    limit = float(ours[-1] + (ours[-1] - ours[-2]) / gain)
     return Comparison(
         "masri_caughey",
         quantity,
@@ -107,5 +108,6 @@ def _compared(quantity, published, ours, stiffnesses):
         float(ours[-1]),
         "contact_stiffness",
         order=observed_order(stiffnesses, ours - published),
-        limit=float(ours[-1] + (ours[-1] - ours[-2]) / gain),
+        limit=limit,
+        expected=abs(float(ours[-1]) - limit) / abs(limit),
     )

@@ -108,6 +108,7 @@ def _series(rows, mass_ratios, words):
                     float(ours),
                     "mass_ratio",
                     order=order,
+                    expected=mass,
                 )
             )
     return found

@@ -43,8 +43,9 @@ def published(settings, *, seed=1995, settling=None):
     xarray.Dataset
         For each `comparison`: the published value, the value computed here, the publication, the
         reason why both differ, the order with which the difference falls, the computed value
-        extrapolated to the limit in which the closed form holds, and the standard error of the
-        difference if both values are shares of random samples.
+        extrapolated to the limit in which the closed form holds, the standard error of the
+        difference if both values are shares of random samples, and the size of the relative
+        difference to be expected.
 
     Raises
     ------
@@ -71,6 +72,7 @@ def published(settings, *, seed=1995, settling=None):
         "difference_order": [each.order for each in found],
         "difference_error": [each.error for each in found],
         "limit_value": [each.limit for each in found],
+        "expected_difference": [each.expected for each in found],
     }
     quantities = [each.quantity for each in found]
     parameters = {"settings": settings, "seed": seed}

@@ -45,4 +45,9 @@ VARIABLES = {
     ),
     "difference_error": Variable(EACH, "standard error of the difference of two random counts"),
     "limit_value": Variable(EACH, "number computed here, extrapolated to rigid walls"),
+    "expected_difference": Variable(
+        EACH,
+        "size of the relative difference to be expected: by extrapolation to rigid walls, the mass "
+        "ratio, 1.96 standard errors, or that of a linear contact; NaN if unknown",
+    ),
 }

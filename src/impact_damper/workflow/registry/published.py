@@ -1,6 +1,6 @@
 """Chapter of the report: numbers that others published beside those computed here."""
 
-from impact_damper.workflow.registry.records import Stage, Table
+from impact_damper.workflow.registry.records import Kind, Stage, Table
 from impact_damper.workflow.registry.values import settling
 
 
@@ -14,7 +14,7 @@ def published(config, name):
 
 TITLE = "Published numbers beside ours"
 STAGES = (Stage("published", "published", published, paper=False),)
-KINDS = ()
+KINDS = (Kind("published", ("published",), most=1),)
 TABLES = (
     Table(
         "published",
