@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+import impact_damper as idm
 from impact_damper.absorbers.linear_response import response
 from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.responses import absorber_responses
@@ -99,6 +100,39 @@ def test_a_motion_without_a_period_by_scipy():
     strobes = run.y[0, ::32]
     assert np.ptp(strobes) > 0.1 * np.abs(run.y[0]).max()
     assert_allclose(found["competitor_displacement"], 1e3 * np.abs(run.y[0]).max(), rtol=0.01)
+
+
+def test_a_detached_resonance():
+    """Beside the motion from rest there is one of twice its size, far above the two peaks."""
+    machine = Machine(mass=1, linear_stiffness=1, cubic_stiffness=1, damping=0.002, force=0.13)
+    absorber, w = nonlinear_absorber(machine, 0.05), 1.85
+    problems = problems_of(machine, absorber, [w / (2 * np.pi)], [0.8, 1.0])
+    found, orbits, _ = search(problems, (1, 2), 4, 1)
+    assert found.motions.tolist() == [1, 2]
+    for orbit in np.flatnonzero(orbits.problem == 1):
+        length = machine.scales.length
+        start = orbits.state[orbit] * length * [1, w, 1, w]
+
+        def rate(t, y):
+            x, v, u, s = y
+            link = absorber.stiffness * u + absorber.damping * s + absorber.cubic_stiffness * u**3
+            a = 0.13 * np.cos(w * t) - 0.002 * v - x - x**3 - link
+            return [v, a, s, a - link / 0.05]
+
+        start = start + 1e-3 * np.abs(start).max()
+        times = np.linspace(199, 200, 1001) * 2 * np.pi / w
+        run = solve_ivp(rate, (0, times[-1]), start, "DOP853", times, rtol=1e-8, atol=1e-10)
+        assert_allclose(np.abs(run.y[0]).max(), orbits.largest[orbit, 0] * length, rtol=1e-3)
+
+
+def test_the_bare_machine_by_the_search_of_the_package():
+    """Motions from random starts by the Taylor series that also treats contacts."""
+    data = absorber_responses(HARD, 0.6, [23.0, 24.0], [1.0], detunings=[0.0])
+    other = idm.frequency_response(HARD, None, [23.0, 24.0], starts=2)
+    stable = other["maximum_displacement"].where(np.isfinite(other["residual"]))
+    bare = data.sel(competitor="bare").squeeze()
+    assert_allclose(bare["competitor_displacement"], stable.max("motion"), rtol=1e-6)
+    assert_allclose(bare["competitor_least_displacement"], stable.min("motion"), rtol=1e-6)
 
 
 def test_a_softening_machine_escapes_from_some_starts():

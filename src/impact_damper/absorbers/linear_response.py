@@ -25,8 +25,8 @@ from numpy.polynomial import polynomial
 from impact_damper.literature.tuned_mass_damper import Tuning
 from impact_damper.machine.machine import Machine
 
-# Largest imaginary part of a real root, relative to its modulus.
-REAL = 1e-7
+# Largest imaginary part of a real root, relative to the width of the resonance.
+REAL = 1e-6
 
 
 class LinearMachine(NamedTuple):
@@ -127,6 +127,9 @@ def tuning_of(machine, absorber) -> Tuning:
 def maxima(linear, tuning, band):
     """Return frequencies r and squared displacements at the maxima within a band.
 
+    The polynomial is written in t with s = 1 + w t, where w is the width of the resonance: in s the
+    roots for a light absorber lie so close together that they cannot be told apart.
+
     Parameters
     ----------
     linear : LinearMachine
@@ -142,24 +145,34 @@ def maxima(linear, tuning, band):
         them is the maximum.
     """
     (mass, f, z), z1 = tuning, linear.damping_ratio
-    own, host = np.array([f**2, -1.0]), np.array([1.0, -1.0])
-    numerator = polynomial.polyadd(polynomial.polymul(own, own), [0, (2 * z * f) ** 2])
-    real = polynomial.polyadd(polynomial.polymul(host, own), [0, -4 * z1 * z * f - mass * f**2])
-    imaginary = 2 * (z1 * own + z * f * host - [0, mass * z * f])
-    above = polynomial.polymul(linear.forcing, numerator)
+    width = min(math.sqrt(mass) + z1, 1.0)
+    s, host, own = np.array([1.0, width]), np.array([0.0, -width]), np.array([f**2 - 1, -width])
+    carried = (4 * z1 * z * f + mass * f**2) * s
+    real = np.convolve(host, own) - np.append(carried, 0.0)
+    imaginary = 2 * (z1 * own + z * f * host - mass * z * f * s)
+    above = np.convolve(own, own) + np.append((2 * z * f) ** 2 * s, 0.0)
     below = polynomial.polyadd(
-        polynomial.polymul(real, real),
-        polynomial.polymulx(polynomial.polymul(imaginary, imaginary)),
+        np.convolve(real, real), np.convolve(s, np.convolve(imaginary, imaginary))
     )
-    below = np.concatenate([np.zeros(linear.falling), below])
+    above = np.convolve(above, _composed(linear.forcing, s))
+    for _ in range(linear.falling):
+        below = np.convolve(below, s)
     slope = polynomial.polysub(
-        polynomial.polymul(polynomial.polyder(above), below),
-        polynomial.polymul(above, polynomial.polyder(below)),
+        np.convolve(polynomial.polyder(above), below),
+        np.convolve(above, polynomial.polyder(below)),
     )
-    roots = polynomial.polyroots(polynomial.polytrim(slope, 0))
-    real_roots = roots.real[np.abs(roots.imag) <= REAL * np.abs(roots)]
-    places = np.sqrt(real_roots[real_roots > 0])
+    roots = 1 + width * polynomial.polyroots(slope)
+    places = np.sqrt(roots.real[(np.abs(roots.imag) <= REAL * width) & (roots.real > 0)])
     ends = np.array([end for end in band if math.isfinite(end)])
     inside = places[(places > band[0]) & (places < band[1])]
     found = np.sort(np.concatenate([ends, inside]))
     return found, squared(linear, tuning, found)
+
+
+def _composed(coefficients, inner):
+    """Return the coefficients of a polynomial of a polynomial."""
+    found = np.zeros(1)
+    for coefficient in coefficients[::-1]:
+        found = np.convolve(found, inner)
+        found[0] += coefficient
+    return found

@@ -14,18 +14,21 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from impact_damper.absorbers.absorber import TunedAbsorber, check_mass
-from impact_damper.absorbers.linear_response import linear_machine, maxima, squared
+from impact_damper.absorbers.linear_response import linear_machine, maxima
 from impact_damper.literature.nonlinear_absorber import tuned_cubic
 from impact_damper.literature.tuned_mass_damper import Tuning, den_hartog, exact_optimum
 from impact_damper.system.bounds import shown
 
-# Tunings and damping ratios among which the optimum is looked for before it is refined, and the
-# frequencies of the response there.
-TUNINGS = np.geomspace(0.25, 4, 121)
-DAMPINGS = np.geomspace(1e-3, 1, 31)
-FREQUENCIES = np.geomspace(0.1, 10, 400)
-# Tolerances of tuning and damping ratio when the optimum is refined.
-TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-13, 1e-10
+# Grid on which the optimum is looked for before it is refined. Tunings are those of the closed form
+# changed by factors, of which the smallest is NARROW of the width of the resonance, and in a band
+# also places in it; damping ratios are those of the closed form changed by DAMPINGS, in a band also
+# BAND_DAMPINGS.
+STEPS, NARROW, WIDE = 10, 0.1, 0.4
+DAMPINGS = np.geomspace(0.3, 10, 12)
+PLACES = 9
+BAND_DAMPINGS = np.geomspace(1e-3, 0.3, 10)
+# Tolerances of the logarithms of tuning and damping ratio when the optimum is refined.
+TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-11, 1e-10
 
 
 def den_hartog_absorber(machine, mass) -> TunedAbsorber:
@@ -63,7 +66,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         kg.
     band : sequence of 2 floats, optional
         Lowest and highest forcing frequency, Hz; all frequencies if not given. In a narrow band the
-        best damping is small; damping ratios below DAMPINGS[0] are not tried.
+        best damping is small; damping ratios below BAND_DAMPINGS[0] are not tried.
 
     Raises
     ------
@@ -74,28 +77,24 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     ratio, linear = _mass_ratio(machine, mass), linear_machine(machine)
     limits = _limits(machine, linear, band)
 
-    def highest(f, z):
-        return maxima(linear, Tuning(ratio, f, z), limits)[1].max()
+    def highest(log_tuning, log_damping):
+        tuning = Tuning(ratio, math.exp(log_tuning), math.exp(log_damping))
+        return maxima(linear, tuning, limits)[1].max()
 
-    def best_tuning(z, around):
+    def best_tuning(log_damping):
         # at the optimum two maxima cross: a method that fits parabolas stops too early there
         return minimize_scalar(
-            lambda log: highest(math.exp(log), z),
-            bracket=np.log(around),
-            method="golden",
-            tol=TUNING_TOLERANCE,
+            highest, bracket=tunings, args=(log_damping,), method="golden", tol=TUNING_TOLERANCE
         )
 
-    tunings, dampings = _around_optimum(linear, ratio, limits)
-    logarithm = minimize_scalar(
-        lambda log: best_tuning(math.exp(log), tunings).fun,
-        bounds=np.log(dampings),
+    tunings, dampings = _around_optimum(ratio, limits, highest)
+    damping = minimize_scalar(
+        lambda log: best_tuning(log).fun,
+        bounds=dampings,
         method="bounded",
         options={"xatol": DAMPING_TOLERANCE},
     ).x
-    damping = math.exp(logarithm)
-    tuning = math.exp(best_tuning(damping, tunings).x)
-    return _absorber(machine, Tuning(ratio, tuning, damping))
+    return _absorber(machine, Tuning(ratio, math.exp(best_tuning(damping).x), math.exp(damping)))
 
 
 def nonlinear_absorber(machine, mass, band=None) -> TunedAbsorber:
@@ -161,15 +160,19 @@ def _limits(machine, linear, band):
     return 0.0, math.inf
 
 
-def _around_optimum(linear, ratio, limits):
-    """Return bounds of tuning and of damping ratio around the best point of a grid."""
-    least, most = max(limits[0], FREQUENCIES[0]), min(limits[1], FREQUENCIES[-1])
-    frequencies = np.geomspace(least, most, len(FREQUENCIES))
-    grid = Tuning(ratio, TUNINGS[:, None, None], DAMPINGS[:, None])
-    best = np.argmin(squared(linear, grid, frequencies).max(axis=2))
-    i, j = np.unravel_index(best, (len(TUNINGS), len(DAMPINGS)))
-    return _neighbours(TUNINGS, i, 4), _neighbours(DAMPINGS, j, 3)
+def _around_optimum(ratio, limits, highest):
+    """Return bounds of the logarithms of tuning and damping ratio around the best of a grid."""
+    closed = exact_optimum(ratio)
+    factors = np.geomspace(NARROW * math.sqrt(ratio), WIDE, STEPS)
+    tunings = np.log(closed.frequency) + np.concatenate([-factors[::-1], [0.0], factors])
+    dampings = np.log(closed.damping_ratio * DAMPINGS)
+    if limits != (0.0, math.inf):
+        tunings = np.union1d(tunings, np.log(np.linspace(*limits, PLACES)))
+        dampings = np.union1d(dampings, np.log(BAND_DAMPINGS))
+    heights = [[highest(f, z) for z in dampings] for f in tunings]
+    i, j = np.unravel_index(np.argmin(heights), (len(tunings), len(dampings)))
+    return _neighbours(tunings, i), _neighbours(dampings, j)
 
 
-def _neighbours(values, place, steps):
-    return values[max(place - steps, 0)], values[min(place + steps, len(values) - 1)]
+def _neighbours(values, place):
+    return values[max(place - 2, 0)], values[min(place + 2, len(values) - 1)]
