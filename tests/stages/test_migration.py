@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import solve_ivp
-from scipy.stats import CensoredData, ecdf
+from scipy.stats import CensoredData, binomtest, chi2, ecdf
 
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.data.shares import escape_rate, survival, wilson
@@ -160,7 +160,7 @@ def test_survival():
 def test_escape_rate():
     """A case by hand; and intervals of drawn lifetimes mostly contain the true rate."""
     rate = escape_rate(np.array([10, 30, 40, 200]), horizon=100, lead=20)
-    assert_allclose(rate[0], 2 / (10 + 20 + 80))
+    assert_allclose(rate, np.array([2, *chi2.ppf([0.025, 0.975], [4, 6]) / 2]) / (10 + 20 + 80))
     generator = np.random.default_rng(0)
     held = [escape_rate(generator.exponential(500, 100), 1000, 0) for _ in range(200)]
     covered = np.mean([low < 1 / 500 < high for _, low, high in held])
@@ -168,10 +168,10 @@ def test_escape_rate():
     assert escape_rate(np.full(5, 1e9), 1000, 0)[1] == 0
 
 
-def test_wilson():
-    """Without successes the upper end is z^2/(n + z^2)."""
-    square = 1.959964**2
-    assert_allclose(wilson(0, 10), [0, 0, square / (10 + square)], atol=1e-6)
+@pytest.mark.parametrize("successes", [0, 1, 7, 10])
+def test_wilson(successes):
+    interval = binomtest(successes, 10).proportion_ci(method="wilson")
+    assert_allclose(wilson(successes, 10), [successes / 10, interval.low, interval.high])
     assert np.isnan(wilson(0, 0)).all()
 
 

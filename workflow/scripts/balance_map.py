@@ -1,7 +1,7 @@
 """Where harmonic balance fails, over frequency and another parameter."""
 
-from impact_damper.stages.balance_map import balance_map
 from impact_damper.workflow.job import Job
+from impact_damper.stages.balance_map import balance_map
 
 job = Job(snakemake)
 job.save(

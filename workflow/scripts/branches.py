@@ -1,8 +1,8 @@
 """Every branch of periodic orbits, stable or not (figures 2, 5, 8 and 10)."""
 
+from impact_damper.workflow.job import Job
 from impact_damper.data.datasets import load
 from impact_damper.stages.branches import complete_branches
-from impact_damper.workflow.job import Job
 
 job = Job(snakemake)
 motions = [load(path) for path in snakemake.input.motions]

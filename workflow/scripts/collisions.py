@@ -1,7 +1,7 @@
 """Whether random starts in the literal ball lead to collisions (section 3, claim 8)."""
 
-from impact_damper.stages.response import collisions
 from impact_damper.workflow.job import Job
+from impact_damper.stages.response import collisions
 
 job = Job(snakemake)
 for entry in job.entries():

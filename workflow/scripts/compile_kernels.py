@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from impact_damper.workflow.compile_kernels import compile_all
 from impact_damper.workflow.job import Job
+from impact_damper.workflow.compile_kernels import compile_all
 from impact_damper.workflow.sources import compiled_kernels
 
 job = Job(snakemake)

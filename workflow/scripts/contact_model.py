@@ -1,7 +1,7 @@
 """The contact model over restitution and load, and contacts of motions in it."""
 
-from impact_damper.stages.contact_model import contact_model, spread_loads
 from impact_damper.workflow.job import Job
+from impact_damper.stages.contact_model import contact_model, spread_loads
 
 job = Job(snakemake)
 job.save(

@@ -1,7 +1,7 @@
 """Harmonic balance with many harmonics against the exact orbit."""
 
-from impact_damper.stages.harmonic_convergence import harmonic_convergence, ladder
 from impact_damper.workflow.job import Job
+from impact_damper.stages.harmonic_convergence import harmonic_convergence, ladder
 
 job = Job(snakemake)
 harmonics = ladder(job["highest"])

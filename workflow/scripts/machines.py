@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from impact_damper.workflow.job import Job
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import si_value
 from impact_damper.stages.machines import machine_study
-from impact_damper.workflow.job import Job
 
 job = Job(snakemake)
 

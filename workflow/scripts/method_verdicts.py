@@ -1,8 +1,8 @@
 """Verdicts of integrators by tolerance, against the truth."""
 
+from impact_damper.workflow.job import Job
 from impact_damper.stages.method_verdicts import make_scene, verdicts
 from impact_damper.system.parameters import Damper
-from impact_damper.workflow.job import Job
 
 job = Job(snakemake)
 scenes = {}

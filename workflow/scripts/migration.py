@@ -1,7 +1,7 @@
 """Runs of the migration controller (section 5, figures 13 to 16)."""
 
-from impact_damper.stages.migration import trials
 from impact_damper.workflow.job import Job
+from impact_damper.stages.migration import trials
 
 job = Job(snakemake)
 job.save(

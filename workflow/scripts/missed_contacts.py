@@ -1,7 +1,7 @@
 """Contacts near grazing that integrators miss, counted over random passages."""
 
-from impact_damper.stages.missed_contacts import missed_contacts
 from impact_damper.workflow.job import Job
+from impact_damper.stages.missed_contacts import missed_contacts
 
 job = Job(snakemake)
 job.save(

@@ -1,7 +1,7 @@
 """A steady motion over its period (figure 4)."""
 
-from impact_damper.motions.steady import steady_orbit
 from impact_damper.workflow.job import Job
+from impact_damper.motions.steady import steady_orbit
 
 job = Job(snakemake)
 # The three numbers under figure 4, and no relative velocity. From rest nothing would collide.

@@ -1,7 +1,7 @@
 """Our numbers beside published ones."""
 
-from impact_damper.stages.published import published
 from impact_damper.workflow.job import Job
+from impact_damper.stages.published import published
 
 job = Job(snakemake)
 job.save(published(job["settings"], seed=job["seed"], settling=job.settling))

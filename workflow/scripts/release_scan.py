@@ -1,7 +1,7 @@
 """Motions that releases of the damper lead to, over frequency (section 5, figure 14)."""
 
-from impact_damper.stages.release_scan import release_scan
 from impact_damper.workflow.job import Job
+from impact_damper.stages.release_scan import release_scan
 
 job = Job(snakemake)
 job.save(

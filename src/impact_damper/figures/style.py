@@ -6,7 +6,6 @@ The palette of Okabe and Ito can be distinguished by colour-blind readers. Roles
 same figure also differ in marker or line style, for grey print.
 """
 
-import io
 import re
 import string
 
@@ -234,15 +233,6 @@ def legend(figure, columns) -> None:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
-
-
-def draw_first() -> None:
-    """Draw an empty figure in memory, because the first drawing takes matplotlib much longer."""
-    with style():
-        drawn = figure("single", 2.0)
-        drawn.subplots().set_title(r"$\Omega$")
-        for kind in ("pdf", "png"):
-            drawn.savefig(io.BytesIO(), format=kind)
 
 
 def save_figure(figure, path) -> None:

@@ -12,9 +12,9 @@ from multiprocessing import get_context
 
 import numpy as np
 
+from impact_damper.workflow.job import end_with_parent
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
-from impact_damper.workflow.job import end_with_parent
 
 OSCILLATOR = Oscillator(damping=0.215)
 # With this damper motions settle soon at this frequency, so that following orbits is compiled too.

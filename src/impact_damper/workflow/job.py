@@ -1,9 +1,11 @@
 """A job of the workflow: its log, its end, its timing, and its parameters as objects.
 
-Every script makes a `Job` of what Snakemake gives it before it computes anything.
+Every script makes a `Job` of what Snakemake gives it before it computes anything. It imports this
+module before all others, because their import is quicker with the garbage collection set here.
 """
 
 import atexit
+import gc
 import os
 import resource
 import sys
@@ -13,6 +15,9 @@ from collections import ChainMap
 from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
+
+# Garbage is searched for less often: what a job imports stays to its end, and a job makes little.
+gc.set_threshold(10_000)
 
 # Seconds between checks that Snakemake is alive: less than a new run takes to start a job.
 LOOK = 0.5
@@ -112,6 +117,7 @@ class Job(Entry):
         sys.stdout = sys.stderr = open(log, "w", buffering=1)
         timing = self.results / "timings" / log.relative_to(self.results / "logs")
         atexit.register(_write_timing, timing.with_suffix(".tsv"))
+        atexit.register(gc.freeze)  # else the end of the process begins with a search for garbage
 
     @property
     def running(self):
