@@ -42,7 +42,7 @@ LARGE = {
     "data/variables": "one file for each subject of the datasets; none imports another",
     "figures": "one file for each kind of figure; they share only drawing and style",
     "motions": "one file for each way to start or to run motions",
-    "stages": "one file for each stage of the workflow",
+    "stages": "one file for each stage of the workflow; some stages have a second one",
     "workflow/models": "one file for each subject of the configuration, and what they share",
 }
 

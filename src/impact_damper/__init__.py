@@ -21,7 +21,7 @@ _HOMES = {
     "steady_motion": "motions.steady",
     "frequency_response": "stages.response",
     "harmonic_balance_response": "stages.harmonic_balance",
-    "suppression_band": "stages.harmonic_balance",
+    "suppression_band": "stages.suppression_band",
     "optimum_clearance": "stages.harmonic_balance",
     "clearance_sweep": "stages.optimum",
     "subharmonic_suppression": "stages.subharmonic",

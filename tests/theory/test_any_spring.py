@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from impact_damper.data.datasets import flag
-from impact_damper.stages.harmonic_balance import optimum_clearance, suppression_band
+from impact_damper.stages.harmonic_balance import optimum_clearance
+from impact_damper.stages.suppression_band import suppression_band
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.theory import hill
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance

@@ -5,7 +5,7 @@ import pytest
 from helpers.springs import SPRINGS, in_other_units
 from numpy.testing import assert_allclose
 
-from impact_damper.stages.harmonic_balance import suppression_band
+from impact_damper.stages.suppression_band import suppression_band
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper
 from impact_damper.theory import convergence
