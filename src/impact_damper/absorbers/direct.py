@@ -15,7 +15,7 @@ from scipy.optimize import minimize
 from impact_damper.absorbers.absorber import TunedAbsorber, check_mass
 from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.seeds import harmonic_displacements
-from impact_damper.absorbers.tuning import check_band
+from impact_damper.absorbers.tuning import check_band, exact_absorber
 from impact_damper.literature.nonlinear_absorber import tuned_cubic
 from impact_damper.motions.smooth_runs import (
     INVERSE_MASS,
@@ -26,15 +26,17 @@ from impact_damper.motions.smooth_runs import (
 
 # Grid of the search: natural frequency of the absorber, from LOWEST of the lowest frequency of the
 # band to the highest; damping over 2 m w at the middle of the band; cubic stiffness over that of
-# `tuned_cubic`. Forcing frequencies of the grid, and where the best are refined.
+# `tuned_cubic`. A second grid has the exact absorber with each cubic stiffness. COARSE forcing
+# frequencies are tried there, FINE where the best are refined.
 TUNINGS, LOWEST = 16, 0.3
 DAMPINGS = np.geomspace(0.03, 0.5, 5)
 CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
 COARSE, FINE = 31, 61
-# Factor of the machine's force in the search. With it no resonance that is detached from the rest
-# lies so near that the balance of one harmonic, which places it some per cent wrong, misses it.
-MARGIN = 1.1
-# Points of the grid that are refined, and tolerance of the logarithms.
+# With MARGIN times the machine's force the largest displacement may be up to MOST_RISE times as
+# large. If it is larger, a detached resonance lies so near that the balance of one harmonic, which
+# places it some per cent wrong, may miss it; then the larger displacement counts.
+MARGIN, MOST_RISE = 1.1, 1.3
+# Points of each grid that are refined, and tolerance of the logarithms.
 REFINED = 2
 TOLERANCE = 1e-3
 
@@ -67,20 +69,28 @@ def best_absorber(machine, mass, band) -> TunedAbsorber:
     unit = _unit(machine, mass, (low * high) ** 0.5)
 
     def worst(logarithms, count):
-        frequencies = np.linspace(low, high, count)
-        return np.log(_largest(machine, mass, np.exp(logarithms) * unit, frequencies))
+        absorbers = np.exp(logarithms) * unit
+        sizes = _largest(machine, mass, absorbers, np.linspace(low, high, count), 1.0)
+        more = _largest(machine, mass, absorbers, np.linspace(low, high, COARSE), MARGIN)
+        return np.log(np.where(more > MOST_RISE * sizes, more, sizes))
 
     own = np.geomspace(LOWEST * low, high, TUNINGS)
-    grid = np.log(list(product((own / (low * high) ** 0.5) ** 2, DAMPINGS, CUBICS)))
-    order = np.argsort(worst(grid, COARSE))
+    grids = [product((own / (low * high) ** 0.5) ** 2, DAMPINGS, CUBICS)]
+    if machine.linear_stiffness:
+        tuned = exact_absorber(machine, mass)
+        grids.append(product([tuned.stiffness / unit[0]], [tuned.damping / unit[1]], CUBICS))
+    starts = []
+    for grid in grids:
+        points = np.log(list(grid))
+        starts.extend(points[np.argsort(worst(points, COARSE))[:REFINED]])
     found = [
         minimize(
             lambda values: worst(values[None], FINE)[0],
-            grid[place],
+            start,
             method="Nelder-Mead",
             options={"xatol": TOLERANCE, "fatol": TOLERANCE},
         )
-        for place in order[:REFINED]
+        for start in starts
     ]
     best = np.exp(min(found, key=lambda each: each.fun).x) * unit
     names = "stiffness", "damping", "cubic_stiffness"
@@ -94,10 +104,10 @@ def _unit(machine, mass, frequency):
     return np.array([mass * w**2, 2 * mass * w, cubic])
 
 
-def _largest(machine, mass, absorbers, frequencies):
+def _largest(machine, mass, absorbers, frequencies, share):
     """Return the largest displacement of each absorber (rows of SI values), dimensionless."""
     scales = machine.scales
-    bare = problems_of(machine, None, frequencies, [MARGIN])
+    bare = problems_of(machine, None, frequencies, [share])
     w = scales.from_si(frequencies, "frequency")
     problems = np.tile(bare, (len(absorbers), 1))
     problems[:, INVERSE_MASS] = 1 / scales.from_si(mass, "mass")

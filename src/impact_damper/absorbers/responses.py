@@ -16,6 +16,7 @@ import numpy as np
 from impact_damper.absorbers.absorber import check_mass
 from impact_damper.absorbers.direct import best_absorber
 from impact_damper.absorbers.linear_response import response
+from impact_damper.absorbers.peaks import linear_peak, orbit_peaks
 from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.search import Search, search
 from impact_damper.absorbers.tuning import check_band, exact_absorber, with_cubic
@@ -30,6 +31,7 @@ COMPETITORS = ("bare", "tuned", "nonlinear", "best")
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
 SPRING = ("stiffness", "damping", "cubic_stiffness")
+PEAK = ("competitor_peak", "competitor_peak_frequency")
 # Variables for the fields of `search.Search`.
 NAMES = dict(
     zip(
@@ -70,7 +72,7 @@ def absorber_responses(
     band : sequence of 2 floats, optional
         Lowest and highest frequency, Hz, over which the absorbers are tuned. If not given, all
         frequencies (`tuning.exact_absorber`); for the best, from the first to the last of
-        `frequencies` (`direct.best_absorber`).
+        `frequencies` (`direct.best_absorber`); so for both with `base_acceleration`.
     starts : int
         Random starts at each frequency and force share.
     seed : int
@@ -81,8 +83,10 @@ def absorber_responses(
         In SI units, over `competitor`, `detuning`, `frequency` and `force_share`: the largest
         displacements (mm) of the largest and of the smallest motion, how many stable periodic
         motions there are, the shares of starts that lead to the largest motion and that escape,
-        and how the search for motions ended; over `competitor` and `detuning` the stiffness,
-        damping and cubic stiffness of the absorbers. The bare machine has the same values at all
+        and how the search for motions ended; over the force share the largest displacement between
+        the first and the last frequency, sought between the frequencies too, and where it is; over
+        `competitor` and `detuning` the stiffness, damping and cubic stiffness of the absorbers. The
+        bare machine has the same values at all
         detunings. The attribute `remarks` says in words, keyed by competitor, why one is not
         possible.
 
@@ -94,6 +98,8 @@ def absorber_responses(
     mass = check_mass(machine, mass)
     frequencies, shares = check_grid(machine, frequencies, force_shares)
     detunings = _increasing("detunings", check_numbers("detunings", detunings, above=-1, most=10))
+    if band is None and machine.base_acceleration is not None:
+        band = frequencies[[0, -1]]
     band = None if band is None else check_band(machine, band)
     most = max(MOST_RUNS // (len(frequencies) * len(shares)), 1)
     why = f"with {len(frequencies)} frequencies and {len(shares)} force shares"
@@ -169,22 +175,29 @@ def _responses(machine, absorber, frequencies, shares, starts, seed, sizes):
 
     The values are in the machine's scales.
     """
-    shape = len(frequencies), len(shares)
+    scales, shape = machine.scales, (len(frequencies), len(shares))
     if machine.cubic_stiffness == 0 and (absorber is None or absorber.cubic_stiffness == 0):
-        sizes = machine.scales.from_si(response(machine, absorber, frequencies), "displacement")
-        most = np.outer(sizes, shares)
-        one = np.ones(shape)
+        grid = scales.from_si(response(machine, absorber, frequencies), "displacement")
+        most, one = np.outer(grid, shares), np.ones(shape)
         found = Search(most, most, one, one, 0 * one, flag("competitor_status", "found") * one)
+        frequency, height = linear_peak(machine, absorber, frequencies)
+        peak = scales.from_si(height, "displacement") * shares
     else:
         problems = problems_of(machine, absorber, frequencies, shares)
-        found, _, sizes = search(problems, shape, starts, seed, sizes)
-    values = {
-        f"competitor_{NAMES[name]}": value.reshape(shape) for name, value in found._asdict().items()
-    }
+        found, orbits, sizes = search(problems, shape, starts, seed, sizes)
+        found = Search(*(each.reshape(shape) for each in found))
+        frequency, peak = orbit_peaks(machine, absorber, frequencies, shares, orbits)
+        # a motion without a period, or of a longer one, may be larger
+        place = np.where(np.isnan(found.most), -np.inf, found.most).argmax(axis=0)
+        highest = found.most[place, np.arange(len(shares))]
+        frequency = np.where(peak >= highest, frequency, frequencies[place])
+        peak = np.fmax(peak, highest)
+    values = {f"competitor_{NAMES[name]}": value for name, value in found._asdict().items()}
+    values["competitor_peak"] = peak
+    values["competitor_peak_frequency"] = scales.from_si(frequency, "frequency")
     if absorber is not None:
         values |= {
-            f"absorber_{name}": machine.scales.from_si(getattr(absorber, name), name)
-            for name in SPRING
+            f"absorber_{name}": scales.from_si(getattr(absorber, name), name) for name in SPRING
         }
     return values, sizes
 
@@ -194,6 +207,8 @@ def _not_possible(shape):
     found = {f"competitor_{name}": np.full(shape, np.nan) for name in NAMES.values()}
     found["competitor_motions"] = np.zeros(shape, int)
     found["competitor_status"] = np.full(shape, flag("competitor_status", "not_possible"))
+    for name in PEAK:
+        found[name] = np.full((*shape[:2], shape[3]), np.nan)
     return found | {f"absorber_{name}": np.full(shape[:2], np.nan) for name in SPRING}
 
 

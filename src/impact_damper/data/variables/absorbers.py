@@ -3,6 +3,7 @@
 from impact_damper.data.variables.variable import Variable
 
 GRID = ("competitor", "detuning", "frequency", "force_share")
+PEAK = ("competitor", "detuning", "force_share")
 VARIABLES = {
     "competitor": Variable(("competitor",), "what is built in place of an impact damper"),
     "detuning": Variable(
@@ -14,6 +15,14 @@ VARIABLES = {
     ),
     "competitor_least_displacement": Variable(
         GRID, "largest displacement in the smallest motion found", quantity="displacement"
+    ),
+    "competitor_peak": Variable(
+        PEAK,
+        "largest displacement between the first and the last frequency",
+        quantity="displacement",
+    ),
+    "competitor_peak_frequency": Variable(
+        PEAK, "frequency of the largest displacement", quantity="frequency"
     ),
     "competitor_motions": Variable(GRID, "number of stable periodic motions found"),
     "competitor_share": Variable(GRID, "share of starts that lead to the largest motion"),
