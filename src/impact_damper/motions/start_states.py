@@ -157,9 +157,37 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
     """Return one system's values of the fields of `Search`, in their order, without a radius."""
+    free = free_motions(oscillator, frequency, settling)
+    states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
+    if damper is None:
+        placed = np.hstack([free.states, free.states])
+    else:
+        crossing = _crossing_speed(damper, frequency)
+        placed = _placed(oscillator, damper, frequency, free, crossing, settling.tolerance)
+    return states, placed, *most, free.displacement, free.speed
+
+
+def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
+    """Return the random starts of a search as wide as the machine, and how wide it is.
+
+    Parameters
+    ----------
+    oscillator, damper, frequency
+        Of one system.
+    count : int
+    seed : int or sequence of int
+    settling : Settling
+        How free motions are settled.
+
+    Returns
+    -------
+    states : numpy.ndarray, shape (count, 4)
+    most : numpy.ndarray, shape (2,)
+        Largest |Z1| and |Z1'| of a start.
+    """
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
-    crossing = 0.0 if damper is None else 2 * damper.clearance * frequency / math.pi
+    crossing = 0.0 if damper is None else _crossing_speed(damper, frequency)
     length = free.displacement or (1.0 if damper is None else damper.clearance)
     most = np.array([length, free.speed or max(length * frequency, crossing)]) * SPREAD
     if oscillator.cubic < 0:
@@ -172,12 +200,15 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
     states[:, :2] = most * direction[:, :2]
     if damper is None:
         states[:, 2:] = states[:, :2]
-        placed = np.hstack([free.states, free.states])
     else:
         states[:, 2] = damper.clearance * generator.uniform(-1, 1, count)
         states[:, 3] = (most[1] + crossing) * direction[:, 2]
-        placed = _placed(oscillator, damper, frequency, free, crossing, settling.tolerance)
-    return states, placed, *most, free.displacement, free.speed
+    return states, most
+
+
+def _crossing_speed(damper, frequency):
+    """Return the speed at which the loose mass crosses its gap in half a forcing period."""
+    return 2 * damper.clearance * frequency / math.pi
 
 
 def _placed(oscillator, damper, frequency, free, crossing, tolerance):

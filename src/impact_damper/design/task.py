@@ -1,0 +1,224 @@
+"""What a damper is designed for: machine, mass, band of frequencies, tolerances and confidence."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from impact_damper.machine.dampers import MachineDamper
+from impact_damper.machine.machine import Machine
+from impact_damper.machine.units import check_si, si_value, with_unit
+from impact_damper.system.bounds import RESTITUTION_RANGE, check_count, check_number, shown
+from impact_damper.system.packed import pack
+from impact_damper.system.settling import Settling, check_settling
+from impact_damper.theory.free_oscillator import maximum_response
+
+# Quantities of a machine and its damper that may deviate from their nominal values.
+VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
+NOMINAL = (1.0,) * len(VARIED)
+TOLERANCES = {"gap": 0.2}
+# Quantile of the normal distribution of a two-sided 95 % interval.
+QUANTILE = 1.959963984540054
+# Gaps that can be tried, divided by the gap at which the loose mass flies from wall to wall in half
+# a forcing period under the largest force.
+WIDEST = 50.0
+
+
+def starts_needed(share) -> int:
+    """Return the least number of starts, all quiet, whose Wilson interval lies above a share.
+
+    The lower end of the 95 % interval of n successes in n trials is n/(n + q^2), q being QUANTILE.
+    """
+    return math.ceil(share / (1 - share) * QUANTILE**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """A design task; values are checked before anything is computed.
+
+    Each physical value is a number in the SI unit, text with units, or a quantity of pint.
+
+    Attributes
+    ----------
+    machine : Machine
+    mass : float
+        Loose mass, kg; at most the mass of the machine.
+    band : tuple of float
+        Least and greatest forcing frequency, Hz. The resonance of the machine lies within.
+    restitution : float
+    contact_stiffness : float
+        N/m.
+    frequencies : int
+        Number of frequencies over the band.
+    candidates : int
+        Number of gaps that are compared.
+    starts : int
+        Random start states at each gap and frequency.
+    tolerances : dict
+        Largest relative deviations, keyed by names of VARIED.
+    displacement_limit : float or None
+        Largest displacement of a quiet motion, m. None for the one that the screening finds.
+    share : float
+        Share of starts that must end quiet, claimed at 95 % confidence.
+    seed : int
+    settling : Settling
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is out of range; the message names it, in SI units.
+    """
+
+    machine: Machine
+    mass: float
+    band: tuple
+    restitution: float
+    contact_stiffness: float
+    frequencies: int = 41
+    candidates: int = 12
+    starts: int = 96
+    tolerances: Mapping = field(default_factory=lambda: dict(TOLERANCES))
+    displacement_limit: float | None = None
+    share: float = 0.95
+    seed: int = 1995
+    settling: Settling | None = None
+
+    def __post_init__(self):
+        if not isinstance(self.machine, Machine):
+            raise TypeError(f"machine = {shown(self.machine)}: must be a Machine")
+        settle = object.__setattr__
+        why = "mass of the machine: a heavier loose mass is no damper"
+        mass = check_si("mass", self.mass, "mass", above=0, most=self.machine.mass, why=why)
+        settle(self, "mass", mass)
+        settle(self, "restitution", check_number("restitution", self.restitution, **RESTITUTION_RANGE))
+        stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", above=0)
+        settle(self, "contact_stiffness", stiffness)
+        settle(self, "settling", check_settling(self.settling))
+        settle(self, "band", self._checked_band())
+        settle(self, "tolerances", self._checked_tolerances())
+        check_number("share", self.share, least=0.5, most=0.999)
+        least = starts_needed(self.share)
+        why = f"a share of {self.share:g} at 95 % confidence needs so many, all quiet"
+        check_count("starts", self.starts, least=least, most=10**5, why=why)
+        check_count("frequencies", self.frequencies, least=3, most=10**4)
+        check_count("candidates", self.candidates, least=4, most=1000)
+        if self.displacement_limit is not None:
+            limit = check_si("displacement_limit", self.displacement_limit, "displacement", above=0)
+            settle(self, "displacement_limit", limit)
+
+    def _checked_band(self):
+        if np.ndim(self.band) != 1 or len(self.band) != 2:
+            raise ValueError(f"band = {shown(self.band)}: must be least and greatest frequency")
+        ends = tuple(
+            self.machine.check_frequency(f"band[{i}]", value) for i, value in enumerate(self.band)
+        )
+        low, high = self.resonance
+        if not ends[0] < ends[1] or ends[1] < low or ends[0] > high:
+            given = " to ".join(with_unit(end, "Hz") for end in ends)
+            where = f"{low:.4g} Hz" if high - low < 1e-3 * low else f"{low:.4g} to {high:.4g} Hz"
+            raise ValueError(
+                f"band = {given}: must ascend and reach into the resonance of the machine, at "
+                f"{where} (away from its resonance a machine needs no damper)"
+            )
+        return ends
+
+    def _checked_tolerances(self):
+        if not isinstance(self.tolerances, Mapping):
+            raise TypeError(f"tolerances = {shown(self.tolerances)}: must be a dictionary")
+        found = {}
+        for name, value in self.tolerances.items():
+            if name not in VARIED:
+                raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
+            found[name] = check_si(
+                f"tolerances[{name!r}]", value, "number", least=0, most=0.9,
+                why="relative deviation: at 1 the nominal value would become 0",
+            )
+        return found
+
+    @cached_property
+    def resonance(self) -> tuple[float, float]:
+        """Frequencies between which the free machine resonates, Hz.
+
+        From the natural frequency of small vibrations to the peak of the free response by harmonic
+        balance, which a cubic spring bends away. Without such a peak the natural frequency alone.
+        """
+        natural = self.machine.natural_frequency
+        oscillator = self.machine.oscillator(natural or None)
+        try:
+            peak = self.machine.scales.to_si(maximum_response(oscillator).frequency, "frequency")
+        except ValueError:
+            return natural, natural
+        return min(natural, peak), max(natural, peak)
+
+    @property
+    def grid(self) -> np.ndarray:
+        """Frequencies over the band, Hz."""
+        return np.linspace(*self.band, self.frequencies)
+
+    @property
+    def scales(self):
+        """Scales of the machine."""
+        return self.machine.scales
+
+    def rule_gap(self, frequency) -> float:
+        """Return the gap (m) by rule (18): the force F moves the loose mass alone by half of it.
+
+        With m2 W^2 d0 = F the impacts take place in phase with the force.
+        """
+        force = self.machine.oscillator(frequency).forcing_amplitude(
+            self.scales.from_si(frequency, "frequency")
+        )
+        return 2 * self.scales.to_si(force, "force") / (
+            self.mass * (2 * math.pi * frequency) ** 2
+        )
+
+    def damper(self, gap, factors=NOMINAL) -> MachineDamper:
+        """Return the damper with a gap (m), its values multiplied by factors in the order of VARIED.
+
+        A restitution above 1 becomes 1.
+        """
+        varied = dict(zip(VARIED, factors, strict=True))
+        return MachineDamper(
+            mass=self.mass,
+            gap=gap * varied["gap"],
+            restitution=min(1.0, self.restitution * varied["restitution"]),
+            contact_stiffness=self.contact_stiffness * varied["contact_stiffness"],
+        )
+
+    def system(self, gap, frequency, factors=NOMINAL) -> tuple:
+        """Return the oscillator, the damper and the frequency W, dimensionless.
+
+        The scales are those of the nominal machine, whatever the factors.
+        """
+        varied = dict(zip(VARIED, factors, strict=True))
+        oscillator = self.machine.oscillator(frequency)
+        oscillator = replace(
+            oscillator,
+            damping=oscillator.damping * varied["damping"],
+            linear_frequency=oscillator.linear_frequency * math.sqrt(varied["stiffness"]),
+            cubic=oscillator.cubic * varied["stiffness"],
+            force=oscillator.force * varied["force"],
+            unbalance=oscillator.unbalance * varied["force"],
+        )
+        damper = self.damper(gap, factors).scaled(self.scales)
+        return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
+
+    def packed(self, gap, frequency, factors=NOMINAL) -> np.ndarray:
+        """Return the packed parameters of `system`."""
+        return pack(*self.system(gap, frequency, factors))
+
+    def millimetres(self, displacement):
+        """Return dimensionless displacements in mm, as datasets show them."""
+        return 1e3 * self.scales.to_si(displacement, "displacement")
+
+    def describe(self) -> dict:
+        """Return the values of the task beside those of the machine, keyed by name, in SI units."""
+        kept = ("mass", "restitution", "contact_stiffness", "frequencies", "candidates", "starts")
+        found = {name: getattr(self, name) for name in (*kept, "share", "seed")}
+        return found | {
+            "band": list(self.band),
+            "tolerances": dict(self.tolerances),
+            "displacement_limit": self.displacement_limit,
+        }
