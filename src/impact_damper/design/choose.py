@@ -15,8 +15,12 @@ COARSE = 14, 9, 24
 # The candidates reach beyond the tolerated deviation from the best gap of the coarse comparison by
 # this share.
 BEYOND = 1.2
-# Gaps between which the worst displacement is interpolated.
+# Number of gaps at which the worst displacement is interpolated; displacement (mm) that stands for
+# a motion that escapes; difference of logarithms of displacements that are alike.
 DENSE = 2000
+HUGE = 1e6
+ALIKE = 1e-3
+# Digits of a nominal gap, which is to be built.
 DIGITS = 3
 
 
@@ -31,42 +35,95 @@ class Comparison(NamedTuple):
         Hz.
     numbers : dict of numpy.ndarray, shape (m, n) or (m, n, 2)
         As returned by `summarise`.
+    share : float
+        Share of starts that must end quiet.
     """
 
     gaps: np.ndarray
     frequencies: np.ndarray
     numbers: dict
+    share: float
 
     @property
     def worst(self) -> np.ndarray:
         """Largest displacement over the band at each gap, mm, shape (m,)."""
         return self.numbers["worst_displacement"].max(axis=1)
 
-    def best_gap(self, tolerance) -> float:
-        """Return the nominal gap (mm) whose worst displacement within the tolerance is least.
+    @property
+    def quiet(self) -> np.ndarray:
+        """Whether a gap is quiet at all frequencies, shape (m,).
 
-        The logarithm of the worst displacement is interpolated over that of the gap. The tolerated
-        deviations stay within the gaps compared.
+        The share of quiet starts is claimed for each frequency or, with too few starts for a claim,
+        all starts are quiet.
+        """
+        claimed = self.numbers["start_quiet_interval"][..., 0] >= self.share
+        return (claimed | (self.numbers["start_quiet_share"] == 1)).all(axis=1)
+
+    def choose(self, tolerance) -> "Choice":
+        """Return the nominal gap that is best when the gap deviates by up to a tolerance.
+
+        Parameters
+        ----------
+        tolerance : float
+            Relative deviation of the gap.
         """
         dense = np.geomspace(self.gaps[0], self.gaps[-1], DENSE)
-        worst = np.interp(
-            np.log(dense), np.log(self.gaps), np.log(np.minimum(self.worst, 1e300))
-        )
-        nominal = dense[
-            (dense * (1 - tolerance) >= dense[0]) & (dense * (1 + tolerance) <= dense[-1])
-        ]
+        logs, worst = np.log(self.gaps), np.log(np.minimum(self.worst, HUGE))
+        sizes = np.interp(np.log(dense), logs, worst)
+        # between two gaps it is quiet only if it is at both
+        quiet = np.interp(np.log(dense), logs, self.quiet.astype(float)) > 1 - 1e-9
+        inside = (dense * (1 - tolerance) >= dense[0]) & (dense * (1 + tolerance) <= dense[-1])
+        nominal = dense[inside]
         lows = np.searchsorted(dense, nominal * (1 - tolerance))
         highs = np.searchsorted(dense, nominal * (1 + tolerance), side="right")
-        scores = [
-            worst[low : max(high, low + 1)].max() for low, high in zip(lows, highs, strict=True)
-        ]
-        least = np.min(scores)
-        # of a range of gaps that are equally good its middle is farthest from both ends
-        good = nominal[np.asarray(scores) <= least + 1e-3]
-        return float(f"{np.sqrt(good[0] * good[-1]):.{DIGITS}g}")
+        windows = [slice(low, max(high, low + 1)) for low, high in zip(lows, highs, strict=True)]
+        scores = np.array([sizes[window].max() for window in windows])
+        robust = np.array([quiet[window].all() for window in windows])
+        if robust.any():
+            return Choice(_middle(nominal, np.where(robust, scores, np.inf)), "robust")
+        if self.quiet.any():
+            first, last = _longest_run(self.quiet)
+            gap = np.sqrt(self.gaps[first] * self.gaps[last])
+            return Choice(_rounded(gap), "needs_tolerance")
+        return Choice(_middle(nominal, scores), "least_worst")
 
 
-def compare(task, gaps, frequencies, limit, starts, seed, *, workers=1, progress=None, placed=False):
+class Choice(NamedTuple):
+    """A nominal gap.
+
+    Attributes
+    ----------
+    gap : float
+        mm.
+    kind : str
+        "robust" if all gaps within the tolerance are quiet; "needs_tolerance" if only some gaps
+        are, in a range narrower than the tolerance, of which the nominal gap is the middle;
+        "least_worst" if no gap is quiet, for the gap whose worst displacement is least.
+    """
+
+    gap: float
+    kind: str
+
+
+def _middle(nominal, scores):
+    """Return the middle of the gaps that are as good as the best, farthest from both ends."""
+    good = nominal[scores <= scores.min() + ALIKE]
+    return _rounded(np.sqrt(good[0] * good[-1]))
+
+
+def _rounded(gap):
+    return float(f"{gap:.{DIGITS}g}")
+
+
+def _longest_run(flags):
+    """Return the first and the last index of the longest run of true flags."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
+    begins, ends = edges[::2], edges[1::2]
+    k = int(np.argmax(ends - begins))
+    return begins[k], ends[k] - 1
+
+
+def compare(task, gaps, frequencies, limit, starts, seed, *, workers=1, progress=None):
     """Return the motions at all gaps (mm) and frequencies (Hz).
 
     Parameters
@@ -75,19 +132,20 @@ def compare(task, gaps, frequencies, limit, starts, seed, *, workers=1, progress
     gaps, frequencies : array
     limit : float
         Largest displacement of a quiet motion, mm.
-    starts, seed, workers, progress, placed
-        As in `outcomes.run`.
+    starts, seed, workers, progress
+        As in `outcomes.run`, with the settling `Task.hurried`.
 
     Returns
     -------
     Comparison
     """
     cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
-    found = run(task, cases, starts, seed, workers=workers, progress=progress, placed=placed)
+    running = {"settling": task.hurried, "workers": workers, "progress": progress}
+    found = run(task, cases, starts, seed, **running)
     numbers = summarise(task, found, limit)
     shape = len(gaps), len(frequencies)
     folded = {name: values.reshape(*shape, *values.shape[1:]) for name, values in numbers.items()}
-    return Comparison(np.asarray(gaps), np.asarray(frequencies), folded)
+    return Comparison(np.asarray(gaps), np.asarray(frequencies), folded, task.share)
 
 
 def coarse_comparison(task, screening, **running) -> Comparison:
@@ -109,7 +167,7 @@ def coarse_comparison(task, screening, **running) -> Comparison:
 def candidate_comparison(task, screening, coarse, **running) -> Comparison:
     """Compare the candidates around the best gap of a coarse comparison, from all starts."""
     tolerance = task.tolerances.get("gap", 0.0)
-    middle = coarse.best_gap(tolerance)
+    middle = coarse.choose(tolerance).gap
     least = max(middle * (1 - tolerance) / BEYOND, coarse.gaps[0])
     most = min(middle * (1 + tolerance) * BEYOND, coarse.gaps[-1])
     return compare(

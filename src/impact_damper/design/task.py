@@ -13,7 +13,7 @@ from impact_damper.machine.units import check_si, si_value, with_unit
 from impact_damper.system.bounds import RESTITUTION_RANGE, check_count, check_number, shown
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
-from impact_damper.theory.free_oscillator import maximum_response
+from impact_damper.theory.free_oscillator import free_folds, maximum_response
 
 # Quantities of a machine and its damper that may deviate from their nominal values.
 VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
@@ -21,9 +21,9 @@ NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Quantile of the normal distribution of a two-sided 95 % interval.
 QUANTILE = 1.959963984540054
-# Gaps that can be tried, divided by the gap at which the loose mass flies from wall to wall in half
-# a forcing period under the largest force.
-WIDEST = 50.0
+# Comparisons run motions for at least LEAST_PATIENCE forcing periods, and for PATIENT times the time
+# in which a free vibration decays by the factor e, if that is longer.
+PATIENT, LEAST_PATIENCE = 5, 100
 
 
 def starts_needed(share) -> int:
@@ -141,16 +141,29 @@ class Task:
     def resonance(self) -> tuple[float, float]:
         """Frequencies between which the free machine resonates, Hz.
 
-        From the natural frequency of small vibrations to the peak of the free response by harmonic
-        balance, which a cubic spring bends away. Without such a peak the natural frequency alone.
+        From the natural frequency of small vibrations to the peak and the folds of the free
+        response by harmonic balance, which a cubic spring bends away.
         """
         natural = self.machine.natural_frequency
         oscillator = self.machine.oscillator(natural or None)
+        found = [point.frequency for point in free_folds(oscillator)]
         try:
-            peak = self.machine.scales.to_si(maximum_response(oscillator).frequency, "frequency")
+            found.append(maximum_response(oscillator).frequency)
         except ValueError:
-            return natural, natural
-        return min(natural, peak), max(natural, peak)
+            pass  # no peak: damped too much, or over the barrier of a softening spring
+        ends = [*self.scales.to_si(np.array(found), "frequency"), natural]
+        return min(ends), max(ends)
+
+    @cached_property
+    def hurried(self) -> Settling:
+        """Settling for comparisons of many gaps: shorter runs, a few decay times of the machine.
+
+        A share after fewer periods is smaller, because slow motions are not yet quiet.
+        """
+        decay = self.machine.natural_frequency * 2 * self.machine.mass / self.machine.viscous_damping
+        patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, self.settling.patience))
+        limit = int(np.clip(6 * PATIENT * decay, 6 * LEAST_PATIENCE, self.settling.limit))
+        return replace(self.settling, patience=patience, limit=limit)
 
     @property
     def grid(self) -> np.ndarray:
@@ -161,6 +174,10 @@ class Task:
     def scales(self):
         """Scales of the machine."""
         return self.machine.scales
+
+    def lasting(self, periods) -> Settling:
+        """Return the settling with which a motion is run for `periods` unless it settles."""
+        return replace(self.settling, patience=periods, limit=periods)
 
     def rule_gap(self, frequency) -> float:
         """Return the gap (m) by rule (18): the force F moves the loose mass alone by half of it.

@@ -38,6 +38,10 @@ SMALLEST = 0.01
 # larger, by the speed that crosses the gap in half a forcing period.
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
+# With a softening spring, largest random start divided by displacement and speed at the barrier: the
+# energy of a start is then at most three quarters of that at the barrier, which others would go
+# over by themselves.
+WITHIN = 0.7
 NO_STARTS = np.empty((0, 4))
 # Ramps: relative change of a parameter in one step; forcing periods per step; ratio of the first
 # frequency to the lowest fold (its inverse for the highest fold); ratio of the first force to the
@@ -191,7 +195,7 @@ def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple
     length = free.displacement or (1.0 if damper is None else damper.clearance)
     most = np.array([length, free.speed or max(length * frequency, crossing)]) * SPREAD
     if oscillator.cubic < 0:
-        most = np.minimum(most, _barrier(oscillator))
+        most = np.minimum(most, WITHIN * np.array(_barrier(oscillator)))
     size = 2 if damper is None else 3
     direction = generator.standard_normal((count, size))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)

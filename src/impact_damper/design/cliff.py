@@ -1,0 +1,171 @@
+"""The basin cliff: the gaps at which starts cease to end quiet, and those at which the orbit ends.
+
+With a contact that loses energy the quiet orbit is smallest close to the gap at which it loses its
+stability, where hardly any start reaches it. At a smaller gap all starts do. Between the two the
+share of quiet starts falls within a few per cent of the gap: the cliff. Beside the quiet orbit the
+motion is chaotic there, for a time only (a transient) or for good (an attractor).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.data.datasets import flag
+from impact_damper.data.shares import escape_rate
+from impact_damper.design.outcomes import Case, interval, run, summarise
+from impact_damper.orbits.branches import Branch, follow_branch
+from impact_damper.orbits.quiet_orbits import is_symmetric_pair
+from impact_damper.orbits.shooting import STROBE, find_orbit
+from impact_damper.system.families import family_of
+
+# Bisections of each edge, and number of frequencies, those of least share, at which it is sought.
+BISECTIONS, CRITICAL = 4, 2
+# Lives of chaotic motions: gaps, divided by that of the cliff; starts at each; longest run and time
+# before which a motion may still be on its way, in forcing periods.
+LIFE_GAPS = (0.99, 1.02, 1.06, 1.12, 1.2)
+LIFE_STARTS, LONGEST, LEAD = 32, 3000, 200
+# Least and greatest gap and force of branches of quiet orbits, divided by the nominal values.
+GAP_SPAN, FORCE_SPAN = (0.4, 2.0), (0.1, 10.0)
+
+
+class Edge(NamedTuple):
+    """An end of the range of quiet gaps.
+
+    Attributes
+    ----------
+    gap : float
+        mm; the last gap known to be quiet. NaN without such a range.
+    beyond : float
+        mm; the first gap known not to be quiet, NaN where the comparison ends before.
+    status : int
+        Flag of `cliff_status`.
+    frequency : float
+        Hz; that of the least share of quiet starts at `beyond`, NaN if this is NaN.
+    """
+
+    gap: float
+    beyond: float
+    status: int
+    frequency: float
+
+
+NO_EDGE = Edge(np.nan, np.nan, flag("cliff_status", "no_quiet_gap"), np.nan)
+
+
+def find_edges(task, comparison, gap, limit, *, workers=1) -> tuple[Edge, Edge]:
+    """Return the lower and the upper end of the range of quiet gaps around a gap.
+
+    The comparison brackets each end between two gaps. They are bisected with all starts at the
+    frequencies of least share.
+
+    Parameters
+    ----------
+    task : Task
+    comparison : choose.Comparison
+    gap : float
+        Nominal gap, mm.
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    workers : int
+    """
+    quiet = comparison.quiet
+    inner = np.flatnonzero(quiet)
+    if len(inner) == 0:
+        return NO_EDGE, NO_EDGE
+    k = inner[np.argmin(np.abs(np.log(comparison.gaps[inner] / gap)))]
+    found = []
+    for step in (-1, 1):
+        last = k
+        while 0 <= last + step < len(quiet) and quiet[last + step]:
+            last += step
+        if not 0 <= last + step < len(quiet):
+            edge = float(comparison.gaps[last])
+            found.append(Edge(edge, np.nan, flag("cliff_status", "range_ends"), np.nan))
+        else:
+            found.append(_bisect(task, comparison, last, last + step, limit, workers))
+    return tuple(found)
+
+
+def _bisect(task, comparison, last, beyond, limit, workers):
+    """Return the edge between two neighbouring gaps of a comparison, the first of them quiet."""
+    shares = comparison.numbers["start_quiet_share"][beyond]
+    critical = comparison.frequencies[np.argsort(shares)[:CRITICAL]]
+    inside, outside = comparison.gaps[last], comparison.gaps[beyond]
+    for turn in range(BISECTIONS):
+        middle = float(np.sqrt(inside * outside))
+        cases = [Case(1e-3 * middle, f) for f in critical]
+        found = run(task, cases, task.starts, task.seed + 10 + turn, workers=workers)
+        lower = summarise(task, found, limit)["start_quiet_interval"][:, 0]
+        if (lower >= task.share).all():
+            inside = middle
+        else:
+            outside = middle
+    return Edge(
+        float(inside), float(outside), flag("cliff_status", "found"), float(critical[0])
+    )
+
+
+class Lives(NamedTuple):
+    """How long motions last that are not quiet, over the gap.
+
+    Attributes
+    ----------
+    gaps : numpy.ndarray, shape (k,)
+        mm.
+    share : numpy.ndarray, shape (k, 3)
+        Share of starts that end quiet within LONGEST periods, with its interval.
+    rate : numpy.ndarray, shape (k, 3)
+        Rate at which motions become quiet after LEAD periods, per forcing period, with its
+        interval. A rate whose interval begins at 0 is that of an attractor, or of a transient
+        whose mean life exceeds the inverse of the upper end.
+    """
+
+    gaps: np.ndarray
+    share: np.ndarray
+    rate: np.ndarray
+
+
+def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
+    """Return how long motions that are not quiet last, at gaps across an edge."""
+    gaps = edge.gap * np.array(LIFE_GAPS)
+    cases = [Case(1e-3 * gap, edge.frequency) for gap in gaps]
+    # a transient is certainly chaotic too, so that only the end of the run may stop it
+    settling = task.lasting(LONGEST)
+    running = {"settling": settling, "workers": workers, "progress": progress}
+    records = run(task, cases, LIFE_STARTS, task.seed + 20, **running).random
+    quiet = task.millimetres(records["maximum_displacement"]) <= limit
+    lives = np.where(quiet, records["periods_run"], LONGEST + 1)
+    counts = quiet.sum(axis=1)
+    share = np.column_stack([counts / LIFE_STARTS, interval(counts, LIFE_STARTS)])
+    return Lives(gaps, share, np.array([escape_rate(row, LONGEST, LEAD) for row in lives]))
+
+
+def quiet_branch(task, gap, frequency, parameter, *, workers=1) -> Branch | None:
+    """Return the branch of the quiet orbit over a parameter, or None if no start reaches one.
+
+    Parameters
+    ----------
+    task : Task
+    gap : float
+        Nominal gap, mm.
+    frequency : float
+        Hz.
+    parameter : str
+        "clearance", followed in its logarithm, "force" or "unbalance".
+    workers : int
+    """
+    case = Case(1e-3 * gap, frequency)
+    records = run(task, [case], task.starts, task.seed + 30, workers=workers).random[0]
+    pairs = records[is_symmetric_pair(records)]
+    if len(pairs) == 0:
+        return None
+    oscillator, damper, turning = task.system(*case)
+    nominal = {"clearance": damper.clearance, "force": oscillator.force}.get(
+        parameter, oscillator.unbalance
+    )
+    ends = GAP_SPAN if parameter == "clearance" else FORCE_SPAN
+    span = tuple(nominal * end for end in ends)
+    family, value, span = family_of(oscillator, damper, turning, parameter, span)
+    state = pairs["state"][np.argmin(pairs["maximum_displacement"])]
+    orbit = find_orbit(family(value), state, 1, STROBE)
+    return follow_branch(family, orbit, value, span) if orbit.converged else None

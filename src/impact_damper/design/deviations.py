@@ -1,0 +1,179 @@
+"""A design at values other than the nominal ones: samples of all tolerances, corners, maps."""
+
+import itertools
+from typing import NamedTuple
+
+import numpy as np
+from scipy.stats import qmc
+
+from impact_damper.design.outcomes import Case, interval, run, summarise
+from impact_damper.design.task import NOMINAL, VARIED
+from impact_damper.system.bounds import RESTITUTION_RANGE
+
+# Samples of the tolerances, a power of 2 for Sobol's sequence; most frequencies and the starts at
+# which each is run.
+SAMPLES, SAMPLE_FREQUENCIES, SAMPLE_STARTS = 16, 7, 24
+# Starts that the design has not seen: in all, at the nominal values and at each corner.
+UNSEEN, CORNERS = 1000, 20
+# Maps of the operating range: cells along each axis, starts in a cell; ratios of the force and of
+# the gap to the nominal values; least restitution.
+CELLS, CELL_STARTS = 11, 12
+FORCES, GAPS, LEAST_RESTITUTION = (0.25, 4.0), (0.5, 1.6), 0.3
+
+
+class Cloud(NamedTuple):
+    """Motions of a design at several sets of deviations.
+
+    Attributes
+    ----------
+    factors : numpy.ndarray, shape (m, len(VARIED))
+        Values divided by the nominal ones, in the order of VARIED.
+    worst : numpy.ndarray, shape (m,)
+        Largest displacement of all motions over the band, mm.
+    share : numpy.ndarray, shape (m, 3)
+        Share of all starts over the band that end quiet, with its 95 % interval.
+    least : numpy.ndarray, shape (m,)
+        Least share at one of the frequencies.
+    """
+
+    factors: np.ndarray
+    worst: np.ndarray
+    share: np.ndarray
+    least: np.ndarray
+
+
+class Map(NamedTuple):
+    """Motions over two parameters.
+
+    Attributes
+    ----------
+    first, second : numpy.ndarray, shapes (m,), (n,)
+    share, worst : numpy.ndarray, shape (m, n)
+        Share of starts that end quiet, and largest displacement of all motions, mm.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    share: np.ndarray
+    worst: np.ndarray
+
+
+def sampled_factors(task) -> np.ndarray:
+    """Return deviations spread evenly over the tolerances by Sobol's sequence, the nominal first."""
+    names = [name for name in VARIED if task.tolerances.get(name)]
+    factors = np.ones((SAMPLES, len(VARIED)))
+    if not names:
+        return factors[:1]
+    points = qmc.Sobol(len(names), rng=task.seed).random(SAMPLES)
+    for column, name in enumerate(names):
+        factors[1:, VARIED.index(name)] += task.tolerances[name] * (2 * points[1:, column] - 1)
+    return factors
+
+
+def corner_factors(task) -> np.ndarray:
+    """Return corners of the tolerances, at most CORNERS drawn at random, the nominal values first."""
+    widths = [task.tolerances.get(name, 0.0) for name in VARIED]
+    signs = [(-1, 1) if width else (0,) for width in widths]
+    corners = np.array(list(itertools.product(*signs)), float)
+    if len(corners) > CORNERS:
+        generator = np.random.default_rng(task.seed)
+        corners = corners[np.sort(generator.permutation(len(corners))[:CORNERS])]
+    corners = corners[np.any(corners != 0, axis=1)]
+    return np.vstack([NOMINAL, 1 + corners * widths])
+
+
+def run_cloud(task, gap, factors, frequencies, starts, limit, seed, **running) -> Cloud:
+    """Return the motions at each set of deviations, over frequencies.
+
+    Parameters
+    ----------
+    task : Task
+    gap : float
+        Nominal gap, mm.
+    factors : array, shape (m, len(VARIED))
+    frequencies : array, shape (n,)
+        Hz.
+    starts : int
+        Random starts at each frequency.
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    seed : int
+    running
+        `settling`, `workers` and `progress` of `outcomes.run`.
+    """
+    cases = [Case(1e-3 * gap, f, tuple(row)) for row in factors for f in frequencies]
+    found = run(task, cases, starts, seed, **running)
+    numbers = summarise(task, found, limit)
+    shape = len(factors), len(frequencies)
+    shares = numbers["start_quiet_share"].reshape(shape)
+    counts = np.rint(shares.sum(axis=1) * starts).astype(int)
+    total = len(frequencies) * starts
+    return Cloud(
+        factors,
+        numbers["worst_displacement"].reshape(shape).max(axis=1),
+        np.column_stack([counts / total, interval(counts, total)]),
+        shares.min(axis=1),
+    )
+
+
+def sample_tolerances(task, gap, limit, **running) -> Cloud:
+    """Return the motions at samples of all tolerances."""
+    few = spread(task.grid, SAMPLE_FREQUENCIES)
+    factors = sampled_factors(task)
+    running = {"settling": task.hurried} | running
+    return run_cloud(task, gap, factors, few, SAMPLE_STARTS, limit, task.seed + 40, **running)
+
+
+def check_unseen(task, gap, limit, **running) -> Cloud:
+    """Return the motions of UNSEEN new starts at the nominal values and at each corner."""
+    starts = -(-UNSEEN // task.frequencies)
+    factors = corner_factors(task)
+    return run_cloud(task, gap, factors, task.grid, starts, limit, task.seed + 50, **running)
+
+
+def map_forces(task, gap, limit, **running) -> Map:
+    """Return the motions over frequency (Hz) and force, as a multiple of the nominal one.
+
+    The largest displacement of a quiet motion grows in proportion to the force.
+    """
+    frequencies, shares = spread(task.grid, CELLS), np.geomspace(*FORCES, CELLS)
+    place = VARIED.index("force")
+    cells = [
+        (Case(1e-3 * gap, f, _with(place, share)), limit * share)
+        for f in frequencies
+        for share in shares
+    ]
+    return _map(task, frequencies, shares, cells, task.seed + 60, running)
+
+
+def map_dampers(task, gap, frequency, limit, **running) -> Map:
+    """Return the motions at a frequency over gap (mm) and restitution."""
+    gaps = gap * np.geomspace(*GAPS, CELLS)
+    restitutions = np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], CELLS)
+    place = VARIED.index("restitution")
+    cells = [
+        (Case(1e-3 * each, frequency, _with(place, e / task.restitution)), limit)
+        for each in gaps
+        for e in restitutions
+    ]
+    return _map(task, gaps, restitutions, cells, task.seed + 70, running)
+
+
+def spread(values, count) -> np.ndarray:
+    """Return at most `count` of some values, evenly spread, the first and the last among them."""
+    return values[np.unique(np.linspace(0, len(values) - 1, count).round().astype(int))]
+
+
+def _with(place, factor):
+    """Return nominal factors but for one."""
+    return tuple(factor if k == place else 1.0 for k in range(len(VARIED)))
+
+
+def _map(task, first, second, cells, seed, running):
+    cases, limits = zip(*cells, strict=True)
+    running = {"settling": task.hurried} | running
+    records = run(task, cases, CELL_STARTS, seed, **running).random
+    sizes = task.millimetres(records["maximum_displacement"])
+    quiet = (sizes <= np.array(limits)[:, None]).mean(axis=1)
+    shape = len(first), len(second)
+    return Map(first, second, quiet.reshape(shape), sizes.max(axis=1).reshape(shape))
