@@ -10,6 +10,7 @@ from impact_damper.data.variables import (
     contact,
     costs,
     design_rules,
+    designs,
     harmonic_balance,
     harmonics,
     integrators,
@@ -42,6 +43,7 @@ MODULES = (
     absorbers,
     costs,
     transients,
+    designs,
 )
 VARIABLES: dict[str, Variable] = {}
 for module in MODULES:

@@ -1,0 +1,221 @@
+"""Design of a damper: screening, comparison of gaps, cliff, deviations, masses, motions."""
+
+from impact_damper.data.variables.variable import Variable
+
+CELL = ("candidate", "frequency")
+BOUND = "bound"
+# Why a quiet orbit ceases to be stable.
+ENDS = {
+    "no_orbit": -1,
+    "fold": 0,
+    "symmetry_breaking": 1,
+    "neimark_sacker": 2,
+    "branch_ends": 3,
+    "range_ends": 4,
+}
+VARIABLES = {
+    # screening
+    "worst_frequency": Variable(
+        (), "frequency at which the machine without damper moves most", quantity="frequency"
+    ),
+    "balance_displacement": Variable(
+        ("frequency",),
+        "largest displacement without damper by harmonic balance",
+        quantity="displacement",
+    ),
+    "displacement_limit": Variable(
+        (), "largest displacement of a quiet motion", quantity="displacement"
+    ),
+    "flight_gap": Variable(
+        (), "gap by the flight rule at worst_frequency", quantity="displacement"
+    ),
+    "manifold_gap": Variable(
+        (), "gap by the slow invariant manifold at resonance", quantity="displacement"
+    ),
+    "screened_gap": Variable(("screened",), "gap of a quiet orbit", quantity="displacement"),
+    "screened_displacement": Variable(
+        ("screened", "frequency"), "largest displacement of the quiet orbit", quantity="displacement"
+    ),
+    "screened_modulus": Variable(
+        ("screened", "frequency"), "largest multiplier of half a period of the quiet orbit"
+    ),
+    "best_orbit_gap": Variable(
+        (), "gap of the smallest stable quiet orbit at worst_frequency", quantity="displacement"
+    ),
+    "best_orbit_displacement": Variable(
+        (), "largest displacement of this orbit", quantity="displacement"
+    ),
+    "best_orbit_status": Variable(
+        (),
+        "how this orbit was found",
+        flags={"absent": 0, "smooth": 1, "stability_ends": 2, "range_ends": 3},
+    ),
+    "screen_motions": Variable((), "motions that the screening ran"),
+    "screen_orbits": Variable((), "exact orbits that the screening computed"),
+    # comparison of gaps
+    "coarse_gap": Variable(("coarse",), "gap of the coarse comparison", quantity="displacement"),
+    "coarse_displacement": Variable(
+        ("coarse",), "largest displacement over the band", quantity="displacement"
+    ),
+    "coarse_share": Variable(("coarse",), "least share of quiet starts over the band"),
+    "candidate_gap": Variable(("candidate",), "gap of a candidate", quantity="displacement"),
+    "start_quiet_share": Variable(CELL, "share of random starts that end quiet"),
+    "start_quiet_interval": Variable((*CELL, "side"), "95 % interval of this share"),
+    "worst_displacement": Variable(
+        CELL, "largest displacement of all motions that starts reach", quantity="displacement"
+    ),
+    "median_displacement": Variable(
+        CELL, "median displacement of the motions that starts reach", quantity="displacement"
+    ),
+    "quiet_time_median": Variable(
+        CELL, "median of the forcing periods in which quiet motions settle"
+    ),
+    "quiet_time_late": Variable(
+        CELL, "forcing periods in which 95 % of the quiet motions settle"
+    ),
+    "chaotic_share": Variable(CELL, "share of starts that lead to chaos"),
+    "uncertain_share": Variable(
+        CELL, "share of starts whose motion had neither settled nor was certainly chaotic"
+    ),
+    "design_gap": Variable((), "gap chosen, the full play", quantity="displacement"),
+    "design_choice": Variable(
+        (),
+        "why this gap was chosen",
+        flags={"robust": 0, "needs_tolerance": 1, "least_worst": 2},
+    ),
+    "compared_motions": Variable((), "motions that the comparison of gaps ran"),
+    # cliff
+    "side": Variable(("side",), "lower or upper end"),
+    "cliff_gap": Variable(("side",), "last quiet gap", quantity="displacement"),
+    "cliff_beyond": Variable(("side",), "first gap that is not quiet", quantity="displacement"),
+    "cliff_status": Variable(
+        ("side",),
+        "how the end of the quiet gaps was found",
+        flags={"found": 0, "range_ends": 1, "no_quiet_gap": 2},
+    ),
+    "cliff_frequency": Variable(
+        ("side",), "frequency at which quiet gaps end first", quantity="frequency"
+    ),
+    "life_gap": Variable(("life",), "gap at which lives were observed", quantity="displacement"),
+    "life_share": Variable(("life", BOUND), "share of starts that end quiet in the longest run"),
+    "life_rate": Variable(
+        ("life", BOUND), "rate at which other motions become quiet, per forcing period"
+    ),
+    "branch_frequency": Variable(
+        (), "frequency at which the quiet orbit is followed", quantity="frequency"
+    ),
+    "gap_of_orbit": Variable(("gap_point",), "gap of an orbit", quantity="displacement"),
+    "displacement_by_gap": Variable(
+        ("gap_point",), "largest displacement of this orbit", quantity="displacement"
+    ),
+    "modulus_by_gap": Variable(("gap_point",), "largest multiplier of this orbit"),
+    "force_of_orbit": Variable(("force_point",), "multiple of the nominal force of an orbit"),
+    "displacement_by_force": Variable(
+        ("force_point",), "largest displacement of this orbit", quantity="displacement"
+    ),
+    "modulus_by_force": Variable(("force_point",), "largest multiplier of this orbit"),
+    "stability_gap": Variable(
+        ("side",), "gap at which the quiet orbit ceases to be stable", quantity="displacement"
+    ),
+    "stability_force": Variable(
+        ("side",), "multiple of the nominal force at which the quiet orbit ceases to be stable"
+    ),
+    "stability_gap_event": Variable(
+        ("side",), "why it ceases to be stable there", flags=ENDS
+    ),
+    "stability_force_event": Variable(
+        ("side",), "why it ceases to be stable there", flags=ENDS
+    ),
+    # deviations
+    "varied": Variable(("varied",), "quantity that deviates"),
+    "sample_factor": Variable(("sample", "varied"), "value divided by the nominal one"),
+    "sample_displacement": Variable(
+        ("sample",), "largest displacement over the band", quantity="displacement"
+    ),
+    "sample_share": Variable(("sample", BOUND), "share of starts over the band that end quiet"),
+    "sample_least_share": Variable(("sample",), "least share at one frequency"),
+    "corner_factor": Variable(("corner", "varied"), "value divided by the nominal one"),
+    "corner_displacement": Variable(
+        ("corner",), "largest displacement over the band", quantity="displacement"
+    ),
+    "corner_share": Variable(("corner", BOUND), "share of unseen starts that end quiet"),
+    "corner_least_share": Variable(("corner",), "least share at one frequency"),
+    "promised_displacement": Variable(
+        (), "largest displacement promised within the tolerances", quantity="displacement"
+    ),
+    "promise": Variable(
+        (),
+        "what is promised, and whether unseen starts kept to it",
+        flags={"none_made": 0, "nominal_kept": 1, "robust_kept": 2, "broken": 3},
+    ),
+    "map_gap": Variable(("map_gap",), "gap of a cell of the map", quantity="displacement"),
+    "map_restitution": Variable(("map_restitution",), "restitution of a cell of the map"),
+    "operating_frequency": Variable(
+        ("operating_frequency",), "frequency of a cell of the map", quantity="frequency"
+    ),
+    "damper_map_share": Variable(
+        ("map_gap", "map_restitution"), "share of starts that end quiet"
+    ),
+    "damper_map_displacement": Variable(
+        ("map_gap", "map_restitution"), "largest displacement", quantity="displacement"
+    ),
+    "force_map_share": Variable(
+        ("operating_frequency", "force_share"), "share of starts that end quiet"
+    ),
+    "force_map_displacement": Variable(
+        ("operating_frequency", "force_share"), "largest displacement", quantity="displacement"
+    ),
+    # masses
+    "other_mass": Variable(("other",), "loose mass", quantity="mass"),
+    "other_gap": Variable(("other",), "gap chosen for it", quantity="displacement"),
+    "other_displacement": Variable(
+        ("other",), "largest displacement within the tolerance of the gap", quantity="displacement"
+    ),
+    "other_share": Variable(("other",), "least share of quiet starts"),
+    "other_force": Variable(("other",), "largest contact force over the band", quantity="force"),
+    "other_best": Variable(
+        ("other",), "whether no other mass betters all three", flags={"no": 0, "yes": 1}
+    ),
+    # motions of the design
+    "motion_rms": Variable(
+        ("frequency",), "largest r.m.s. displacement of a motion reached", quantity="displacement"
+    ),
+    "motion_peak_mean": Variable(
+        ("frequency",), "mean of its peaks of each forcing period", quantity="displacement"
+    ),
+    "motion_peak_high": Variable(
+        ("frequency",), "95th percentile of these peaks", quantity="displacement"
+    ),
+    "reached_displacement": Variable(
+        ("frequency",), "largest displacement of a motion reached", quantity="displacement"
+    ),
+    "reached_quiet_share": Variable(("frequency",), "share of random starts that end quiet"),
+    "reached_quiet_interval": Variable(("frequency", "side"), "95 % interval of this share"),
+    "impact_rate_by_frequency": Variable(("frequency",), "impacts per time", quantity="rate"),
+    "contact_force_by_frequency": Variable(
+        ("frequency",), "largest force in a contact", quantity="force"
+    ),
+    "penetration_by_frequency": Variable(
+        ("frequency",), "largest penetration of a wall", quantity="displacement"
+    ),
+    "impact_speed_by_frequency": Variable(
+        ("frequency",), "largest relative speed of an impact", quantity="velocity"
+    ),
+    "impact_loss_by_frequency": Variable(
+        ("frequency",), "mean energy lost in an impact", quantity="energy"
+    ),
+    "impact_power_by_frequency": Variable(
+        ("frequency",), "mean power lost in contacts", quantity="power"
+    ),
+    "pressure_by_frequency": Variable(
+        ("frequency",), "largest pressure after Hertz", quantity="pressure"
+    ),
+    "yields_by_frequency": Variable(
+        ("frequency",),
+        "whether the contact yields at this pressure",
+        flags={"no": 0, "yes": 1, "unknown": 2},
+    ),
+    "noise_by_frequency": Variable(
+        ("frequency",), "sum of the squares of impulses per time", quantity="impulse_noise"
+    ),
+}
