@@ -37,12 +37,15 @@ class Comparison(NamedTuple):
         As returned by `summarise`.
     share : float
         Share of starts that must end quiet.
+    starts : int
+        Random starts at each gap and frequency.
     """
 
     gaps: np.ndarray
     frequencies: np.ndarray
     numbers: dict
     share: float
+    starts: int
 
     @property
     def worst(self) -> np.ndarray:
@@ -145,7 +148,7 @@ def compare(task, gaps, frequencies, limit, starts, seed, *, workers=1, progress
     numbers = summarise(task, found, limit)
     shape = len(gaps), len(frequencies)
     folded = {name: values.reshape(*shape, *values.shape[1:]) for name, values in numbers.items()}
-    return Comparison(np.asarray(gaps), np.asarray(frequencies), folded, task.share)
+    return Comparison(np.asarray(gaps), np.asarray(frequencies), folded, task.share, starts)
 
 
 def coarse_comparison(task, screening, **running) -> Comparison:

@@ -140,7 +140,24 @@ def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
     return Lives(gaps, share, np.array([escape_rate(row, LONGEST, LEAD) for row in lives]))
 
 
-def quiet_branch(task, gap, frequency, parameter, *, workers=1) -> Branch | None:
+class QuietBranch(NamedTuple):
+    """A branch of quiet orbits over one parameter.
+
+    Attributes
+    ----------
+    branch : Branch
+    start : int
+        Index of the point at the nominal value.
+    nominal : float
+        Nominal value of the parameter, dimensionless.
+    """
+
+    branch: Branch
+    start: int
+    nominal: float
+
+
+def quiet_branch(task, gap, frequency, parameter, *, workers=1) -> QuietBranch | None:
     """Return the branch of the quiet orbit over a parameter, or None if no start reaches one.
 
     Parameters
@@ -160,12 +177,14 @@ def quiet_branch(task, gap, frequency, parameter, *, workers=1) -> Branch | None
     if len(pairs) == 0:
         return None
     oscillator, damper, turning = task.system(*case)
-    nominal = {"clearance": damper.clearance, "force": oscillator.force}.get(
-        parameter, oscillator.unbalance
-    )
+    owner = damper if parameter == "clearance" else oscillator
+    nominal = getattr(owner, parameter)
     ends = GAP_SPAN if parameter == "clearance" else FORCE_SPAN
     span = tuple(nominal * end for end in ends)
     family, value, span = family_of(oscillator, damper, turning, parameter, span)
     state = pairs["state"][np.argmin(pairs["maximum_displacement"])]
     orbit = find_orbit(family(value), state, 1, STROBE)
-    return follow_branch(family, orbit, value, span) if orbit.converged else None
+    if not orbit.converged:
+        return None
+    branch = follow_branch(family, orbit, value, span)
+    return QuietBranch(branch, int(np.argmin(np.abs(branch.values - value))), nominal)

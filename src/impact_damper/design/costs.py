@@ -16,14 +16,13 @@ a machine. (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag, variable
-from impact_damper.data.variables import VARIABLES
+from impact_damper.data.datasets import dataset, flag
 from impact_damper.design.panels import integrals, largest, logged, sampled
 from impact_damper.kernel.single import side_of
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.hertz import HertzContact
 from impact_damper.machine.machine import check_fit
-from impact_damper.machine.units import QUANTITIES
+from impact_damper.machine.results import shown_variable
 from impact_damper.motions.simulate import check_state
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.bounds import check_count, check_number, shown
@@ -84,14 +83,7 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
         raise TypeError(f"contact = {shown(contact)}: must be a HertzContact")
     found = _costs(machine, damper, frequency, state, periods, start=start)
     pressed = pressure_costs(machine, damper, contact, float(found["impact_speed"]))
-    return found.assign({name: _in_si_unit(name, value) for name, value in pressed.items()})
-
-
-def _in_si_unit(name, value):
-    """Return a variable that is given in the unit in which datasets show it."""
-    made = variable(name, value)
-    made.attrs["units"] = QUANTITIES[VARIABLES[name].quantity].label
-    return made
+    return found.assign({name: shown_variable(name, value) for name, value in pressed.items()})
 
 
 def pressure_costs(machine, damper, contact, speed) -> dict:

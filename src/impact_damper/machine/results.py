@@ -8,7 +8,7 @@ import json
 
 import numpy as np
 
-from impact_damper.data.datasets import parameters_of
+from impact_damper.data.datasets import parameters_of, variable
 from impact_damper.data.optimum_words import optimum_in_words
 from impact_damper.data.variables import VARIABLES
 from impact_damper.machine.machine import describe_si
@@ -29,6 +29,22 @@ FOLLOWED = {
     "restitution": ("restitution", "number"),
     "contact_stiffness": ("contact_stiffness", "stiffness"),
 }
+
+
+def shown_variable(name, values, dims=None):
+    """Return a registered variable whose values are in the unit in which datasets show them.
+
+    Parameters
+    ----------
+    name : str
+    values : array_like
+        In mm for displacements, else in the SI unit of the quantity of the variable.
+    dims : sequence of str, optional
+        In place of the registered dimensions.
+    """
+    found = variable(name, values, dims)
+    found.attrs["units"] = QUANTITIES[VARIABLES[name].quantity].label
+    return found
 
 
 def in_si(data, machine, damper=None):

@@ -1,0 +1,45 @@
+"""Steps of a design that are kept in files, so that an interrupted design goes on where it was."""
+
+import json
+from pathlib import Path
+
+from impact_damper.data.datasets import load, save
+from impact_damper.data.whole_files import BrokenFileError
+
+
+class KeptSteps:
+    """Datasets of steps, each kept in a file of a folder.
+
+    Parameters
+    ----------
+    folder : str or pathlib.Path, optional
+        Without a folder nothing is kept.
+    made : dict
+        What determines the results. A file made from anything else is made anew.
+    """
+
+    def __init__(self, folder, made):
+        self.folder = None if folder is None else Path(folder)
+        self.made = json.dumps(made, sort_keys=True)
+
+    def step(self, name, compute):
+        """Return the dataset of a step: read if it is kept, otherwise computed and kept.
+
+        Parameters
+        ----------
+        name : str
+        compute : callable
+            Returns the dataset.
+        """
+        if self.folder is None:
+            return compute()
+        path = self.folder / f"{name}.nc"
+        try:
+            kept = load(path)
+            if kept.attrs.get("made") == self.made:
+                return kept
+        except (FileNotFoundError, BrokenFileError):
+            pass  # computed below
+        self.folder.mkdir(parents=True, exist_ok=True)
+        save(compute().assign_attrs(made=self.made, source="impact-damper"), path)
+        return load(path)

@@ -1,0 +1,177 @@
+"""Datasets of the steps of a design, in mm, Hz, N and multiples of nominal values."""
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.data.datasets import SOURCE, flag
+from impact_damper.data.shares import BOUNDS
+from impact_damper.design.choose import Comparison
+from impact_damper.design.task import VARIED
+from impact_damper.machine.results import shown_variable
+
+SIDES = ["lower", "upper"]
+
+
+def labelled(values, **coordinates) -> xr.Dataset:
+    """Return a dataset of registered variables in the units in which they are shown."""
+    made = {name: shown_variable(name, value) for name, value in values.items()}
+    known = {name: shown_variable(name, value) for name, value in coordinates.items()}
+    return xr.Dataset(made, known, {"source": SOURCE})
+
+
+def screening_dataset(screening) -> xr.Dataset:
+    """Return a `screen.Screening` as a dataset."""
+    best = screening.best
+    known = best is not None
+    column = screening.stable[:, screening.worst]
+    values = {
+        "worst_frequency": screening.frequencies[screening.worst],
+        "balance_displacement": screening.bare,
+        "displacement_limit": screening.limit,
+        "flight_gap": screening.rule_gap,
+        "manifold_gap": screening.manifold_gap,
+        "screened_displacement": screening.displacement,
+        "screened_modulus": screening.modulus,
+        "best_orbit_gap": screening.gaps[best] if known else np.nan,
+        "best_orbit_displacement": column[best] if known else np.nan,
+        "best_orbit_status": flag("best_orbit_status", _best_status(column, best)),
+        "screen_motions": screening.motions,
+        "screen_orbits": screening.orbits,
+    }
+    return labelled(values, frequency=screening.frequencies, screened_gap=screening.gaps)
+
+
+def _best_status(column, best):
+    """Return how the smallest stable orbit of a column of displacements lies in it."""
+    if best is None:
+        return "absent"
+    if best in (0, len(column) - 1):
+        return "range_ends"
+    return "smooth" if np.isfinite(column[best - 1 : best + 2]).all() else "stability_ends"
+
+
+def comparison_dataset(coarse, candidates) -> xr.Dataset:
+    """Return both comparisons of gaps as a dataset."""
+    total = sum(
+        each.numbers["start_quiet_share"].size * count
+        for each, count in ((coarse, coarse.starts), (candidates, candidates.starts))
+    )
+    values = {
+        "coarse_displacement": coarse.worst,
+        "coarse_share": coarse.numbers["start_quiet_share"].min(axis=1),
+        "compared_motions": total,
+        **candidates.numbers,
+    }
+    return labelled(
+        values,
+        coarse_gap=coarse.gaps,
+        candidate_gap=candidates.gaps,
+        frequency=candidates.frequencies,
+        side=SIDES,
+    )
+
+
+def comparison_of(data, task) -> Comparison:
+    """Return the comparison of the candidates in a dataset of `comparison_dataset`."""
+    names = [
+        name
+        for name, values in data.data_vars.items()
+        if values.dims[:2] == ("candidate", "frequency")
+    ]
+    return Comparison(
+        data["candidate_gap"].values,
+        data["frequency"].values,
+        {name: data[name].values for name in names},
+        task.share,
+        task.starts,
+    )
+
+
+def edges_dataset(edges, lives) -> xr.Dataset:
+    """Return the ends of the quiet gaps, and lives of motions across the upper or lower one."""
+    values = {
+        "cliff_gap": [edge.gap for edge in edges],
+        "cliff_beyond": [edge.beyond for edge in edges],
+        "cliff_status": [edge.status for edge in edges],
+        "cliff_frequency": [edge.frequency for edge in edges],
+    }
+    gaps = np.empty(0)
+    if lives is not None:
+        gaps = lives.gaps
+        values |= {"life_share": lives.share, "life_rate": lives.rate}
+    return labelled(values, side=SIDES, life_gap=gaps, bound=BOUNDS)
+
+
+def branch_dataset(task, found, parameter) -> xr.Dataset:
+    """Return a branch of quiet orbits, and where their stability ends.
+
+    Parameters
+    ----------
+    task : Task
+    found : cliff.QuietBranch or None
+    parameter : str
+        "gap", over which the branch holds its logarithm, or "force".
+    """
+    place, event = f"{parameter}_of_orbit", f"stability_{parameter}_event"
+    if found is None:
+        values = dict.fromkeys(
+            (place, f"displacement_by_{parameter}", f"modulus_by_{parameter}"), np.empty(0)
+        )
+        values[f"stability_{parameter}"] = np.full(2, np.nan)
+        return labelled(values | {event: [flag(event, "no_orbit")] * 2}, side=SIDES)
+
+    def shown(values):
+        if parameter == "force":
+            return values / found.nominal
+        return 2e3 * task.scales.to_si(np.exp(values), "clearance")
+
+    sizes = np.array([abs(point.orbit.multipliers[0]) for point in found.branch.points])
+    ends = sorted(_stability_end(found, step) for step in (-1, 1))
+    values = {
+        place: shown(found.branch.values),
+        f"displacement_by_{parameter}": task.millimetres(found.branch.displacements),
+        f"modulus_by_{parameter}": sizes,
+        f"stability_{parameter}": shown(np.array([value for value, _ in ends])),
+        event: [flag(event, name) for _, name in ends],
+    }
+    return labelled(values, side=SIDES)
+
+
+def _stability_end(found, step):
+    """Return coordinate and name of the first change of stability along a branch from its start."""
+    branch, k = found.branch, found.start
+    events = {place: event.kind for place, event in branch.events}
+    while 0 <= k + step < len(branch.points):
+        k += step
+        if events.get(k) in ("fold", "symmetry_breaking", "neimark_sacker"):
+            return branch.values[k], events[k]
+    end = branch.ends[0 if step < 0 else 1]
+    return branch.values[k], "range_ends" if end == "range_ends" else "branch_ends"
+
+
+def cloud_dataset(cloud, prefix) -> xr.Dataset:
+    """Return a `deviations.Cloud` as a dataset; `prefix` is "sample" or "corner"."""
+    values = {
+        f"{prefix}_factor": cloud.factors,
+        f"{prefix}_displacement": cloud.worst,
+        f"{prefix}_share": cloud.share,
+        f"{prefix}_least_share": cloud.least,
+    }
+    return labelled(values, varied=list(VARIED), bound=BOUNDS)
+
+
+def maps_dataset(forces, dampers) -> xr.Dataset:
+    """Return the maps over frequency and force, and over gap and restitution, as a dataset."""
+    values = {
+        "force_map_share": forces.share,
+        "force_map_displacement": forces.worst,
+        "damper_map_share": dampers.share,
+        "damper_map_displacement": dampers.worst,
+    }
+    return labelled(
+        values,
+        operating_frequency=forces.first,
+        force_share=forces.second,
+        map_gap=dampers.first,
+        map_restitution=dampers.second,
+    )
