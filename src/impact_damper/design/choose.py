@@ -11,10 +11,10 @@ import numpy as np
 from impact_damper.design.outcomes import Case, run, summarise
 
 # Coarse comparison: number of gaps, of frequencies and of starts.
-COARSE = 14, 9, 24
+COARSE_GAPS, COARSE_FREQUENCIES, COARSE_STARTS = 14, 9, 24
 # The candidates reach beyond the tolerated deviation from the best gap of the coarse comparison by
 # this share.
-BEYOND = 1.2
+BEYOND = 1.15
 # Number of gaps at which the worst displacement is interpolated; displacement (mm) that stands for
 # a motion that escapes; difference of logarithms of displacements that are alike.
 DENSE = 2000
@@ -126,6 +126,11 @@ def _longest_run(flags):
     return begins[k], ends[k] - 1
 
 
+def spread(values, count) -> np.ndarray:
+    """Return at most `count` of some values, evenly spread, the first and the last among them."""
+    return values[np.unique(np.linspace(0, len(values) - 1, count).round().astype(int))]
+
+
 def compare(task, gaps, frequencies, limit, starts, seed, *, workers=1, progress=None):
     """Return the motions at all gaps (mm) and frequencies (Hz).
 
@@ -151,34 +156,51 @@ def compare(task, gaps, frequencies, limit, starts, seed, *, workers=1, progress
     return Comparison(np.asarray(gaps), np.asarray(frequencies), folded, task.share, starts)
 
 
-def coarse_comparison(task, screening, **running) -> Comparison:
-    """Compare gaps over the whole range of the screening, with few starts."""
-    gaps, frequencies, starts = COARSE
-    columns = np.linspace(0, len(screening.frequencies) - 1, frequencies).round().astype(int)
-    kept = sorted({*columns.tolist(), screening.worst})
-    return compare(
-        task,
-        np.geomspace(screening.gaps[0], screening.gaps[-1], gaps),
-        screening.frequencies[kept],
-        screening.limit,
-        starts,
-        task.seed + 1,
-        **running,
-    )
+def coarse_comparison(task, span, frequency, limit, *, starts=COARSE_STARTS, **running):
+    """Return a comparison of gaps over a whole range, with few starts.
+
+    Parameters
+    ----------
+    task : Task
+    span : tuple of float
+        Least and greatest gap, mm.
+    frequency : float
+        A frequency that is not left out, Hz.
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    starts : int
+        Random starts at each gap and frequency.
+    running
+        `workers` and `progress` of `outcomes.run`.
+
+    Returns
+    -------
+    Comparison
+    """
+    kept = np.union1d(spread(task.grid, COARSE_FREQUENCIES), frequency)
+    gaps = np.geomspace(*span, COARSE_GAPS)
+    return compare(task, gaps, kept, limit, starts, task.seed + 1, **running)
 
 
-def candidate_comparison(task, screening, coarse, **running) -> Comparison:
-    """Compare the candidates around the best gap of a coarse comparison, from all starts."""
+def candidate_comparison(task, coarse, limit, **running) -> Comparison:
+    """Return a comparison of the candidates from all starts.
+
+    They lie around the best gap of a coarse comparison. If none of them is quiet, but some starts
+    are at all frequencies, a quiet range may lie between them: they are then compared once more,
+    around the one of the largest share.
+    """
     tolerance = task.tolerances.get("gap", 0.0)
     middle = coarse.choose(tolerance).gap
-    least = max(middle * (1 - tolerance) / BEYOND, coarse.gaps[0])
-    most = min(middle * (1 + tolerance) * BEYOND, coarse.gaps[-1])
-    return compare(
-        task,
-        np.geomspace(least, most, task.candidates),
-        screening.frequencies,
-        screening.limit,
-        task.starts,
-        task.seed + 2,
-        **running,
+    reach = BEYOND / (1 - tolerance)
+    # an odd number of gaps, so that the middle is one of them
+    shares = np.geomspace(1 / reach, reach, task.candidates | 1)
+    found = compare(
+        task, middle * shares, task.grid, limit, task.starts, task.seed + 2, **running
     )
+    least = found.numbers["start_quiet_share"].min(axis=1)
+    if found.quiet.any() or least.max() == 0:
+        return found
+    k = int(np.argmax(least))
+    near = found.gaps[max(k - 1, 0)], found.gaps[min(k + 1, len(found.gaps) - 1)]
+    gaps = np.geomspace(*near, task.candidates)
+    return compare(task, gaps, task.grid, limit, task.starts, task.seed + 3, **running)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import qmc
 
+from impact_damper.design.choose import spread
 from impact_damper.design.outcomes import Case, interval, run, summarise
 from impact_damper.design.task import NOMINAL, VARIED
 from impact_damper.system.bounds import RESTITUTION_RANGE
@@ -15,10 +16,10 @@ from impact_damper.system.bounds import RESTITUTION_RANGE
 SAMPLES, SAMPLE_FREQUENCIES, SAMPLE_STARTS = 16, 7, 24
 # Starts that the design has not seen: in all, at the nominal values and at each corner.
 UNSEEN, CORNERS = 1000, 20
-# Maps of the operating range: cells along each axis, starts in a cell; ratios of the force and of
-# the gap to the nominal values; least restitution.
+# Maps of the operating range: cells along each axis, starts in a cell; ratio of the gap to the
+# nominal one; least restitution.
 CELLS, CELL_STARTS = 11, 12
-FORCES, GAPS, LEAST_RESTITUTION = (0.25, 4.0), (0.5, 1.6), 0.3
+GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
 
 
 class Cloud(NamedTuple):
@@ -131,12 +132,12 @@ def check_unseen(task, gap, limit, **running) -> Cloud:
     return run_cloud(task, gap, factors, task.grid, starts, limit, task.seed + 50, **running)
 
 
-def map_forces(task, gap, limit, **running) -> Map:
-    """Return the motions over frequency (Hz) and force, as a multiple of the nominal one.
+def map_forces(task, gap, limit, shares, **running) -> Map:
+    """Return the motions over frequency (Hz) and `shares`, multiples of the nominal force.
 
     The largest displacement of a quiet motion grows in proportion to the force.
     """
-    frequencies, shares = spread(task.grid, CELLS), np.geomspace(*FORCES, CELLS)
+    frequencies, shares = spread(task.grid, CELLS), np.asarray(shares)
     place = VARIED.index("force")
     cells = [
         (Case(1e-3 * gap, f, _with(place, share)), limit * share)
@@ -157,11 +158,6 @@ def map_dampers(task, gap, frequency, limit, **running) -> Map:
         for e in restitutions
     ]
     return _map(task, gaps, restitutions, cells, task.seed + 70, running)
-
-
-def spread(values, count) -> np.ndarray:
-    """Return at most `count` of some values, evenly spread, the first and the last among them."""
-    return values[np.unique(np.linspace(0, len(values) - 1, count).round().astype(int))]
 
 
 def _with(place, factor):

@@ -6,6 +6,7 @@ import xarray as xr
 from impact_damper.data.datasets import SOURCE, flag
 from impact_damper.data.shares import BOUNDS
 from impact_damper.design.choose import Comparison
+from impact_damper.design.masses import is_best
 from impact_damper.design.task import VARIED
 from impact_damper.machine.results import shown_variable
 
@@ -175,3 +176,24 @@ def maps_dataset(forces, dampers) -> xr.Dataset:
         map_gap=dampers.first,
         map_restitution=dampers.second,
     )
+
+
+def choice_dataset(choice) -> xr.Dataset:
+    """Return a `choose.Choice` as a dataset."""
+    kind = flag("design_choice", choice.kind)
+    return labelled({"design_gap": choice.gap, "design_choice": kind})
+
+
+def masses_dataset(found) -> xr.Dataset:
+    """Return a list of `masses.Alternative` as a dataset, by rising mass."""
+    found = sorted(found, key=lambda each: each.task.mass)
+    masses = np.array([each.task.mass for each in found])
+    costs = np.array([(each.worst, each.force) for each in found])
+    values = {
+        "other_gap": [each.gap for each in found],
+        "other_displacement": costs[:, 0],
+        "other_share": [each.share for each in found],
+        "other_force": costs[:, 1],
+        "other_best": is_best(masses, costs),
+    }
+    return labelled(values, other_mass=masses)

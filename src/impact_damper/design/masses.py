@@ -5,13 +5,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.design.choose import coarse_comparison, compare
-from impact_damper.design.deviations import spread
+from impact_damper.design.choose import coarse_comparison, compare, spread
+from impact_damper.design.costs import measured_costs
+from impact_damper.design.outcomes import Case, run
 from impact_damper.design.screen import screen
+from impact_damper.motions.strobe_map import strobe_time
 
-# Masses divided by the nominal mass; frequencies and starts of their reduced design.
+# Masses divided by the nominal mass; frequencies of their reduced design, and starts
+# of its two comparisons.
 MASSES = (0.5, 0.7, 1.4, 2.0)
-FREQUENCIES, STARTS = 5, 32
+FREQUENCIES, COARSE_STARTS, STARTS = 5, 10, 24
+# Forcing periods over which the force of a motion that is not periodic is measured.
+WATCHED = 100
 
 
 class Alternative(NamedTuple):
@@ -27,12 +32,15 @@ class Alternative(NamedTuple):
         Largest displacement over the band, the starts and the tolerated deviation of the gap, mm.
     share : float
         Least share of starts that end quiet at one of the frequencies and gaps.
+    force : float
+        Largest contact force of the largest motions at the nominal gap, N; NaN after an escape.
     """
 
     task: object
     gap: float
     worst: float
     share: float
+    force: float
 
 
 def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
@@ -47,7 +55,10 @@ def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
         )
         running = {"workers": workers, "progress": progress}
         screening = screen(other, **running)
-        gap = coarse_comparison(other, screening, **running).choose(_tolerance(task)).gap
+        span = screening.gaps[0], screening.gaps[-1]
+        frequency = screening.frequencies[screening.worst]
+        coarse = coarse_comparison(other, span, frequency, limit, starts=COARSE_STARTS, **running)
+        gap = coarse.choose(_tolerance(task)).gap
         found.append(judge(other, gap, limit, **running))
     return found
 
@@ -67,7 +78,23 @@ def judge(task, gap, limit, **running) -> Alternative:
     few = spread(task.grid, FREQUENCIES)
     found = compare(task, np.unique(gaps), few, limit, STARTS, task.seed + 80, **running)
     least = found.numbers["start_quiet_share"].min()
-    return Alternative(task, gap, float(found.worst.max()), float(least))
+    cases = [Case(1e-3 * gap, f) for f in few]
+    records = run(task, cases, STARTS, task.seed + 81, settling=task.hurried, **running).random
+    forces = [
+        _largest_force(task, case, row[np.argmax(row["maximum_displacement"])])
+        for case, row in zip(cases, records, strict=True)
+    ]
+    return Alternative(task, gap, float(found.worst.max()), float(least), max(forces))
+
+
+def _largest_force(task, case, record):
+    """Return the largest contact force of a motion, N."""
+    if not np.isfinite(record["maximum_displacement"]):
+        return np.nan
+    p = task.packed(*case)
+    periods = int(record["period"]) or WATCHED
+    costs = measured_costs(p, record["state"].copy(), strobe_time(p), periods)
+    return float(task.scales.to_si(costs["contact_force"], "force"))
 
 
 def is_best(masses, costs) -> np.ndarray:

@@ -3,13 +3,13 @@
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import flag, is_settled
+from impact_damper.data.datasets import flag
 from impact_damper.design.costs import measured_costs, pressure_costs
 from impact_damper.design.labelled import SIDES, labelled
 from impact_damper.design.outcomes import Case, interval
-from impact_damper.design.outcomes import run as run_starts
+from impact_damper.machine.results import from_si
 from impact_damper.machine.units import QUANTITIES
-from impact_damper.motions import records as motion_records
+from impact_damper.motions import records
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.packed import FREQUENCY
 
@@ -27,40 +27,46 @@ COSTS = {
 }
 
 
-def reached_motions(task, gap, limit, contact, **running) -> xr.Dataset:
+def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     """Return, for each frequency of the band, the largest motion that starts reach, and its costs.
-
-    Random starts and placed starts are run, with the full settling of the task.
 
     Parameters
     ----------
     task : Task
-    gap, limit : float
-        Gap of the design, and largest displacement of a quiet motion, mm.
+    gap : float
+        Gap of the design, mm.
+    response : xarray.Dataset
+        Of `frequency_response` with this gap at the frequencies of the task, in SI units.
+    limit : float
+        Largest displacement of a quiet motion, mm.
     contact : HertzContact or None
-    running
-        `workers` and `progress` of `outcomes.run`.
     """
-    cases = [Case(1e-3 * gap, f) for f in task.grid]
-    found = run_starts(task, cases, task.starts, task.seed + 90, placed=True, **running)
-    sizes = task.millimetres(found.random["maximum_displacement"])
-    counts = (sizes <= limit).sum(axis=1)
+    sizes = response["maximum_displacement"].values
+    counts = np.where(sizes <= limit, response["share"].values, 0).sum(axis=1)
+    total = response.sizes["start"]
+    placed = response["origin"].values == flag("origin", "placed_start")
+    reached = (response["share"].values > 0) | placed
+    columns = np.argmax(np.where(reached, sizes, -np.inf), axis=1)
+    states = from_si(response, task.machine)["state"].values
     rows = []
-    for case, random, placed in zip(cases, found.random, found.placed, strict=True):
-        every = np.concatenate([random, placed])
-        worst = every[np.argmax(every["maximum_displacement"])]
-        rows.append(_measured(task, case, worst, contact))
+    for k, (column, frequency) in enumerate(zip(columns, task.grid, strict=True)):
+        settled = response["outcome"].values[k, column] == flag("outcome", "settled")
+        periods = int(response["period"].values[k, column]) if settled else WATCHED
+        case = Case(1e-3 * gap, frequency)
+        rows.append(_measured(task, case, sizes[k, column], states[k, column], periods, contact))
     values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     values |= {
-        "reached_quiet_share": counts / task.starts,
-        "reached_quiet_interval": interval(counts, task.starts),
+        "reached_quiet_share": counts / total,
+        "reached_quiet_interval": interval(counts, total),
     }
     return labelled(values, frequency=task.grid, side=SIDES)
 
 
-def _measured(task, case, record, contact):
-    """Return the measurements of one motion, keyed by registered name."""
-    size = task.millimetres(record["maximum_displacement"])
+def _measured(task, case, size, state, periods, contact):
+    """Return the measurements of one motion, keyed by registered name.
+
+    `size` is its largest displacement (mm) as far as known, `state` that at the strobe.
+    """
     if not np.isfinite(size):
         unknown = ("motion_rms", "motion_peak_mean", "motion_peak_high", "pressure_by_frequency")
         return dict.fromkeys((*unknown, *COSTS), np.nan) | {
@@ -68,17 +74,16 @@ def _measured(task, case, record, contact):
             "yields_by_frequency": flag("yields_by_frequency", "unknown"),
         }
     p = task.packed(*case)
-    periods = int(record["period"]) if is_settled(record) else WATCHED
     begin = strobe_time(p)
     count = periods * SAMPLES
     times = begin + 2 * np.pi / p[FREQUENCY] * np.arange(count + 1) / SAMPLES
     states = np.empty((count + 1, 4))
     tolerance = task.settling.tolerance
-    y = record["state"].copy()
-    motion_records.trace(p, y, begin, times, tolerance, states, np.empty((0, 5)))
+    y = state.copy()
+    records.trace(p, y, begin, times, tolerance, states, np.empty((0, 5)))
     course = task.millimetres(states[:-1, 0])
     peaks = np.abs(course).reshape(periods, SAMPLES).max(axis=1)
-    costs = measured_costs(p, record["state"].copy(), begin, periods)
+    costs = measured_costs(p, state.copy(), begin, periods)
     shown = {
         name: task.scales.to_si(costs[cost], quantity) * QUANTITIES[quantity].share
         for name, (cost, quantity) in COSTS.items()

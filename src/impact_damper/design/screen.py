@@ -22,7 +22,7 @@ LEAST, MOST, GAPS = 0.3, 1.7, 40
 # Gap of the flight rule divided by that of rule (18), near e = 1 (`theory.straight_flight`).
 FLIGHT = 1.14
 # Random starts, gaps and frequencies from which quiet orbits are first reached.
-SEEDED = 24
+SEEDED = 16
 SEED_GAPS = (0.5, 0.7, 0.9, 1.05)
 SEED_FREQUENCIES = 5
 

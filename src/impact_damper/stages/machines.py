@@ -1,220 +1,284 @@
-"""A machine with its damper in SI units: responses, orbits, the best gap, and Hertz's contact.
+"""Design of an impact damper for a machine: the gap, what it does, how sure that is, what it costs.
 
-The gap is the full play of the loose mass, twice the clearance d0.
+The steps follow each other from cheap to costly: a first look by exact orbits (`design.screen`), a
+comparison of gaps from many starts over the band (`design.choose`), the cliff beside the chosen gap
+(`design.cliff`), then motions, deviations, other masses, transients and tuned absorbers.
 """
 
 import json
-from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import dataset, flag, is_settled, variable
-from impact_damper.data.variables import VARIABLES
+from impact_damper.absorbers.responses import SHARES, absorber_responses
+from impact_damper.data.datasets import SOURCE, flag
+from impact_damper.design import choose, cliff, deviations, labelled
+from impact_damper.design.contact_stiffness import first_stiffness
+from impact_damper.design.kept_steps import KeptSteps
+from impact_damper.design.masses import alternatives, judge
+from impact_damper.design.motions import reached_motions
+from impact_damper.design.promises import promise_dataset
+from impact_damper.design.ring_down import ring_down
+from impact_damper.design.screen import screen
+from impact_damper.design.swept_sine import swept_sine
+from impact_damper.design.task import TOLERANCES, Task
+from impact_damper.design.words import conclusion
 from impact_damper.machine.arguments import takes_machine
-from impact_damper.machine.dampers import MachineDamper
-from impact_damper.machine.machine import Machine, describe_si
-from impact_damper.machine.units import QUANTITIES
-from impact_damper.motions.simulate import COMPONENTS, simulate
-from impact_damper.motions.steady import steady_motion
+from impact_damper.machine.hertz import HertzContact
+from impact_damper.machine.machine import describe_si
+from impact_damper.machine.results import shown_variable
 from impact_damper.stages.branches import complete_branches
-from impact_damper.stages.optimum import clearance_sweep
 from impact_damper.stages.response import frequency_response
-from impact_damper.system.bounds import shown
 
-_complete_branches, _sweep, _response, _simulate, _steady_motion = map(
-    takes_machine,
-    (complete_branches, clearance_sweep, frequency_response, simulate, steady_motion),
-)
-# Search for a stiffness after Hertz: largest number of motions computed, and relative change of the
-# stiffness below which the search has converged.
-MOST_MOTIONS = 30
-AGREED = 1e-6
-# Variables that `machine_study` keeps from `clearance_sweep`, as functions of the gap.
-SWEPT = (
-    "quiet_displacement",
-    "quiet_status",
-    "largest_displacement",
-    "optimum_clearance",
-    "optimum_displacement",
-    "optimum_kind",
-    "near_clearance",
-    "near_status",
-    "rule_clearance",
-)
+_complete_branches, _response = map(takes_machine, (complete_branches, frequency_response))
+# A sweep changes the frequency at SWEEP (damping ratio x natural frequency)^2 Hz/s, or so fast that
+# it lasts MOST_SWEPT forcing periods.
+SWEEP, MOST_SWEPT = 4.0, 6000
+# Absorbers are tuned for the largest displacement over all frequencies: from a share of the least
+# to a multiple of the greatest of band and resonance.
+ABSORBED = 0.5, 2.0
+# New names in the response without the damper, and in transients.
 BARE = {
     "followed_value": "bare_frequency",
     "orbit_displacement": "bare_displacement",
     "orbit_stability": "bare_stability",
     "orbit_branch": "bare_branch",
 }
+TRANSIENT = ("time", "frequency", "envelope", "window_contacts", "transient_status", "window")
 
 
-def machine_study(
+def design_damper(
     machine,
-    damper,
-    frequencies,
-    frequency,
-    gaps,
     *,
-    starts=48,
+    mass,
+    band,
+    restitution,
+    contact_stiffness=None,
+    contact=None,
+    frequencies=41,
+    candidates=12,
+    starts=96,
+    tolerances=None,
+    displacement_limit=None,
+    share=0.95,
     seed=1995,
     settling=None,
     workers=1,
     progress=None,
+    folder=None,
 ):
-    """Return motions of a machine with a damper, by frequency and, at one frequency, by gap.
+    """Design an impact damper for a machine and a band of forcing frequencies.
 
     Parameters
     ----------
     machine : Machine
-    damper : MachineDamper
-    frequencies : sequence of float
-        Increasing forcing frequencies, Hz.
-    frequency : float
-        Forcing frequency at which the gap is varied, Hz.
-    gaps : sequence of float
-        Increasing gaps, the full play, m.
-    starts, seed, settling, workers, progress
-        As in `response.frequency_response`, at each frequency and at each gap. The search is as
-        wide as the machine (`start_states`).
+    mass, band, restitution, contact_stiffness, frequencies, candidates, starts
+        As of `design.task.Task`, in SI units.
+    contact : HertzContact, optional
+        In place of the contact stiffness, which is then that of an impact at the speed that crosses
+        the gap of the flight rule in half a forcing period; with a contact stiffness, only for the
+        pressure in the contact.
+    tolerances : dict, optional
+        Largest relative deviations of gap, restitution, contact_stiffness, stiffness, damping and
+        force; by default 20 % of the gap.
+    displacement_limit, share, seed, settling
+        As of `design.task.Task`.
+    workers : int
+        Threads; the result does not depend on it.
+    progress : bool, optional
+        Whether progress bars are shown.
+    folder : str or pathlib.Path, optional
+        Where finished steps are kept; an interrupted design goes on from there.
 
     Returns
     -------
     xarray.Dataset
-        In SI units. The motions found with the damper and the branches of orbits on which they lie
-        (`frequency_response`, `complete_branches`); for each `bare_point` an orbit without the
-        damper; for each `clearance` the quiet and the largest motion, and the share of starts that
-        lead to the quiet one; the gap at which the quiet motion is smallest (`clearance_sweep`).
-        The attribute `optimum` gives this gap in words.
+        In mm, Hz, N and other units that each variable names (`data.variables.designs`). The
+        attribute `conclusion`, a list as JSON, says in words what to build and how sure it is.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is out of range; the message names it, in SI units.
     """
-    searched = {"starts": starts, "seed": seed, "settling": settling, "workers": workers}
-    span = float(frequencies[0]), float(frequencies[-1])
-    motions = _response(machine, damper, frequencies, **searched, progress=progress)
-    # `branch` is a variable of the motions
-    orbits = _complete_branches(machine, damper, span, [motions]).rename_dims(branch="curve")
-    alone = _response(machine, None, frequencies, **searched)
-    alone = _complete_branches(machine, None, span, [alone])
-    bare = xr.Dataset({new: _labelled(new, alone[old].values) for old, new in BARE.items()})
-    clearances = np.asarray(gaps, float) / 2
-    sweep = _sweep(machine, damper, frequency, clearances, **searched, progress=progress)
-    parts = [motions, orbits, bare, sweep[list(SWEPT)], _over_gap(sweep, frequency)]
-    merged = xr.merge(parts, compat="override", join="outer", combine_attrs="override")
-    return merged.assign_attrs(title="A machine with its damper", optimum=sweep.attrs["optimum"])
-
-
-def _labelled(name, values):
-    """Return a variable, its attribute `units` being the unit in which datasets show it."""
-    found = variable(name, values)
-    found.attrs["units"] = QUANTITIES[VARIABLES[name].quantity].label
-    return found
-
-
-def _over_gap(sweep, frequency):
-    """Return gaps (full play), the frequency, and shares of starts that reach the quiet motion."""
-    quiet = sweep["maximum_displacement"] == sweep["quiet_displacement"]
-    counts = sweep["share"].where(quiet & is_settled(sweep), 0).max("motion")
-    found = {
-        "swept_frequency": frequency,
-        "gap": 2 * sweep["clearance"].values,
-        "optimum_gap": 2 * sweep["optimum_clearance"].values,
-        "quiet_share": counts.values / sweep.sizes["start"],
-    }
-    return xr.Dataset({name: _labelled(name, values) for name, values in found.items()})
-
-
-def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
-    """Find the linear contact stiffness that replaces Hertz's contact in a steady motion.
-
-    The linear spring has the same largest compression as Hertz's contact. Its stiffness grows with
-    the speed of impact, and this speed depends on the stiffness: stiffness and motion are computed
-    in turn until they agree. The first speed is that at which the loose mass crosses the gap in
-    half a forcing period; each motion starts from the state of the one before.
-
-    Parameters
-    ----------
-    machine : Machine
-    damper : MachineDamper
-        With a `contact`.
-    frequency : float
-        Forcing frequency, Hz.
-    state : sequence of 4 floats
-        State at time 0 from which the first motion settles, m and m/s.
-    settling : Settling, optional
-
-    Returns
-    -------
-    xarray.Dataset
-        `hertz_stiffness` (N/m), for `dataclasses.replace(damper, contact=None,
-        contact_stiffness=...)`; speed, compression, force and duration of the fastest impact of the
-        motion; its largest displacement; `hertz_status` says how the search ended. Numbers that
-        are not known are NaN.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is not of its kind or out of range; the message names it.
-    """
-    if not isinstance(machine, Machine):
-        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
-    if not isinstance(damper, MachineDamper) or damper.contact is None:
-        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper with a contact")
-    frequency = machine.check_frequency("frequency", frequency)
-    mass = machine.mass * damper.mass / (machine.mass + damper.mass)
-    impact = damper.contact.impact(2 * damper.gap * frequency, mass)
-    stiffness, status, count = impact.stiffness, "not_consistent", 0
-    speed = size = np.nan
-    while status == "not_consistent" and count < MOST_MOTIONS:
-        count += 1
-        linear = replace(damper, contact=None, contact_stiffness=stiffness)
-        steady = _steady_motion(machine, linear, frequency, state, settling=settling)
-        if not is_settled(steady):
-            rests = float(steady["contacts"]) == 0
-            status = "no_contact" if rests else "not_settled"
-            break
-        speed, state = _fastest_impact(machine, linear, frequency, steady)
-        size = float(steady["maximum_displacement"])
-        if speed == 0:
-            status = "no_contact"
-            break
-        impact = damper.contact.impact(speed, mass)
-        if abs(impact.stiffness / stiffness - 1) < AGREED:
-            status = "consistent"
-        stiffness = impact.stiffness
-    known = np.isfinite(speed) and speed > 0
-    data = {
-        "hertz_status": flag("hertz_status", status),
-        "hertz_iterations": count,
-        "hertz_stiffness": stiffness if known else np.nan,
-        "hertz_displacement": size,
-        "impact_speed": speed,
-        "impact_compression": 1e3 * impact.compression if known else np.nan,
-        "impact_force": impact.force if known else np.nan,
-        "impact_duration": impact.duration if known else np.nan,
-    }
-    found = dataset({}, {}, {"frequency": frequency}, "Contact after Hertz")
-    found = found.assign({name: _labelled(name, value) for name, value in data.items()})
-    return found.assign_attrs(machine=json.dumps(describe_si(machine, damper), sort_keys=True))
-
-
-def _fastest_impact(machine, damper, frequency, steady):
-    """Return the largest speed of impact of a steady motion, m/s, and its state at time 0.
-
-    The state in `steady` is that at a quarter of a forcing period.
-    """
-    run = _simulate(
-        machine,
-        damper,
-        frequency,
-        steady["state"].values,
-        periods=int(steady["period"]) + 0.75,
-        start=0.25 / frequency,
+    asked = {"machine": machine, "mass": mass, "band": band}
+    task = Task(
+        **asked,
+        restitution=restitution,
+        contact_stiffness=_stiffness(contact_stiffness, contact, asked),
+        frequencies=frequencies,
+        candidates=candidates,
+        starts=starts,
+        tolerances=TOLERANCES if tolerances is None else tolerances,
+        displacement_limit=displacement_limit,
+        share=share,
+        seed=seed,
+        settling=settling,
     )
-    speed = float(np.max(np.abs(run["approach_velocity"].values), initial=0.0))
-    last = [run[name].values[-1] for name in COMPONENTS]
-    return speed, [value * share for value, share in zip(last, (1e-3, 1, 1e-3, 1), strict=True)]
+    made = task.describe() | {"machine": describe_si(machine), "contact": repr(contact)}
+    design = _Design(task, contact, KeptSteps(folder, made), workers, progress)
+    choice, parts = design.run()
+    data = xr.merge(parts, compat="override", join="outer", combine_attrs="drop")
+    damper = describe_si(machine, task.damper(1e-3 * choice.gap))
+    return data.assign_attrs(
+        Conventions="CF-1.11",
+        title="Design of an impact damper for a machine",
+        source=SOURCE,
+        machine=json.dumps(damper, sort_keys=True),
+        parameters=json.dumps(made, sort_keys=True),
+        conclusion=json.dumps(conclusion(task, choice.kind, data)),
+    )
+
+
+def _stiffness(stiffness, contact, asked):
+    """Return the contact stiffness given, or that of a contact after Hertz at a first speed."""
+    if contact is not None and not isinstance(contact, HertzContact):
+        raise TypeError(f"contact = {contact!r}: must be a HertzContact")
+    if stiffness is not None or contact is None:
+        return stiffness
+    # restitution and stiffness have no effect on the gap of the flight rule
+    first = Task(**asked, restitution=1.0, contact_stiffness=1.0)
+    middle = sum(first.band) / 2
+    gap = first.rule_gap(middle)
+    return first_stiffness(first.machine, contact, first.mass, gap, middle)
+
+
+class _Design(NamedTuple):
+    """The steps of a design, each of which returns a dataset."""
+
+    task: Task
+    contact: HertzContact | None
+    kept: KeptSteps
+    workers: int
+    progress: bool | None
+
+    def run(self):
+        """Return the choice of the gap and the datasets of all steps."""
+        task, step = self.task, self.kept.step
+        first = step("screening", self.screening)
+        limit = float(first["displacement_limit"])
+        compared = step("comparison", lambda: self.comparison(first, limit))
+        comparison = labelled.comparison_of(compared, task)
+        choice = comparison.choose(task.tolerances.get("gap", 0.0))
+        gap = choice.gap
+        edges = step("cliff", lambda: self.cliff(comparison, gap, limit))
+        frequency = _critical(edges, first)
+        response = step("response", lambda: self.response(gap))
+        cloud = step("tolerances", lambda: self.deviations(gap, limit))
+        parts = [
+            first,
+            compared,
+            labelled.choice_dataset(choice),
+            edges,
+            step("orbits", lambda: self.orbits(gap, frequency)),
+            response,
+            step(
+                "motions", lambda: reached_motions(task, gap, response, limit, self.contact)
+            ),
+            cloud,
+            promise_dataset(task, choice.kind, limit, cloud),
+            step("maps", lambda: self.maps(gap, frequency, limit)),
+            step("masses", lambda: self.masses(gap, limit)),
+            step("transients", lambda: self.transients(gap)),
+            step("competitors", self.competitors),
+        ]
+        return choice, parts
+
+    def running(self, title) -> dict:
+        """Return the arguments `workers` and `progress` of a step."""
+        return {"workers": self.workers, "progress": title if self.progress else None}
+
+    def screening(self):
+        return labelled.screening_dataset(screen(self.task, **self.running("First look")))
+
+    def comparison(self, first, limit):
+        span = first["screened_gap"].values[[0, -1]]
+        frequency = float(first["worst_frequency"])
+        running = self.running("Gaps, coarsely")
+        coarse = choose.coarse_comparison(self.task, span, frequency, limit, **running)
+        running = self.running("Candidates")
+        candidates = choose.candidate_comparison(self.task, coarse, limit, **running)
+        return labelled.comparison_dataset(coarse, candidates)
+
+    def cliff(self, comparison, gap, limit):
+        edges = cliff.find_edges(self.task, comparison, gap, limit, workers=self.workers)
+        known = [edge for edge in reversed(edges) if np.isfinite(edge.frequency)]
+        running = self.running("Lives")
+        lives = cliff.find_lives(self.task, known[0], limit, **running) if known else None
+        return labelled.edges_dataset(edges, lives)
+
+    def orbits(self, gap, frequency):
+        force = "force" if self.task.machine.unbalance is None else "unbalance"
+        over_gap, over_force = (
+            cliff.quiet_branch(self.task, gap, frequency, parameter, workers=self.workers)
+            for parameter in ("clearance", force)
+        )
+        found = labelled.branch_dataset(self.task, over_gap, "gap")
+        found = found.merge(labelled.branch_dataset(self.task, over_force, "force"))
+        return found.assign(branch_frequency=shown_variable("branch_frequency", frequency))
+
+    def response(self, gap):
+        task, span = self.task, self.task.band
+        searched = {"starts": task.starts, "seed": task.seed, "settling": task.settling}
+        searched |= self.running("Response")
+        damper = task.damper(1e-3 * gap)
+        motions = _response(task.machine, damper, task.grid, **searched)
+        orbits = _complete_branches(task.machine, damper, span, [motions])
+        alone = _response(task.machine, None, task.grid, **searched)
+        alone = _complete_branches(task.machine, None, span, [alone])
+        bare = {new: shown_variable(new, alone[old].values) for old, new in BARE.items()}
+        # `branch` is a variable of the motions; the grid is the same in all steps
+        motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
+        return motions.merge(orbits.rename_dims(branch="curve")).merge(xr.Dataset(bare))
+
+    def deviations(self, gap, limit):
+        running = self.running("Tolerances")
+        cloud = deviations.sample_tolerances(self.task, gap, limit, **running)
+        running = self.running("Unseen starts")
+        unseen = deviations.check_unseen(self.task, gap, limit, **running)
+        return labelled.cloud_dataset(cloud, "sample").merge(
+            labelled.cloud_dataset(unseen, "corner")
+        )
+
+    def maps(self, gap, frequency, limit):
+        running = self.running("Operating range")
+        forces = deviations.map_forces(self.task, gap, limit, SHARES, **running)
+        dampers = deviations.map_dampers(self.task, gap, frequency, limit, **running)
+        return labelled.maps_dataset(forces, dampers)
+
+    def masses(self, gap, limit):
+        running = self.running("Other masses")
+        found = [judge(self.task, gap, limit, **running)]
+        return labelled.masses_dataset(found + alternatives(self.task, limit, **running))
+
+    def transients(self, gap):
+        task, machine = self.task, self.task.machine
+        damper = task.damper(1e-3 * gap)
+        low, high = task.band
+        span = (high**2 - low**2) / 2
+        decay = machine.viscous_damping / (4 * np.pi * machine.mass)
+        rate = min(max(SWEEP * decay**2, span / MOST_SWEPT), 0.01 * low**2)
+        swept = swept_sine(machine, damper, task.band, rate)
+        first = 1e-3 * float(task.millimetres(1.0))
+        rung = ring_down(machine, damper, first)
+        return _prefixed(swept, "sweep").merge(_prefixed(rung, "ring"))
+
+    def competitors(self):
+        task = self.task
+        low, high = task.resonance
+        band = ABSORBED[0] * min(low, task.band[0]), ABSORBED[1] * max(high, task.band[1])
+        found = absorber_responses(task.machine, task.mass, task.grid, SHARES, band=band)
+        return found.assign_coords(frequency=shown_variable("frequency", task.grid))
+
+
+def _critical(edges, first):
+    """Return the frequency (Hz) at which quiet gaps end first, or that of the largest response."""
+    known = edges["cliff_frequency"].values[np.isfinite(edges["cliff_frequency"].values)]
+    return float(known[-1]) if len(known) else float(first["worst_frequency"])
+
+
+def _prefixed(data, prefix):
+    """Return a dataset of a transient under names of its own."""
+    names = {name: f"{prefix}_{name}" for name in TRANSIENT}
+    return data.rename({old: new for old, new in names.items() if old in {*data, *data.dims}})

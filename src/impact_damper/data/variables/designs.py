@@ -176,6 +176,11 @@ VARIABLES = {
     "other_best": Variable(
         ("other",), "whether no other mass betters all three", flags={"no": 0, "yes": 1}
     ),
+    # transients
+    "sweep_time": Variable(("direction", "sweep_window"), "time", quantity="time"),
+    "sweep_frequency": Variable(
+        ("direction", "sweep_window"), "forcing frequency", quantity="frequency"
+    ),
     # motions of the design
     "motion_rms": Variable(
         ("frequency",), "largest r.m.s. displacement of a motion reached", quantity="displacement"

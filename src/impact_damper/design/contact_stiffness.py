@@ -1,0 +1,131 @@
+"""Stiffness of the linear spring that replaces a contact after Hertz."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.machine.arguments import takes_machine
+from impact_damper.machine.dampers import MachineDamper
+from impact_damper.machine.machine import Machine, describe_si
+from impact_damper.machine.results import shown_variable
+from impact_damper.motions.simulate import COMPONENTS, simulate
+from impact_damper.motions.steady import steady_motion
+from impact_damper.system.bounds import shown
+
+_simulate, _steady_motion = map(takes_machine, (simulate, steady_motion))
+# Search for the stiffness: largest number of motions computed, and relative change of the stiffness
+# below which the search has converged.
+MOST_MOTIONS = 30
+AGREED = 1e-6
+
+
+def first_stiffness(machine, contact, mass, gap, frequency) -> float:
+    """Return the stiffness (N/m) for the speed that crosses a gap in half a forcing period.
+
+    Parameters
+    ----------
+    machine : Machine
+    contact : HertzContact
+    mass : float
+        Loose mass, kg.
+    gap : float
+        Full play, m.
+    frequency : float
+        Hz.
+    """
+    reduced = machine.mass * mass / (machine.mass + mass)
+    return contact.impact(2 * gap * frequency, reduced).stiffness
+
+
+def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
+    """Find the linear contact stiffness that replaces Hertz's contact in a steady motion.
+
+    The linear spring has the same largest compression as Hertz's contact. Its stiffness grows with
+    the speed of impact, and this speed depends on the stiffness: stiffness and motion are computed
+    in turn until they agree. The first speed is that at which the loose mass crosses the gap in
+    half a forcing period; each motion starts from the state of the one before.
+
+    Parameters
+    ----------
+    machine : Machine
+    damper : MachineDamper
+        With a `contact`.
+    frequency : float
+        Forcing frequency, Hz.
+    state : sequence of 4 floats
+        State at time 0 from which the first motion settles, m and m/s.
+    settling : Settling, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        `hertz_stiffness` (N/m), for `dataclasses.replace(damper, contact=None,
+        contact_stiffness=...)`; speed, compression, force and duration of the fastest impact of the
+        motion; its largest displacement; `hertz_status` says how the search ended. Numbers that
+        are not known are NaN.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not of its kind or out of range; the message names it.
+    """
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
+    if not isinstance(damper, MachineDamper) or damper.contact is None:
+        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper with a contact")
+    frequency = machine.check_frequency("frequency", frequency)
+    mass = machine.mass * damper.mass / (machine.mass + damper.mass)
+    impact = damper.contact.impact(2 * damper.gap * frequency, mass)
+    stiffness, status, count = impact.stiffness, "not_consistent", 0
+    speed = size = np.nan
+    while status == "not_consistent" and count < MOST_MOTIONS:
+        count += 1
+        linear = replace(damper, contact=None, contact_stiffness=stiffness)
+        steady = _steady_motion(machine, linear, frequency, state, settling=settling)
+        if not is_settled(steady):
+            rests = float(steady["contacts"]) == 0
+            status = "no_contact" if rests else "not_settled"
+            break
+        speed, state = _fastest_impact(machine, linear, frequency, steady)
+        size = float(steady["maximum_displacement"])
+        if speed == 0:
+            status = "no_contact"
+            break
+        impact = damper.contact.impact(speed, mass)
+        if abs(impact.stiffness / stiffness - 1) < AGREED:
+            status = "consistent"
+        stiffness = impact.stiffness
+    known = np.isfinite(speed) and speed > 0
+    data = {
+        "hertz_status": flag("hertz_status", status),
+        "hertz_iterations": count,
+        "hertz_stiffness": stiffness if known else np.nan,
+        "hertz_displacement": size,
+        "impact_speed": speed,
+        "impact_compression": 1e3 * impact.compression if known else np.nan,
+        "impact_force": impact.force if known else np.nan,
+        "impact_duration": impact.duration if known else np.nan,
+    }
+    found = dataset({}, {}, {"frequency": frequency}, "Contact after Hertz")
+    found = found.assign({name: shown_variable(name, value) for name, value in data.items()})
+    return found.assign_attrs(machine=json.dumps(describe_si(machine, damper), sort_keys=True))
+
+
+def _fastest_impact(machine, damper, frequency, steady):
+    """Return the largest speed of impact of a steady motion, m/s, and its state at time 0.
+
+    The state in `steady` is that at a quarter of a forcing period.
+    """
+    run = _simulate(
+        machine,
+        damper,
+        frequency,
+        steady["state"].values,
+        periods=int(steady["period"]) + 0.75,
+        start=0.25 / frequency,
+    )
+    speed = float(np.max(np.abs(run["approach_velocity"].values), initial=0.0))
+    last = [run[name].values[-1] for name in COMPONENTS]
+    return speed, [value * share for value, share in zip(last, (1e-3, 1, 1e-3, 1), strict=True)]
