@@ -194,9 +194,7 @@ def candidate_comparison(task, coarse, limit, **running) -> Comparison:
     reach = BEYOND / (1 - tolerance)
     # an odd number of gaps, so that the middle is one of them
     shares = np.geomspace(1 / reach, reach, task.candidates | 1)
-    found = compare(
-        task, middle * shares, task.grid, limit, task.starts, task.seed + 2, **running
-    )
+    found = compare(task, middle * shares, task.grid, limit, task.starts, task.seed + 2, **running)
     least = found.numbers["start_quiet_share"].min(axis=1)
     if found.quiet.any() or least.max() == 0:
         return found

@@ -100,9 +100,7 @@ def _bisect(task, comparison, last, beyond, limit, workers):
             inside = middle
         else:
             outside = middle
-    return Edge(
-        float(inside), float(outside), flag("cliff_status", "found"), float(critical[0])
-    )
+    return Edge(float(inside), float(outside), flag("cliff_status", "found"), float(critical[0]))
 
 
 class Lives(NamedTuple):

@@ -1,8 +1,10 @@
 """Steps of a design that are kept in files, so that an interrupted design goes on where it was."""
 
+import hashlib
 import json
 from pathlib import Path
 
+import impact_damper
 from impact_damper.data.datasets import load, save
 from impact_damper.data.whole_files import BrokenFileError
 
@@ -15,12 +17,13 @@ class KeptSteps:
     folder : str or pathlib.Path, optional
         Without a folder nothing is kept.
     made : dict
-        What determines the results. A file made from anything else is made anew.
+        What determines the results. A file made from anything else, or by other sources of this
+        package, is made anew.
     """
 
     def __init__(self, folder, made):
         self.folder = None if folder is None else Path(folder)
-        self.made = json.dumps(made, sort_keys=True)
+        self.made = json.dumps(made | {"sources": _sources()}, sort_keys=True)
 
     def step(self, name, compute):
         """Return the dataset of a step: read if it is kept, otherwise computed and kept.
@@ -43,3 +46,11 @@ class KeptSteps:
         self.folder.mkdir(parents=True, exist_ok=True)
         save(compute().assign_attrs(made=self.made, source="impact-damper"), path)
         return load(path)
+
+
+def _sources():
+    """Return a digest of all sources of the package."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(impact_damper.__file__).parent.rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]

@@ -50,9 +50,7 @@ def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
         mass = factor * task.mass
         if mass > task.machine.mass:
             continue
-        other = replace(
-            task, mass=mass, frequencies=FREQUENCIES, displacement_limit=1e-3 * limit
-        )
+        other = replace(task, mass=mass, frequencies=FREQUENCIES, displacement_limit=1e-3 * limit)
         running = {"workers": workers, "progress": progress}
         screening = screen(other, **running)
         span = screening.gaps[0], screening.gaps[-1]
@@ -111,9 +109,7 @@ def is_best(masses, costs) -> np.ndarray:
     numpy.ndarray of bool, shape (m,)
     """
     table = np.column_stack([masses, costs])
-    worse = [
-        np.any(np.all(table <= row, axis=1) & np.any(table < row, axis=1)) for row in table
-    ]
+    worse = [np.any(np.all(table <= row, axis=1) & np.any(table < row, axis=1)) for row in table]
     return ~np.array(worse)
 
 

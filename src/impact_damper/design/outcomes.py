@@ -140,5 +140,3 @@ def summarise(task, outcomes, limit) -> dict:
         "chaotic_share": np.mean(records["outcome"] == CHAOTIC, axis=1),
         "uncertain_share": np.mean(~np.isin(records["outcome"], CERTAIN), axis=1),
     }
-
-

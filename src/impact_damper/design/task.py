@@ -92,7 +92,9 @@ class Task:
         why = "mass of the machine: a heavier loose mass is no damper"
         mass = check_si("mass", self.mass, "mass", above=0, most=self.machine.mass, why=why)
         settle(self, "mass", mass)
-        settle(self, "restitution", check_number("restitution", self.restitution, **RESTITUTION_RANGE))
+        settle(
+            self, "restitution", check_number("restitution", self.restitution, **RESTITUTION_RANGE)
+        )
         stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", above=0)
         settle(self, "contact_stiffness", stiffness)
         settle(self, "settling", check_settling(self.settling))
@@ -132,7 +134,11 @@ class Task:
             if name not in VARIED:
                 raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
             found[name] = check_si(
-                f"tolerances[{name!r}]", value, "number", least=0, most=0.9,
+                f"tolerances[{name!r}]",
+                value,
+                "number",
+                least=0,
+                most=0.9,
                 why="relative deviation: at 1 the nominal value would become 0",
             )
         return found
@@ -160,7 +166,9 @@ class Task:
 
         A share after fewer periods is smaller, because slow motions are not yet quiet.
         """
-        decay = self.machine.natural_frequency * 2 * self.machine.mass / self.machine.viscous_damping
+        decay = (
+            self.machine.natural_frequency * 2 * self.machine.mass / self.machine.viscous_damping
+        )
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, self.settling.patience))
         limit = int(np.clip(6 * PATIENT * decay, 6 * LEAST_PATIENCE, self.settling.limit))
         return replace(self.settling, patience=patience, limit=limit)
@@ -187,9 +195,7 @@ class Task:
         force = self.machine.oscillator(frequency).forcing_amplitude(
             self.scales.from_si(frequency, "frequency")
         )
-        return 2 * self.scales.to_si(force, "force") / (
-            self.mass * (2 * math.pi * frequency) ** 2
-        )
+        return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
         """Return the damper with a gap (m), its values multiplied by factors in the order of VARIED.

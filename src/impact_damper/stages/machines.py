@@ -173,9 +173,7 @@ class _Design(NamedTuple):
             edges,
             step("orbits", lambda: self.orbits(gap, frequency)),
             response,
-            step(
-                "motions", lambda: reached_motions(task, gap, response, limit, self.contact)
-            ),
+            step("motions", lambda: reached_motions(task, gap, response, limit, self.contact)),
             cloud,
             promise_dataset(task, choice.kind, limit, cloud),
             step("maps", lambda: self.maps(gap, frequency, limit)),

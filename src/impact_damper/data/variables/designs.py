@@ -34,7 +34,9 @@ VARIABLES = {
     ),
     "screened_gap": Variable(("screened",), "gap of a quiet orbit", quantity="displacement"),
     "screened_displacement": Variable(
-        ("screened", "frequency"), "largest displacement of the quiet orbit", quantity="displacement"
+        ("screened", "frequency"),
+        "largest displacement of the quiet orbit",
+        quantity="displacement",
     ),
     "screened_modulus": Variable(
         ("screened", "frequency"), "largest multiplier of half a period of the quiet orbit"
@@ -70,9 +72,7 @@ VARIABLES = {
     "quiet_time_median": Variable(
         CELL, "median of the forcing periods in which quiet motions settle"
     ),
-    "quiet_time_late": Variable(
-        CELL, "forcing periods in which 95 % of the quiet motions settle"
-    ),
+    "quiet_time_late": Variable(CELL, "forcing periods in which 95 % of the quiet motions settle"),
     "chaotic_share": Variable(CELL, "share of starts that lead to chaos"),
     "uncertain_share": Variable(
         CELL, "share of starts whose motion had neither settled nor was certainly chaotic"
@@ -120,12 +120,8 @@ VARIABLES = {
     "stability_force": Variable(
         ("side",), "multiple of the nominal force at which the quiet orbit ceases to be stable"
     ),
-    "stability_gap_event": Variable(
-        ("side",), "why it ceases to be stable there", flags=ENDS
-    ),
-    "stability_force_event": Variable(
-        ("side",), "why it ceases to be stable there", flags=ENDS
-    ),
+    "stability_gap_event": Variable(("side",), "why it ceases to be stable there", flags=ENDS),
+    "stability_force_event": Variable(("side",), "why it ceases to be stable there", flags=ENDS),
     # deviations
     "varied": Variable(("varied",), "quantity that deviates"),
     "sample_factor": Variable(("sample", "varied"), "value divided by the nominal one"),
@@ -153,9 +149,7 @@ VARIABLES = {
     "operating_frequency": Variable(
         ("operating_frequency",), "frequency of a cell of the map", quantity="frequency"
     ),
-    "damper_map_share": Variable(
-        ("map_gap", "map_restitution"), "share of starts that end quiet"
-    ),
+    "damper_map_share": Variable(("map_gap", "map_restitution"), "share of starts that end quiet"),
     "damper_map_displacement": Variable(
         ("map_gap", "map_restitution"), "largest displacement", quantity="displacement"
     ),
