@@ -27,6 +27,7 @@ FLOORS = (
     "migration",
     "rivals",
     "comparisons",
+    "performance",
     "design",
     "stages",
     "claims",

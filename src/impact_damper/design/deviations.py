@@ -60,7 +60,7 @@ class Map(NamedTuple):
 
 
 def sampled_factors(task) -> np.ndarray:
-    """Return deviations spread evenly over the tolerances by Sobol's sequence, the nominal first."""
+    """Return the nominal values, then deviations spread over the tolerances by Sobol's sequence."""
     names = [name for name in VARIED if task.tolerances.get(name)]
     factors = np.ones((SAMPLES, len(VARIED)))
     if not names:
@@ -72,7 +72,7 @@ def sampled_factors(task) -> np.ndarray:
 
 
 def corner_factors(task) -> np.ndarray:
-    """Return corners of the tolerances, at most CORNERS drawn at random, the nominal values first."""
+    """Return the nominal values, then corners of the tolerances, at most CORNERS of them."""
     widths = [task.tolerances.get(name, 0.0) for name in VARIED]
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)

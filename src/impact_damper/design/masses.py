@@ -1,4 +1,4 @@
-"""Dampers of other masses for the same machine and band: what more mass brings, and what it costs."""
+"""Dampers of other masses for the same machine and band: what more mass brings, and its costs."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.design.choose import coarse_comparison, compare, spread
-from impact_damper.design.costs import measured_costs
 from impact_damper.design.outcomes import Case, run
 from impact_damper.design.screen import screen
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.performance.costs import measured_costs
 
 # Masses divided by the nominal mass; frequencies of their reduced design, and starts
 # of its two comparisons.

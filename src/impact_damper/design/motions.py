@@ -4,13 +4,13 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
-from impact_damper.design.costs import measured_costs, pressure_costs
 from impact_damper.design.labelled import SIDES, labelled
 from impact_damper.design.outcomes import Case, interval
 from impact_damper.machine.results import from_si
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.motions import records
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.performance.costs import measured_costs, pressure_costs
 from impact_damper.system.packed import FREQUENCY
 
 # Samples in a forcing period, and periods over which a motion that is not periodic is measured.

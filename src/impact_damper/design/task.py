@@ -9,7 +9,7 @@ import numpy as np
 
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
-from impact_damper.machine.units import check_si, si_value, with_unit
+from impact_damper.machine.units import check_si, with_unit
 from impact_damper.system.bounds import RESTITUTION_RANGE, check_count, check_number, shown
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
@@ -21,8 +21,8 @@ NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Quantile of the normal distribution of a two-sided 95 % interval.
 QUANTILE = 1.959963984540054
-# Comparisons run motions for at least LEAST_PATIENCE forcing periods, and for PATIENT times the time
-# in which a free vibration decays by the factor e, if that is longer.
+# Comparisons run motions for LEAST_PATIENCE forcing periods, or for PATIENT times the time in which
+# a free vibration decays by the factor e if that is longer.
 PATIENT, LEAST_PATIENCE = 5, 100
 
 
@@ -198,7 +198,7 @@ class Task:
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m), its values multiplied by factors in the order of VARIED.
+        """Return the damper with a gap (m), its values times factors in the order of VARIED.
 
         A restitution above 1 becomes 1.
         """

@@ -11,15 +11,15 @@ SUMMARY = {
         "machine then moves at most {limit:.3g} mm, instead of {bare:.3g} mm without the damper."
     ),
     "needs_tolerance": (
-        "Build a gap of {gap:.3g} mm (full play) and hold it from {edge_low:.4g} to {edge_high:.4g} "
-        "mm, a narrower range than the tolerance of {tolerance:.0%}. Then at least {share:.0%} of the "
-        "starts end quiet at each frequency of the band, at 95 % confidence: the machine moves at "
-        "most {limit:.3g} mm, instead of {bare:.3g} mm without the damper."
+        "Build a gap of {gap:.3g} mm (full play) and hold it from {edge_low:.4g} to "
+        "{edge_high:.4g} mm, a narrower range than the tolerance of {tolerance:.0%}. Then at least "
+        "{share:.0%} of the starts end quiet at each frequency of the band, at 95 % confidence: "
+        "the machine moves at most {limit:.3g} mm, instead of {bare:.3g} mm without the damper."
     ),
     "least_worst": (
-        "No gap is quiet over the whole band. The gap of {gap:.3g} mm is the least bad: the machine "
-        "moves up to {worst:.3g} mm, instead of {bare:.3g} mm without the damper. Do not build this "
-        "damper for this band."
+        "No gap is quiet over the whole band. The gap of {gap:.3g} mm is the least bad: the "
+        "machine moves up to {worst:.3g} mm, instead of {bare:.3g} mm without the damper. Do not "
+        "build this damper for this band."
     ),
 }
 

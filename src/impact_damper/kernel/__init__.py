@@ -17,6 +17,7 @@ ROOMS_WITHOUT_KERNELS = (
     "orbits",
     "edges",
     "comparisons",
+    "performance",
     "design",
     "stages",
     "claims",

@@ -84,7 +84,7 @@ def from_si(data, machine):
 def _each(data, convert, scales):
     """Return a dataset with each variable converted by the unit of its quantity."""
     found = {}
-    for name, variable in data.variables.items():
+    for name, each in data.variables.items():
         quantity = _quantity(name, data)
         if quantity == "state":
             unit = np.array([scales.unit(each) for each in STATE])
@@ -92,7 +92,7 @@ def _each(data, convert, scales):
             unit = scales.unit(quantity) * QUANTITIES[quantity].share
         else:
             continue
-        found[name] = variable.copy(data=convert(variable.values, unit))
+        found[name] = each.copy(data=convert(each.values, unit))
     coordinates = {name: found.pop(name) for name in list(found) if name in data.coords}
     return data.assign(found).assign_coords(coordinates)
 

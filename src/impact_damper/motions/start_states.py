@@ -38,9 +38,9 @@ SMALLEST = 0.01
 # larger, by the speed that crosses the gap in half a forcing period.
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
-# With a softening spring, largest random start divided by displacement and speed at the barrier: the
-# energy of a start is then at most three quarters of that at the barrier, which others would go
-# over by themselves.
+# With a softening spring, largest random start divided by displacement and speed at the barrier.
+# The energy of a start is then at most three quarters of that at the barrier: starts with more
+# would go over it by themselves.
 WITHIN = 0.7
 NO_STARTS = np.empty((0, 4))
 # Ramps: relative change of a parameter in one step; forcing periods per step; ratio of the first

@@ -12,22 +12,22 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.absorbers.responses import SHARES, absorber_responses
-from impact_damper.data.datasets import SOURCE, flag
+from impact_damper.data.datasets import SOURCE
 from impact_damper.design import choose, cliff, deviations, labelled
-from impact_damper.design.contact_stiffness import first_stiffness
 from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.masses import alternatives, judge
 from impact_damper.design.motions import reached_motions
 from impact_damper.design.promises import promise_dataset
-from impact_damper.design.ring_down import ring_down
 from impact_damper.design.screen import screen
-from impact_damper.design.swept_sine import swept_sine
 from impact_damper.design.task import TOLERANCES, Task
 from impact_damper.design.words import conclusion
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.hertz import HertzContact
 from impact_damper.machine.machine import describe_si
 from impact_damper.machine.results import shown_variable
+from impact_damper.performance.contact_stiffness import first_stiffness
+from impact_damper.performance.ring_down import ring_down
+from impact_damper.performance.swept_sine import swept_sine
 from impact_damper.stages.branches import complete_branches
 from impact_damper.stages.response import frequency_response
 

@@ -17,7 +17,6 @@ a machine. (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.design.panels import integrals, largest, logged, sampled
 from impact_damper.kernel.single import side_of
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.hertz import HertzContact
@@ -25,6 +24,7 @@ from impact_damper.machine.machine import check_fit
 from impact_damper.machine.results import shown_variable
 from impact_damper.motions.simulate import check_state
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.performance.panels import integrals, largest, logged, sampled
 from impact_damper.system.bounds import check_count, check_number, shown
 from impact_damper.system.packed import (
     CLEARANCE,

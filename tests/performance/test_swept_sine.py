@@ -9,8 +9,8 @@ from helpers.si_motions import SiMotion
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.design.swept_sine import forced, sweep_periods, swept_sine
 from impact_damper.motions.envelopes import envelope
+from impact_damper.performance.swept_sine import forced, sweep_periods, swept_sine
 from impact_damper.system.packed import FREQUENCY
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}

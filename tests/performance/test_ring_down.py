@@ -10,7 +10,7 @@ from scipy.special import ellipk
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.design.ring_down import MOST_WINDOWS, free_amplitude, free_period, ring_down
+from impact_damper.performance.ring_down import MOST_WINDOWS, free_amplitude, free_period, ring_down
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
 LINEAR = idm.Machine(**SPRING, force=40)

@@ -6,12 +6,12 @@ import numpy as np
 from scipy.special import ellipk
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.design.costs import energy
-from impact_damper.design.swept_sine import EQUIPMENT, TOLERANCE
 from impact_damper.machine.machine import check_fit
 from impact_damper.machine.results import in_si
 from impact_damper.machine.units import check_si
 from impact_damper.motions.envelopes import envelope
+from impact_damper.performance.costs import energy
+from impact_damper.performance.swept_sine import EQUIPMENT, TOLERANCE
 from impact_damper.system.bounds import FARTHEST
 from impact_damper.system.packed import CUBIC, FORCE, STIFFNESS, UNBALANCE, pack
 
