@@ -41,6 +41,7 @@ MOST_FILES = 12
 LARGE = {
     "claims": "one file for each group of the paper's claims; none imports another",
     "data/variables": "one file for each subject of the datasets; none imports another",
+    "design": "one file for each step of a design, and what the steps share",
     "figures": "one file for each kind of figure; they share only drawing and style",
     "motions": "one file for each way to start or to run motions",
     "stages": "one file for each stage of the workflow; some stages have a second one",

@@ -15,7 +15,7 @@ from impact_damper.data.shares import escape_rate
 from impact_damper.design.outcomes import Case, interval, run, summarise
 from impact_damper.orbits.branches import Branch, follow_branch
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
-from impact_damper.orbits.shooting import STROBE, find_orbit
+from impact_damper.orbits.shooting import STROBE, Orbit, find_orbit
 from impact_damper.system.families import family_of
 
 # Bisections of each edge, and number of frequencies, those of least share, at which it is sought.
@@ -155,34 +155,40 @@ class QuietBranch(NamedTuple):
     nominal: float
 
 
-def quiet_branch(task, gap, frequency, parameter, *, workers=1) -> QuietBranch | None:
-    """Return the branch of the quiet orbit over a parameter, or None if no start reaches one.
+def quiet_orbit(task, gap, frequency, *, workers=1) -> Orbit | None:
+    """Return the smallest quiet orbit that starts reach at a gap (mm) and frequency (Hz), or None.
 
-    Parameters
-    ----------
-    task : Task
-    gap : float
-        Nominal gap, mm.
-    frequency : float
-        Hz.
-    parameter : str
-        "clearance", followed in its logarithm, "force" or "unbalance".
-    workers : int
+    It is symmetric, with two contacts in a forcing period.
     """
     case = Case(1e-3 * gap, frequency)
     records = run(task, [case], task.starts, task.seed + 30, workers=workers).random[0]
     pairs = records[is_symmetric_pair(records)]
     if len(pairs) == 0:
         return None
-    oscillator, damper, turning = task.system(*case)
+    state = pairs["state"][np.argmin(pairs["maximum_displacement"])]
+    orbit = find_orbit(task.packed(*case), state, 1, STROBE)
+    return orbit if orbit.converged else None
+
+
+def quiet_branch(task, gap, frequency, orbit, parameter) -> QuietBranch | None:
+    """Return the branch of a quiet orbit over a parameter, None without an orbit.
+
+    Parameters
+    ----------
+    task : Task
+    gap, frequency : float
+        mm and Hz, of the orbit.
+    orbit : Orbit or None
+    parameter : str
+        "clearance", followed in its logarithm, "force" or "unbalance".
+    """
+    if orbit is None:
+        return None
+    oscillator, damper, turning = task.system(1e-3 * gap, frequency)
     owner = damper if parameter == "clearance" else oscillator
     nominal = getattr(owner, parameter)
     ends = GAP_SPAN if parameter == "clearance" else FORCE_SPAN
     span = tuple(nominal * end for end in ends)
     family, value, span = family_of(oscillator, damper, turning, parameter, span)
-    state = pairs["state"][np.argmin(pairs["maximum_displacement"])]
-    orbit = find_orbit(family(value), state, 1, STROBE)
-    if not orbit.converged:
-        return None
     branch = follow_branch(family, orbit, value, span)
     return QuietBranch(branch, int(np.argmin(np.abs(branch.values - value))), nominal)

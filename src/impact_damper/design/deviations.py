@@ -1,4 +1,4 @@
-"""A design at values other than the nominal ones: samples of all tolerances, corners, maps."""
+"""A design at values other than the nominal ones: samples and corners of all tolerances."""
 
 import itertools
 from typing import NamedTuple
@@ -9,17 +9,12 @@ from scipy.stats import qmc
 from impact_damper.design.choose import spread
 from impact_damper.design.outcomes import Case, interval, run, summarise
 from impact_damper.design.task import NOMINAL, VARIED
-from impact_damper.system.bounds import RESTITUTION_RANGE
 
 # Samples of the tolerances, a power of 2 for Sobol's sequence; most frequencies and the starts at
 # which each is run.
 SAMPLES, SAMPLE_FREQUENCIES, SAMPLE_STARTS = 16, 7, 24
 # Starts that the design has not seen: in all, at the nominal values and at each corner.
 UNSEEN, CORNERS = 1000, 20
-# Maps of the operating range: cells along each axis, starts in a cell; ratio of the gap to the
-# nominal one; least restitution.
-CELLS, CELL_STARTS = 11, 12
-GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
 
 
 class Cloud(NamedTuple):
@@ -41,22 +36,6 @@ class Cloud(NamedTuple):
     worst: np.ndarray
     share: np.ndarray
     least: np.ndarray
-
-
-class Map(NamedTuple):
-    """Motions over two parameters.
-
-    Attributes
-    ----------
-    first, second : numpy.ndarray, shapes (m,), (n,)
-    share, worst : numpy.ndarray, shape (m, n)
-        Share of starts that end quiet, and largest displacement of all motions, mm.
-    """
-
-    first: np.ndarray
-    second: np.ndarray
-    share: np.ndarray
-    worst: np.ndarray
 
 
 def sampled_factors(task) -> np.ndarray:
@@ -130,46 +109,3 @@ def check_unseen(task, gap, limit, **running) -> Cloud:
     starts = -(-UNSEEN // task.frequencies)
     factors = corner_factors(task)
     return run_cloud(task, gap, factors, task.grid, starts, limit, task.seed + 50, **running)
-
-
-def map_forces(task, gap, limit, shares, **running) -> Map:
-    """Return the motions over frequency (Hz) and `shares`, multiples of the nominal force.
-
-    The largest displacement of a quiet motion grows in proportion to the force.
-    """
-    frequencies, shares = spread(task.grid, CELLS), np.asarray(shares)
-    place = VARIED.index("force")
-    cells = [
-        (Case(1e-3 * gap, f, _with(place, share)), limit * share)
-        for f in frequencies
-        for share in shares
-    ]
-    return _map(task, frequencies, shares, cells, task.seed + 60, running)
-
-
-def map_dampers(task, gap, frequency, limit, **running) -> Map:
-    """Return the motions at a frequency over gap (mm) and restitution."""
-    gaps = gap * np.geomspace(*GAPS, CELLS)
-    restitutions = np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], CELLS)
-    place = VARIED.index("restitution")
-    cells = [
-        (Case(1e-3 * each, frequency, _with(place, e / task.restitution)), limit)
-        for each in gaps
-        for e in restitutions
-    ]
-    return _map(task, gaps, restitutions, cells, task.seed + 70, running)
-
-
-def _with(place, factor):
-    """Return nominal factors but for one."""
-    return tuple(factor if k == place else 1.0 for k in range(len(VARIED)))
-
-
-def _map(task, first, second, cells, seed, running):
-    cases, limits = zip(*cells, strict=True)
-    running = {"settling": task.hurried} | running
-    records = run(task, cases, CELL_STARTS, seed, **running).random
-    sizes = task.millimetres(records["maximum_displacement"])
-    quiet = (sizes <= np.array(limits)[:, None]).mean(axis=1)
-    shape = len(first), len(second)
-    return Map(first, second, quiet.reshape(shape), sizes.max(axis=1).reshape(shape))

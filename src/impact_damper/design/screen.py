@@ -23,7 +23,7 @@ LEAST, MOST, GAPS = 0.3, 1.7, 40
 FLIGHT = 1.14
 # Random starts, gaps and frequencies from which quiet orbits are first reached.
 SEEDED = 16
-SEED_GAPS = (0.5, 0.7, 0.9, 1.05)
+SEED_GAPS = (0.3, 0.5, 0.7, 0.9, 1.05)
 SEED_FREQUENCIES = 5
 
 

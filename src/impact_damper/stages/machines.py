@@ -13,7 +13,7 @@ import xarray as xr
 
 from impact_damper.absorbers.responses import SHARES, absorber_responses
 from impact_damper.data.datasets import SOURCE
-from impact_damper.design import choose, cliff, deviations, labelled
+from impact_damper.design import choose, cliff, deviations, labelled, operating
 from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.masses import alternatives, judge
 from impact_damper.design.motions import reached_motions
@@ -208,8 +208,9 @@ class _Design(NamedTuple):
 
     def orbits(self, gap, frequency):
         force = "force" if self.task.machine.unbalance is None else "unbalance"
+        orbit = cliff.quiet_orbit(self.task, gap, frequency, workers=self.workers)
         over_gap, over_force = (
-            cliff.quiet_branch(self.task, gap, frequency, parameter, workers=self.workers)
+            cliff.quiet_branch(self.task, gap, frequency, orbit, parameter)
             for parameter in ("clearance", force)
         )
         found = labelled.branch_dataset(self.task, over_gap, "gap")
@@ -240,10 +241,18 @@ class _Design(NamedTuple):
         )
 
     def maps(self, gap, frequency, limit):
-        running = self.running("Operating range")
-        forces = deviations.map_forces(self.task, gap, limit, SHARES, **running)
-        dampers = deviations.map_dampers(self.task, gap, frequency, limit, **running)
-        return labelled.maps_dataset(forces, dampers)
+        task, running = self.task, self.running("Operating range")
+        orbit = cliff.quiet_orbit(task, gap, frequency, workers=self.workers)
+        return labelled.maps_dataset(
+            (
+                operating.map_forces(task, gap, limit, SHARES, **running),
+                operating.force_curves(task, gap, frequency, orbit, SHARES),
+            ),
+            (
+                operating.map_dampers(task, gap, frequency, limit, **running),
+                operating.damper_curves(task, gap, frequency, orbit),
+            ),
+        )
 
     def masses(self, gap, limit):
         running = self.running("Other masses")

@@ -13,6 +13,8 @@ ENDS = {
     "branch_ends": 3,
     "range_ends": 4,
 }
+# What a quiet orbit does on an edge of its stability.
+EDGES = {"fold": 0, "symmetry_breaking": 1, "neimark_sacker": 2}
 VARIABLES = {
     # screening
     "worst_frequency": Variable(
@@ -159,6 +161,24 @@ VARIABLES = {
     "force_map_displacement": Variable(
         ("operating_frequency", "force_share"), "largest displacement", quantity="displacement"
     ),
+    "force_edge_frequency": Variable(
+        ("force_edge",), "frequency at an edge of the quiet orbit", quantity="frequency"
+    ),
+    "force_edge_share": Variable(
+        ("force_edge",), "multiple of the nominal force at an edge of the quiet orbit"
+    ),
+    "force_edge_kind": Variable(("force_edge",), "what the orbit does there", flags=EDGES),
+    "force_edge_number": Variable(("force_edge",), "number of the edge"),
+    "force_edges_lost": Variable((), "changes of stability for which no edge was found"),
+    "damper_edge_gap": Variable(
+        ("damper_edge",), "gap at an edge of the quiet orbit", quantity="displacement"
+    ),
+    "damper_edge_restitution": Variable(
+        ("damper_edge",), "restitution at an edge of the quiet orbit"
+    ),
+    "damper_edge_kind": Variable(("damper_edge",), "what the orbit does there", flags=EDGES),
+    "damper_edge_number": Variable(("damper_edge",), "number of the edge"),
+    "damper_edges_lost": Variable((), "changes of stability for which no edge was found"),
     # masses
     "other_mass": Variable(("other",), "loose mass", quantity="mass"),
     "other_gap": Variable(("other",), "gap chosen for it", quantity="displacement"),

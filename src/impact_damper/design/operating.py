@@ -1,0 +1,170 @@
+"""The operating range of a design: maps over two parameters, with the edges of the quiet orbit.
+
+A map shows where starts lead, cell by cell. The edges, on which the quiet orbit folds, loses its
+symmetry or turns to a torus, bound the region in which it is stable; it need not be reached there.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.data.datasets import flag
+from impact_damper.design.choose import spread
+from impact_damper.design.outcomes import Case, run
+from impact_damper.design.task import VARIED
+from impact_damper.edges.maps import map_edges
+from impact_damper.orbits.shooting import shoot
+from impact_damper.system.bounds import RESTITUTION_RANGE
+
+# Cells along each axis of a map, starts in a cell; ratio of the gap to the nominal one; least
+# restitution.
+CELLS, CELL_STARTS = 11, 12
+GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
+# Cells along each axis of the grid on which edges are found.
+EDGE_CELLS = 14
+# Edges that are kept, in the words of `edges.curves.Edge.kind`.
+KINDS = ("fold", "symmetry_breaking", "neimark_sacker")
+
+
+class Map(NamedTuple):
+    """Motions over two parameters.
+
+    Attributes
+    ----------
+    first, second : numpy.ndarray, shapes (m,), (n,)
+    share, worst : numpy.ndarray, shape (m, n)
+        Share of starts that end quiet, and largest displacement of all motions, mm.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    share: np.ndarray
+    worst: np.ndarray
+
+
+def map_forces(task, gap, limit, shares, **running) -> Map:
+    """Return the motions over frequency (Hz) and `shares`, multiples of the nominal force.
+
+    The largest displacement of a quiet motion grows in proportion to the force.
+    """
+    frequencies, shares = spread(task.grid, CELLS), np.asarray(shares)
+    place = VARIED.index("force")
+    cells = [
+        (Case(1e-3 * gap, f, _with(place, share)), limit * share)
+        for f in frequencies
+        for share in shares
+    ]
+    return _map(task, frequencies, shares, cells, task.seed + 60, running)
+
+
+def map_dampers(task, gap, frequency, limit, **running) -> Map:
+    """Return the motions at a frequency over gap (mm) and restitution."""
+    gaps = gap * np.geomspace(*GAPS, CELLS)
+    restitutions = np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], CELLS)
+    place = VARIED.index("restitution")
+    cells = [
+        (Case(1e-3 * each, frequency, _with(place, e / task.restitution)), limit)
+        for each in gaps
+        for e in restitutions
+    ]
+    return _map(task, gaps, restitutions, cells, task.seed + 70, running)
+
+
+def _with(place, factor):
+    """Return nominal factors but for one."""
+    return tuple(factor if k == place else 1.0 for k in range(len(VARIED)))
+
+
+def _map(task, first, second, cells, seed, running):
+    """Return the motions in the cells of a map, each with its displacement limit."""
+    cases, limits = zip(*cells, strict=True)
+    running = {"settling": task.hurried} | running
+    records = run(task, cases, CELL_STARTS, seed, **running).random
+    sizes = task.millimetres(records["maximum_displacement"])
+    quiet = (sizes <= np.array(limits)[:, None]).mean(axis=1)
+    shape = len(first), len(second)
+    return Map(first, second, quiet.reshape(shape), sizes.max(axis=1).reshape(shape))
+
+
+class Curves(NamedTuple):
+    """Edges of the quiet orbit over two parameters.
+
+    Attributes
+    ----------
+    values : numpy.ndarray, shape (n, 2)
+        Points of all edges, one edge after the other, at which stability really ends.
+    kind : numpy.ndarray of int, shape (n,)
+        Flag of `edge_kind`.
+    number : numpy.ndarray of int, shape (n,)
+        Number of the edge of each point.
+    lost : int
+        Changes of stability between cells of the grid for which no edge was found.
+    """
+
+    values: np.ndarray
+    kind: np.ndarray
+    number: np.ndarray
+    lost: int
+
+
+NO_CURVES = Curves(np.empty((0, 2)), np.empty(0, int), np.empty(0, int), 0)
+
+
+def force_curves(task, gap, frequency, orbit, shares) -> Curves:
+    """Return the edges over frequency (Hz) and the multiple of the nominal force.
+
+    Parameters
+    ----------
+    task : Task
+    gap, frequency : float
+        mm and Hz, of the orbit.
+    orbit : Orbit or None
+        Quiet orbit at the nominal values.
+    shares : sequence of float
+        Least and greatest multiple of the force are its ends.
+    """
+    place = VARIED.index("force")
+    axes = (
+        np.linspace(*task.band, EDGE_CELLS),
+        np.geomspace(shares[0], shares[-1], EDGE_CELLS),
+    )
+
+    def family(f, share):
+        return task.packed(1e-3 * gap, f, _with(place, share))
+
+    return _curves(family, orbit, (frequency, 1.0), axes)
+
+
+def damper_curves(task, gap, frequency, orbit) -> Curves:
+    """Return the edges over gap (mm) and restitution at a frequency (Hz)."""
+    place = VARIED.index("restitution")
+    axes = (
+        gap * np.geomspace(*GAPS, EDGE_CELLS),
+        np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], EDGE_CELLS),
+    )
+
+    def family(each, e):
+        return task.packed(1e-3 * each, frequency, _with(place, e / task.restitution))
+
+    return _curves(family, orbit, (gap, task.restitution), axes)
+
+
+def _curves(family, orbit, values, axes):
+    """Return the edges of the branch of an orbit; none without an orbit near the given one."""
+    if orbit is None:
+        return NO_CURVES
+    symmetric, _ = shoot(family(*values), orbit.state, 1, orbit.phase, symmetric=True)
+    try:
+        found = map_edges(family, symmetric, values, axes)
+    except (ArithmeticError, ValueError):
+        return NO_CURVES._replace(lost=1)
+    kept = [edge for edge in found.edges if edge.kind in KINDS]
+    if not kept:
+        return NO_CURVES._replace(lost=found.lost)
+    counts = [int(edge.bounding.sum()) for edge in kept]
+    return Curves(
+        np.concatenate([edge.values[edge.bounding] for edge in kept]),
+        np.repeat([flag("force_edge_kind", edge.kind) for edge in kept], counts),
+        np.repeat(np.arange(len(kept)), counts),
+        found.lost,
+    )
