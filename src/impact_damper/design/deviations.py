@@ -106,6 +106,6 @@ def sample_tolerances(task, gap, limit, **running) -> Cloud:
 
 def check_unseen(task, gap, limit, **running) -> Cloud:
     """Return the motions of UNSEEN new starts at the nominal values and at each corner."""
-    starts = -(-UNSEEN // task.frequencies)
+    starts = -(-UNSEEN // len(task.grid))
     factors = corner_factors(task)
     return run_cloud(task, gap, factors, task.grid, starts, limit, task.seed + 50, **running)

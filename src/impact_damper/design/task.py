@@ -173,10 +173,21 @@ class Task:
         limit = int(np.clip(6 * PATIENT * decay, 6 * LEAST_PATIENCE, self.settling.limit))
         return replace(self.settling, patience=patience, limit=limit)
 
-    @property
+    @cached_property
     def grid(self) -> np.ndarray:
-        """Frequencies over the band, Hz."""
-        return np.linspace(*self.band, self.frequencies)
+        """Frequencies over the band, Hz.
+
+        They are even, but the nearest ones are moved onto the resonances in the band: those of the
+        machine alone and with the loose mass attached, at which a lightly damped machine moves
+        most.
+        """
+        values = np.linspace(*self.band, self.frequencies)
+        ratio = 1 + self.mass / self.machine.mass
+        for end in self.resonance:
+            for frequency in (end, end / math.sqrt(ratio)):
+                if self.band[0] < frequency < self.band[1]:
+                    values[np.argmin(np.abs(values - frequency))] = frequency
+        return np.unique(values)
 
     @property
     def scales(self):

@@ -54,7 +54,7 @@ def conclusion(task, kind, data) -> list[str]:
     if kind == "least_worst":
         found.append(_help(task, data))
     else:
-        found.append(_margins(data, gap))
+        found += [_margins(data, gap), _lives(data), _amplitudes(data)]
     found.append(_competition(data))
     return [sentence for sentence in found if sentence]
 
@@ -97,6 +97,31 @@ def _margins(data, gap):
             "decides."
         )
     return text
+
+
+def _lives(data):
+    """Return where chaos beside the quiet motion changes from a transient to an attractor."""
+    if "life_rate" not in data:
+        return ""
+    gaps = data["life_gap"].values
+    rates, least, most = data["life_rate"].values.T
+    texts = []
+    for gap, rate, low, high in zip(gaps, rates, least, most, strict=True):
+        if not np.isfinite(rate):
+            continue  # all starts were quiet before lives are counted
+        life = f"{1 / rate:.0f} periods" if low > 0 else f"more than {1 / high:.0f} periods"
+        texts.append(f"{life} at {gap:.4g} mm")
+    if not texts:
+        return ""
+    return f"Beside the quiet motion other motions last, on average, {', '.join(texts)}."
+
+
+def _amplitudes(data):
+    """Return the forces between which the quiet orbit is stable."""
+    least, most = data["stability_force"].values
+    if not np.isfinite(least):
+        return ""
+    return f"The quiet orbit is stable from {least:.3g} to {most:.3g} times the nominal force."
 
 
 def _help(task, data):
