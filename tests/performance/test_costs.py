@@ -9,10 +9,10 @@ from helpers.si_motions import SiMotion
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.performance import panels
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.motions.simulate import COMPONENTS, simulate
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.performance import panels
 from impact_damper.performance.costs import measured_costs, motion_costs
 from impact_damper.performance.panels import logged
 from impact_damper.system.packed import INVERSE_MASS_RATIO, pack

@@ -1,7 +1,7 @@
 """What a damper is designed for: machine, mass, band of frequencies, tolerances and confidence."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -10,7 +10,15 @@ import numpy as np
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import check_si, with_unit
-from impact_damper.system.bounds import RESTITUTION_RANGE, check_count, check_number, shown
+from impact_damper.system.bounds import (
+    MASS_RATIO_RANGE,
+    RESTITUTION_RANGE,
+    SEED_RANGE,
+    STIFFNESS_RANGE,
+    check_count,
+    check_number,
+    shown,
+)
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
 from impact_damper.theory.free_oscillator import free_folds, maximum_response
@@ -89,17 +97,22 @@ class Task:
         if not isinstance(self.machine, Machine):
             raise TypeError(f"machine = {shown(self.machine)}: must be a Machine")
         settle = object.__setattr__
+        least = self.scales.to_si(MASS_RATIO_RANGE["least"], "mass")
         why = "mass of the machine: a heavier loose mass is no damper"
-        mass = check_si("mass", self.mass, "mass", above=0, most=self.machine.mass, why=why)
+        mass = check_si("mass", self.mass, "mass", least=least, most=self.machine.mass, why=why)
         settle(self, "mass", mass)
         settle(
-            self, "restitution", check_number("restitution", self.restitution, **RESTITUTION_RANGE)
+            self,
+            "restitution",
+            check_si("restitution", self.restitution, "number", **RESTITUTION_RANGE),
         )
-        stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", above=0)
+        bounds = self.scales.range_to_si(STIFFNESS_RANGE, "stiffness")
+        stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
         settle(self, "contact_stiffness", stiffness)
         settle(self, "settling", check_settling(self.settling))
         settle(self, "band", self._checked_band())
         settle(self, "tolerances", self._checked_tolerances())
+        check_count("seed", self.seed, **SEED_RANGE)
         check_number("share", self.share, least=0.5, most=0.999)
         least = starts_needed(self.share)
         why = f"a share of {self.share:g} at 95 % confidence needs so many, all quiet"
@@ -111,7 +124,7 @@ class Task:
             settle(self, "displacement_limit", limit)
 
     def _checked_band(self):
-        if np.ndim(self.band) != 1 or len(self.band) != 2:
+        if not isinstance(self.band, Sequence | np.ndarray) or len(self.band) != 2:
             raise ValueError(f"band = {shown(self.band)}: must be least and greatest frequency")
         ends = tuple(
             self.machine.check_frequency(f"band[{i}]", value) for i, value in enumerate(self.band)
