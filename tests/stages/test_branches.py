@@ -5,7 +5,7 @@ import pytest
 
 from impact_damper.motions.simulate import simulate
 from impact_damper.motions.steady import steady_motion
-from impact_damper.stages.branches import periodic_orbit
+from impact_damper.stages.branches import orbit_branch, periodic_orbit
 from impact_damper.system.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
@@ -42,3 +42,14 @@ def test_harmonics_and_restitution_of_an_orbit(restitution):
     ratio = np.abs(orbit.departure_velocity / orbit.approach_velocity)
     assert float(orbit.orbit_restitution) == pytest.approx(float(ratio.min()))
     assert float(orbit.orbit_restitution) == pytest.approx(restitution, rel=0.01)
+
+
+def test_an_orbit_that_repeats_sooner_is_told_and_not_followed():
+    damper = Damper(mass_ratio=0.25, clearance=1.0)
+    steady = steady_motion(OSCILLATOR, damper, 2.0, (0.05, 0, 0.9, 0.5))
+    assert int(steady.period) == 1
+    state = steady.state.values
+    with pytest.warns(UserWarning, match="period = 3: .* repeats sooner"):
+        periodic_orbit(OSCILLATOR, damper, 2.0, state, period=3)
+    with pytest.raises(ArithmeticError, match="period = 3: .* repeats after a divisor"):
+        orbit_branch(OSCILLATOR, damper, 2.0, state, period=3, span=(1.9, 2.1))

@@ -6,6 +6,7 @@ Orbits may be stable or not, of any period, and touch the walls in any sequence.
 """
 
 import sys
+import warnings
 from collections import Counter
 
 import numpy as np
@@ -56,8 +57,18 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
         If an argument is out of range.
     ArithmeticError
         If Newton's method does not converge.
+
+    Warns
+    -----
+    UserWarning
+        If the orbit repeats after a divisor of the period.
     """
     orbit = _checked_orbit(oscillator, damper, frequency, state, period, phase)
+    if orbit.repeats_sooner():
+        warnings.warn(
+            f"period = {period}: the orbit found repeats sooner, after a divisor of {period}",
+            stacklevel=2,
+        )
     log = orbit.contacts
     data = _orbits([(frequency, orbit)]) | {
         "orbit_branch": np.zeros(1, int),
@@ -99,10 +110,16 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     TypeError, ValueError
         If an argument is out of range.
     ArithmeticError
-        If Newton's method finds no orbit near the state.
+        If Newton's method finds no orbit near the state, or one that repeats after a divisor of the
+        period.
     """
     family, value, span = family_of(oscillator, damper, frequency, parameter, span)
     orbit = _checked_orbit(oscillator, damper, frequency, state, period, STROBE)
+    if orbit.repeats_sooner():
+        raise ArithmeticError(
+            f"period = {period}: the orbit near the state repeats after a divisor of {period}; give "
+            "this as the period, or a state closer to the orbit"
+        )
     branch = follow_branch(family, orbit, value, span)
     made = describe(oscillator, damper) | {
         "frequency": float(frequency),
