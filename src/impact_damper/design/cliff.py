@@ -21,9 +21,10 @@ from impact_damper.system.families import family_of
 # Bisections of each edge, and number of frequencies, those of least share, at which it is sought.
 BISECTIONS, CRITICAL = 4, 2
 # Lives of chaotic motions: gaps, divided by that of the cliff; starts at each; longest run and time
-# before which a motion may still be on its way, in forcing periods.
+# before which a motion may still be on its way, in forcing periods; least number of motions that
+# last longer than this time.
 LIFE_GAPS = (0.99, 1.02, 1.06, 1.12, 1.2)
-LIFE_STARTS, LONGEST, LEAD = 32, 3000, 200
+LIFE_STARTS, LONGEST, LEAD, FEWEST = 32, 3000, 200, 5
 # Least and greatest gap and force of branches of quiet orbits, divided by the nominal values.
 GAP_SPAN, FORCE_SPAN = (0.4, 2.0), (0.1, 10.0)
 
@@ -114,8 +115,9 @@ class Lives(NamedTuple):
         Share of starts that end quiet within LONGEST periods, with its interval.
     rate : numpy.ndarray, shape (k, 3)
         Rate at which motions become quiet after LEAD periods, per forcing period, with its
-        interval. A rate whose interval begins at 0 is that of an attractor, or of a transient
-        whose mean life exceeds the inverse of the upper end.
+        interval; NaN where fewer than FEWEST last so long. A rate whose interval begins at 0 is
+        that of an attractor, or of a transient whose mean life exceeds the inverse of the upper
+        end.
     """
 
     gaps: np.ndarray
@@ -135,7 +137,11 @@ def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
     lives = np.where(quiet, records["periods_run"], LONGEST + 1)
     counts = quiet.sum(axis=1)
     share = np.column_stack([counts / LIFE_STARTS, interval(counts, LIFE_STARTS)])
-    return Lives(gaps, share, np.array([escape_rate(row, LONGEST, LEAD) for row in lives]))
+    rates = [
+        escape_rate(row, LONGEST, LEAD) if np.sum(row > LEAD) >= FEWEST else np.full(3, np.nan)
+        for row in lives
+    ]
+    return Lives(gaps, share, np.array(rates))
 
 
 class QuietBranch(NamedTuple):

@@ -117,8 +117,8 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     orbit = _checked_orbit(oscillator, damper, frequency, state, period, STROBE)
     if orbit.repeats_sooner():
         raise ArithmeticError(
-            f"period = {period}: the orbit near the state repeats after a divisor of {period}; give "
-            "this as the period, or a state closer to the orbit"
+            f"period = {period}: the orbit near the state repeats after a divisor of {period}; "
+            "give this as the period, or a state closer to the orbit"
         )
     branch = follow_branch(family, orbit, value, span)
     made = describe(oscillator, damper) | {
