@@ -38,12 +38,16 @@ wildcard_constraints:
 
 
 def checked(config):
-    """Return the configuration with its keys sorted, or raise an error that lists its faults."""
+    """Return the configuration with its keys sorted, or raise an error that lists its faults.
+
+    Jobs are processes of their own, in which the check is not repeated: it takes half a second.
+    """
     config = without_left_out(config)
     try:
-        for path in workflow.configfiles:
-            check_file(path)
-        check_configuration(config)
+        if workflow.is_main_process:
+            for path in workflow.configfiles:
+                check_file(path)
+            check_configuration(config)
     except ConfigurationError as error:
         raise WorkflowError(f"The configuration cannot be run.\n{error}") from None
     # Snakemake compares parameters as text, in which the order of keys counts.

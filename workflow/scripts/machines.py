@@ -1,32 +1,27 @@
-"""A machine with its damper in SI units: over the frequency, and at one over the gap."""
+"""An impact damper designed for a machine; finished steps are kept until the whole is saved."""
 
-import numpy as np
+import shutil
+from pathlib import Path
 
 from impact_damper.workflow.job import Job
+from impact_damper.machine.hertz import HertzContact, Material
 from impact_damper.machine.machine import Machine
-from impact_damper.machine.units import si_value
-from impact_damper.stages.machines import machine_study
+from impact_damper.stages.machines import design_damper
 
 job = Job(snakemake)
-
-
-def grid(key, quantity):
-    """Evenly spaced values between two that may be texts with units."""
-    first, last, count = job[key]
-    return np.linspace(si_value(key, first, quantity), si_value(key, last, quantity), count)
-
-
-machine = Machine(**job["machine"])
+steps = Path(job.output).with_suffix("") / "steps"
+ball = job["contact"] and dict(job["contact"])
+kept = ("band", "frequencies", "candidates", "starts", "share", "tolerances", "displacement_limit")
 job.save(
-    machine_study(
-        machine,
-        machine.damper(**job["damper"]),
-        grid("frequencies", "frequency"),
-        si_value("frequency", job["frequency"], "frequency"),
-        grid("gaps", "clearance"),
-        starts=job["starts"],
+    design_damper(
+        Machine(**job["machine"]),
+        **job["damper"],
+        **{key: job[key] for key in kept},
+        contact=HertzContact(ball.pop("radius"), Material(**ball)) if ball else None,
         seed=job["seed"],
         settling=job.settling,
+        folder=steps,
         **job.running,
     )
 )
+shutil.rmtree(steps)

@@ -1,20 +1,21 @@
-"""Machines with dampers in SI units: each value a number, or text with units such as "12 kg"."""
+"""Machines for which a damper is designed, in SI units: numbers, or texts such as "12 kg"."""
 
+import re
 from dataclasses import MISSING, fields
 from typing import Annotated, Any, ClassVar
 
 from pydantic import create_model
 from pydantic_core import core_schema
 
-from impact_damper.machine.dampers import MachineDamper
+from impact_damper.machine.hertz import Material
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import QUANTITIES, check_si, si_value
-from impact_damper.system.bounds import plain
-from impact_damper.workflow.models.messages import dotted, problem
+from impact_damper.system.bounds import RESTITUTION_RANGE, plain
+from impact_damper.workflow.models.messages import dotted, missing, problem
 from impact_damper.workflow.models.section import Section
 from impact_damper.workflow.models.settings import starts_of
 from impact_damper.workflow.models.system import points_of
-from impact_damper.workflow.models.values import Allowed
+from impact_damper.workflow.models.values import Allowed, count, number
 
 
 class AllowedQuantity(Allowed):
@@ -95,14 +96,9 @@ def span_of(quantity, meaning):
 Damper = create_model(
     "Damper",
     __base__=Given,
-    **fields_of(
-        MachineDamper,
-        mass="mass of the loose mass",
-        gap="full play of the loose mass, from wall to wall",
-        restitution="coefficient of restitution",
-        contact_stiffness="stiffness of the contact",
-    )
-    | {"contact_stiffness": quantity_of("stiffness", "stiffness of the contact", above=0)},
+    mass=quantity_of("mass", "loose mass, at most the mass of the machine", above=0),
+    restitution=quantity_of("number", "coefficient of restitution", **RESTITUTION_RANGE),
+    contact_stiffness=quantity_of("stiffness", "stiffness of the contact", above=0),
 )
 Body = create_model(
     "Body",
@@ -122,35 +118,100 @@ Body = create_model(
 )
 
 
+def share_of(what, meaning="largest relative deviation of"):
+    """Optional field of a relative deviation."""
+    return quantity_of("number", f"{meaning} {what}", least=0, most=0.9), None
+
+
+Tolerances = create_model(
+    "Tolerances",
+    __base__=Given,
+    gap=share_of("the gap"),
+    restitution=share_of("the restitution"),
+    contact_stiffness=share_of("the contact stiffness"),
+    stiffness=share_of("both stiffnesses of the spring"),
+    damping=share_of("the damping of the machine"),
+    force=share_of("the excitation"),
+)
+Ball = create_model(
+    "Ball",
+    __base__=Given,
+    radius=(quantity_of("displacement", "radius of the loose mass at the contact", above=0), None),
+    **{
+        name: (kind if isinstance(kind, tuple) else (kind, None))
+        for name, kind in fields_of(
+            Material,
+            youngs_modulus="of loose mass and walls",
+            poissons_ratio="of loose mass and walls",
+            yield_strength="in tension; without it nothing is said about yielding",
+        ).items()
+    },
+)
+
+
 class MachineEntry(Section):
-    """Machines with dampers, in SI units: numbers, or texts with units."""
+    """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
 
     machine: Body
     damper: Damper
-    frequencies: span_of("frequency", "forcing frequency of the response")
-    frequency: quantity_of("frequency", "forcing frequency at which the gap is varied", above=0)
-    gaps: span_of("clearance", "gap, the full play, that is varied")
-    starts: starts_of("at each frequency and at each gap")
+    contact: Ball = Ball()
+    band: span_of("frequency", "forcing frequency of the band")
+    candidates: count("gaps that are compared", least=4, most=1000)
+    starts: starts_of("at each gap and frequency")
+    share: number("share of the starts that must end quiet", least=0.5, most=0.999)
+    tolerances: Tolerances
+    displacement_limit: (
+        quantity_of("displacement", "largest displacement of a quiet motion", above=0) | None
+    ) = None
 
-    counts: ClassVar = ("frequencies.points", "starts")
+    counts: ClassVar = ("band.points", "candidates", "starts")
 
     def contradictions(self, path, config):
+        ball = self.contact.values()
+        for key in ("radius", "youngs_modulus", "poissons_ratio"):
+            if ball and key not in ball:
+                yield missing((*path, "contact", key), "needed for a contact after Hertz")
         try:
             where = (*path, "machine")
             machine = Machine(**self.machine.values())
             machine.oscillator()
-            where = (*path, "damper")
-            damper = self.damper.values()
-            machine.damper(**damper)
-            for end in ("first", "last"):
-                where = (*path, "gaps", end)
-                machine.damper(**damper | {"gap": getattr(self.gaps, end)})
-                where = (*path, "frequencies")
-                machine.check_frequency(end, getattr(self.frequencies, end))
             where = path
-            machine.check_frequency("frequency", self.frequency)
+            self._task(machine)
         except (TypeError, ValueError) as error:
-            yield f"{dotted(where)}.{error}"
+            yield f"{dotted(where)}.{_in_entry(str(error))}"
+
+    def _task(self, machine):
+        """Return the task of the design; its module imports SciPy, so it is imported here."""
+        from impact_damper.design.task import Task
+
+        return Task(
+            machine=machine,
+            **self.damper.values(),
+            band=(self.band.first, self.band.last),
+            frequencies=self.band.points,
+            candidates=self.candidates,
+            starts=self.starts,
+            share=self.share,
+            tolerances=self.tolerances.values(),
+            displacement_limit=self.displacement_limit,
+        )
+
+
+# Keys of an entry, by the names of `Task` with which a message begins.
+PLACES = (
+    (r"(mass|restitution|contact_stiffness)\b", r"damper.\1"),
+    (r"band\[0\]", "band.first"),
+    (r"band\[1\]", "band.last"),
+    (r"frequencies\b", "band.points"),
+    (r"tolerances\['(\w+)'\]", r"tolerances.\1"),
+)
+
+
+def _in_entry(message):
+    """Return a message of `Task` with the key of the entry in place of the name of the argument."""
+    for pattern, key in PLACES:
+        message = re.sub(f"^{pattern}", key, message)
+    return message
 
 
 SECTIONS = {"machines": MachineEntry}

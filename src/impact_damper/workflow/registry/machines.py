@@ -1,14 +1,17 @@
-"""Chapter of the report: machines in SI units, beside the paper."""
+"""Chapter of the report: dampers designed for machines in SI units, beside the paper."""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
-from impact_damper.workflow.registry.values import grid, settling
+from impact_damper.workflow.registry.values import settling
 
 
 def machines(config, name):
-    entry = config["machines"][name]
-    return {key: entry[key] for key in ("machine", "damper", "frequency", "starts")} | {
-        "frequencies": grid(entry["frequencies"], entry["frequencies"]["points"]),
-        "gaps": grid(entry["gaps"], entry["gaps"]["points"]),
+    entry, band = config["machines"][name], config["machines"][name]["band"]
+    kept = ("machine", "damper", "candidates", "starts", "share", "tolerances")
+    return {key: entry[key] for key in kept} | {
+        "contact": entry.get("contact"),
+        "displacement_limit": entry.get("displacement_limit"),
+        "band": [band["first"], band["last"]],
+        "frequencies": band["points"],
         "seed": config["seed"],
         "settling": settling(config),
     }
