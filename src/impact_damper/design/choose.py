@@ -88,6 +88,8 @@ class Comparison(NamedTuple):
             first, last = _longest_run(self.quiet)
             gap = np.sqrt(self.gaps[first] * self.gaps[last])
             return Choice(_rounded(gap), "needs_tolerance")
+        if len(nominal) == 0:  # the gaps compared span less than the tolerance
+            nominal, scores = dense, sizes
         return Choice(_middle(nominal, scores), "least_worst")
 
 

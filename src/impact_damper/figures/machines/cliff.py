@@ -1,0 +1,128 @@
+"""Quiet share and displacement against the gap: the cliff, and the gap to build beside it."""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.figures.machines.looks import (
+    CHOSEN,
+    CLIFF,
+    STAR,
+    TOLERATED,
+    decades,
+    limit_line,
+    plot_sizes,
+)
+from impact_damper.figures.style import BLUE, GREY, figure, legend, style
+
+CAPTION = """
+Against the gap (full play): above, the least share of random starts over the band that end quiet
+(coarse comparison: circles; candidates: squares with 95 % intervals); below, the largest
+displacement of any motion over the band. Star: the gap of the smallest stable quiet orbit, which
+few starts may reach. Line: the exact quiet orbit at one frequency, full where it is stable.
+"""
+COARSE = {
+    "color": GREY,
+    "marker": "o",
+    "markersize": 3.0,
+    "linestyle": "-",
+    "linewidth": 0.6,
+    "markerfacecolor": "none",
+    "label": "coarse comparison",
+}
+CANDIDATES = {
+    "color": BLUE,
+    "marker": "s",
+    "markersize": 3.2,
+    "linestyle": "-",
+    "linewidth": 0.8,
+    "label": "candidates",
+}
+ORBIT = {"color": BLUE, "linewidth": 1.0, "label": "quiet orbit, stable"}
+UNSTABLE = {
+    "color": BLUE,
+    "linewidth": 0.8,
+    "linestyle": (0, (1, 1.5)),
+    "label": "quiet orbit, unstable",
+}
+ASKED = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (1, 1.2)), "label": "share asked for"}
+BEST = STAR | {"label": "smallest stable quiet orbit"}
+
+
+@style()
+def draw_cliff(data):
+    """Return the figure of the dataset of `stages.machines.design_damper`."""
+    drawn = figure("single", 4.6)
+    upper, lower = drawn.subplots(2, sharex=True, height_ratios=(2, 3))
+    share_panel(upper, data)
+    size_panel(lower, data)
+    lower.set_xlabel("Gap, full play (mm)")
+    legend(drawn, 2)
+    return drawn
+
+
+def share_panel(axes, data):
+    """Draw the least share of quiet starts over the band against the gap."""
+    _mark_gap(axes, data)
+    axes.plot(data["coarse_gap"], data["coarse_share"], **COARSE)
+    shares = data["start_quiet_share"].values
+    rows, least = np.arange(len(shares)), shares.argmin(axis=1)
+    share, ends = shares[rows, least], data["start_quiet_interval"].values[rows, least]
+    bars = np.clip(np.abs(ends.T - share), 0, None)
+    axes.errorbar(data["candidate_gap"], share, bars, elinewidth=0.8, capsize=1.5, **CANDIDATES)
+    axes.axhline(parameters_of(data)["share"], **ASKED)
+    axes.set(ylim=(-0.02, 1.04), ylabel="Share of quiet starts")
+
+
+def size_panel(axes, data):
+    """Draw the largest displacement over the band, and the quiet orbit, against the gap."""
+    _mark_gap(axes, data)
+    plot_sizes(axes, data["coarse_gap"].values, data["coarse_displacement"].values, **COARSE)
+    worst = data["worst_displacement"].values.max(axis=1)
+    plot_sizes(axes, data["candidate_gap"].values, worst, **CANDIDATES)
+    for gap, size, stable in stable_runs(data, "gap"):
+        axes.plot(gap, size, **(ORBIT if stable else UNSTABLE))
+    if int(data["best_orbit_status"]) != flag("best_orbit_status", "absent"):
+        axes.plot(data["best_orbit_gap"], data["best_orbit_displacement"], **BEST)
+    limit_line(axes, data)
+    gaps = data["coarse_gap"].values
+    axes.set(xlim=(0.97 * gaps[0], 1.03 * gaps[-1]), ylabel="Largest displacement (mm)")
+    decades(axes)
+    axes.set_xscale("log")
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in "235" else "")
+
+
+def stable_runs(data, parameter):
+    """Yield the parts of a branch of quiet orbits on which all are stable, or all unstable.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+    parameter : str
+        "gap" or "force".
+
+    Yields
+    ------
+    (array, array, bool)
+        Gap (mm) or multiple of the force, largest displacement (mm), and whether stable.
+    """
+    names = (f"{parameter}_of_orbit", f"displacement_by_{parameter}", f"modulus_by_{parameter}")
+    value, size, modulus = (data[name].values for name in names)
+    stable = modulus < 1
+    edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
+    for first, last in zip(edges, edges[1:], strict=False):
+        if last > first:
+            # includes the first orbit of the next part, so that no gap is drawn between them
+            part = slice(first, last + 1)
+            yield value[part], size[part], bool(stable[first])
+
+
+def _mark_gap(axes, data):
+    """Mark the chosen gap, its tolerance, and the ends of the quiet gaps."""
+    gap = float(data["design_gap"])
+    tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
+    axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
+    axes.axvline(gap, **CHOSEN)
+    found = data["cliff_status"].values == flag("cliff_status", "found")
+    for edge in data["cliff_gap"].values[found]:
+        axes.axvline(edge, **CLIFF)

@@ -1,0 +1,59 @@
+"""This damper and tuned absorbers of the same mass, over frequency and over excitation."""
+
+import numpy as np
+
+from impact_damper.figures.machines.looks import (
+    BARE,
+    DAMPED,
+    NONLINEAR,
+    TUNED,
+    decades,
+    finite,
+    plot_sizes,
+)
+from impact_damper.figures.style import figure, legend, style
+
+CAPTION = """
+Largest displacement of any motion found. Above: at the nominal excitation, against the forcing
+frequency. Below: the largest over the band, against the excitation. Bands: the absorber's springs
+10 % softer and stiffer than designed.
+"""
+LOOKS = {"tuned": TUNED, "nonlinear": NONLINEAR}
+OURS = DAMPED | {"marker": "s", "markersize": 3.0, "zorder": 3}
+
+
+@style()
+def draw_competitors(data):
+    """Return the figure of the dataset of `stages.machines.design_damper`."""
+    drawn = figure("single", 4.8)
+    upper, lower = drawn.subplots(2)
+    sizes = data["competitor_displacement"]
+    here = sizes.sel(force_share=1.0)
+    worst = sizes.max("frequency", skipna=False)
+    _panel(upper, here.transpose("competitor", "detuning", "frequency"), data["frequency"].values)
+    _panel(lower, worst.transpose("competitor", "detuning", "force_share"), data["force_share"])
+    plot_sizes(upper, data["frequency"].values, data["reached_displacement"].values, **OURS)
+    ours = data["force_map_displacement"].max("operating_frequency")
+    plot_sizes(lower, data["force_share"].values, ours.values, **OURS)
+    upper.set_xlabel("Forcing frequency (Hz)")
+    lower.set(xlabel="Excitation / nominal", xscale="log", xticks=data["force_share"].values[::2])
+    lower.xaxis.set_major_formatter("{x:g}")
+    lower.xaxis.set_minor_formatter("")
+    for axes in (upper, lower):
+        axes.set_ylabel("Largest displacement (mm)")
+        decades(axes)
+    legend(drawn, 2)
+    return drawn
+
+
+def _panel(axes, sizes, x):
+    """Draw the bare machine and each absorber, with a band between its detuned versions."""
+    x = np.asarray(x)
+    plot_sizes(axes, x, sizes.sel(competitor="bare", detuning=0.0).values, **BARE)
+    for name, look in LOOKS.items():
+        each = sizes.sel(competitor=name)
+        if not np.isfinite(each.values).any():
+            continue
+        low, high = finite(each.min("detuning")), finite(each.max("detuning"))
+        axes.fill_between(x, low, high, color=look["color"], alpha=0.2, linewidth=0)
+        plot_sizes(axes, x, each.sel(detuning=0.0).values, **look)

@@ -1,0 +1,73 @@
+"""Displacement against forcing frequency, without and with the damper that was designed."""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag, is_settled
+from impact_damper.figures.branches import runs, runs_of
+from impact_damper.figures.machines.looks import BARE, DAMPED, decades, limit_line, plot_sizes
+from impact_damper.figures.style import BLUE, GREY, ROLES, figure, legend, style
+
+CAPTION = """
+Largest displacement of the machine at each forcing frequency. Without the damper: exact periodic
+orbits, stable (full) and unstable (dashed). With the damper: motions that random starts reach
+(circles if periodic, dots if not), exact orbits through them, and the largest motion that any start
+reaches, with the 95th percentile of its peaks where the peaks differ.
+"""
+BARE_STABLE = BARE | {"label": "without damper, stable"}
+BARE_UNSTABLE = BARE | {
+    "color": GREY,
+    "linestyle": (0, (4, 2)),
+    "label": "without damper, unstable",
+}
+STABLE = DAMPED | {"linewidth": 1.0, "label": "with damper, stable orbit"}
+UNSTABLE = STABLE | {"linestyle": (0, (1, 1.5)), "label": "with damper, unstable orbit"}
+SETTLED = ROLES["period_1"] | {"label": "with damper, periodic", "markersize": 2.6}
+OTHERS = ROLES["chaotic"] | {"label": "with damper, not periodic", "markersize": 3.0}
+REACHED = {
+    "color": BLUE,
+    "marker": "s",
+    "markersize": 3.2,
+    "markerfacecolor": "none",
+    "linestyle": "none",
+    "label": "largest reached",
+}
+HIGH = {
+    "color": BLUE,
+    "marker": "_",
+    "markersize": 6,
+    "linestyle": "none",
+    "label": "95 % of its peaks below",
+}
+
+
+@style()
+def draw_response(data):
+    """Return the figure of the dataset of `stages.machines.design_damper`."""
+    drawn = figure("single", 3.5)
+    response_panel(drawn.subplots(), data)
+    legend(drawn, 2)
+    return drawn
+
+
+def response_panel(axes, data):
+    """Draw displacements without and with the damper against the forcing frequency."""
+    names = ("bare_branch", "bare_frequency", "bare_displacement", "bare_stability")
+    number, *rest = (data[name].values for name in names)
+    for value, size, stable in runs_of(np.unique(number), number, *rest):
+        axes.plot(value, size, **(BARE_STABLE if stable else BARE_UNSTABLE))
+    for value, size, stable in runs(data, lambda period: True):
+        axes.plot(value, size, **(STABLE if stable else UNSTABLE))
+    size = data["maximum_displacement"].values
+    settled = is_settled(data)
+    shown = np.isfinite(size) & (data["outcome"].values != flag("outcome", "absent"))
+    shown &= data["share"].values > 0
+    for chosen, role in ((shown & settled, SETTLED), (shown & ~settled, OTHERS)):
+        row, column = chosen.nonzero()
+        axes.plot(data["frequency"].values[row], size[row, column], **role)
+    frequency, largest = data["frequency"].values, data["reached_displacement"].values
+    plot_sizes(axes, frequency, largest, **REACHED)
+    high = data["motion_peak_high"].values
+    axes.plot(frequency, np.where(high < 0.99 * largest, high, np.nan), **HIGH)
+    limit_line(axes, data)
+    axes.set(xlabel="Forcing frequency (Hz)", ylabel="Largest displacement (mm)")
+    decades(axes)

@@ -1,0 +1,36 @@
+"""Transients without and with the damper: swept sine up and down, and ring-down."""
+
+from impact_damper.figures.machines.looks import BARE, DAMPED, decades, limit_line
+from impact_damper.figures.style import figure, legend, style
+
+CAPTION = """
+Largest displacement in each period. Above and middle: the forcing frequency is swept up and down
+through the band, at a constant rate. Below: ring-down without excitation, from a displacement of
+the machine at rest.
+"""
+LOOKS = {"bare": BARE, "damped": DAMPED}
+
+
+@style()
+def draw_transients(data):
+    """Return the figure of the dataset of `stages.machines.design_damper`."""
+    drawn = figure("single", 5.6)
+    panels = drawn.subplots(3)
+    for axes, direction in zip(panels, ("up", "down"), strict=False):
+        swept = data.sel(direction=direction)
+        for equipment, look in LOOKS.items():
+            size = swept["sweep_envelope"].sel(equipment=equipment)
+            axes.plot(swept["sweep_frequency"], size, **look | {"linewidth": 0.8})
+        limit_line(axes, data)
+        axes.set(xlabel=f"Forcing frequency, swept {direction} (Hz)")
+        if direction == "down":
+            axes.invert_xaxis()
+    for equipment, look in LOOKS.items():
+        rung = data.sel(equipment=equipment)
+        panels[2].plot(rung["ring_time"], rung["ring_envelope"], **look)
+    panels[2].set(xlabel="Time of the ring-down (s)")
+    for axes in panels:
+        axes.set_ylabel("Displacement (mm)")
+        decades(axes)
+    legend(drawn, 2)
+    return drawn
