@@ -1,52 +1,53 @@
-"""Table of machines in SI units; the gap is the full play of the loose mass."""
+"""Table of the dampers designed for machines; the gap is the full play of the loose mass."""
 
 import json
 
 import numpy as np
 import pandas as pd
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import parameters_of
+from impact_damper.data.variables import VARIABLES
+
+# Choices of the gap, in words.
+CHOICES = {
+    "robust": "build it",
+    "needs_tolerance": "build it, with a closer gap",
+    "least_worst": "do not build it",
+}
 
 
 def machines(datasets) -> pd.DataFrame:
-    """For each machine: largest motions without and with damper, best gap at one frequency."""
-    rows = []
-    for name, data in datasets.get("machines", {}).items():
-        made = json.loads(data.attrs["machine"])
-        bare, sizes = data["bare_displacement"].values, data["maximum_displacement"].values
-        # motions that escape have no size
-        size = np.where(np.isfinite(sizes), sizes, 0).max(axis=1)
-        escaped = data["run_outcome"].values == flag("run_outcome", "escaped")
-        peak, place = int(np.argmax(bare)), int(np.argmax(size))
-        share, largest = _near_optimum(data)
-        rows.append(
-            {
-                "machine": name,
-                "mass of the loose mass, kg": made["damper_mass"],
-                "gap (full play), mm": 1e3 * made["gap"],
-                "largest without damper, mm": bare[peak],
-                "at, Hz": data["bare_frequency"].values[peak],
-                "largest with damper, mm": size[place],
-                "at, Hz (with damper)": data["frequency"].values[place],
-                "share of starts that escape": escaped.mean(),
-                "gap varied at, Hz": float(data["swept_frequency"]),
-                "best gap (full play)": data.attrs["optimum"],
-                "starts that end quiet near it": share,
-                "largest near it, mm": largest,
-            }
-        )
-    return pd.DataFrame(rows)
+    """For each machine: what to build, what that does, how sure it is, and the best alternative."""
+    return pd.DataFrame(
+        [_row(name, data) for name, data in datasets.get("machines", {}).items()]
+    )
 
 
-def _near_optimum(data):
-    """Return the share of starts that reach the quiet motion, and the largest size of all motions.
+def _row(name, data):
+    made, asked = json.loads(data.attrs["machine"]), parameters_of(data)
+    sizes = data["competitor_displacement"].sel(force_share=1.0, detuning=0.0).max("frequency")
+    best = np.fmin(*(float(sizes.sel(competitor=each)) for each in ("tuned", "nonlinear")))
+    tolerance = asked["tolerances"].get("gap", 0.0)
+    return {
+        "machine": name,
+        "loose mass, kg": made["damper_mass"],
+        "band, Hz": " to ".join(f"{end:g}" for end in asked["band"]),
+        "gap (full play), mm": f"{float(data['design_gap']):.3g} +- {tolerance:.0%}",
+        "advice": CHOICES[named(data, "design_choice")],
+        "largest without damper, mm": float(data["balance_displacement"].max()),
+        "largest with it, mm": escape_or(data["reached_displacement"].max()),
+        "least share of quiet starts (unseen)": float(data["corner_share"][:, 0].min()),
+        "best tuned absorber, mm": best,
+    }
 
-    Both are taken at the gap of the sweep nearest to the best gap. Words stand in their place if
-    there is no best gap, and in place of the size if a motion escapes.
-    """
-    best = float(data["optimum_gap"])
-    if np.isnan(best):
-        return "no quiet motion", "no quiet motion"
-    near = int(np.argmin(np.abs(data["gap"].values - best)))
-    largest = data["largest_displacement"].values[near]
-    return data["quiet_share"].values[near], "escapes" if np.isinf(largest) else largest
+
+def named(data, name) -> str:
+    """Return the meaning of a flag of a dataset."""
+    flags = VARIABLES[name].flags
+    return next(meaning for meaning, value in flags.items() if value == int(data[name]))
+
+
+def escape_or(size):
+    """Return a size as a number, or the word for a motion that escapes and has none."""
+    size = float(size)
+    return "escapes" if np.isinf(size) else size

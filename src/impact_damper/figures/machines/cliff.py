@@ -18,7 +18,7 @@ CAPTION = """
 Against the gap (full play): above, the least share of random starts over the band that end quiet
 (coarse comparison: circles; candidates: squares with 95 % intervals); below, the largest
 displacement of any motion over the band. Star: the gap of the smallest stable quiet orbit, which
-few starts may reach. Line: the exact quiet orbit at one frequency, full where it is stable.
+few starts may reach. Blue line: the exact quiet orbit at the frequency of the cliff.
 """
 COARSE = {
     "color": GREY,
@@ -84,12 +84,18 @@ def size_panel(axes, data):
     if int(data["best_orbit_status"]) != flag("best_orbit_status", "absent"):
         axes.plot(data["best_orbit_gap"], data["best_orbit_displacement"], **BEST)
     limit_line(axes, data)
-    gaps = data["coarse_gap"].values
-    axes.set(xlim=(0.97 * gaps[0], 1.03 * gaps[-1]), ylabel="Largest displacement (mm)")
+    axes.set(xlim=_span(data), ylabel="Largest displacement (mm)")
     decades(axes)
-    axes.set_xscale("log")
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.xaxis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in "235" else "")
+    decades(axes, "x")
+
+
+def _span(data):
+    """Return the gaps between which the candidates, the best orbit and the edges lie."""
+    names = ("candidate_gap", "best_orbit_gap", "cliff_gap", "cliff_beyond", "stability_gap")
+    gaps = np.concatenate([np.ravel(data[name].values) for name in names])
+    coarse = data["coarse_gap"].values
+    low, high = 0.85 * np.nanmin(gaps), 1.15 * np.nanmax(gaps)
+    return max(low, 0.97 * coarse[0]), min(high, 1.03 * coarse[-1])
 
 
 def stable_runs(data, parameter):

@@ -1,6 +1,7 @@
 """This damper and tuned absorbers of the same mass, over frequency and over excitation."""
 
 import numpy as np
+from matplotlib.ticker import NullLocator
 
 from impact_damper.figures.machines.looks import (
     BARE,
@@ -18,6 +19,7 @@ Largest displacement of any motion found. Above: at the nominal excitation, agai
 frequency. Below: the largest over the band, against the excitation. Bands: the absorber's springs
 10 % softer and stiffer than designed.
 """
+DETUNED = "detuned by 10 %"
 LOOKS = {"tuned": TUNED, "nonlinear": NONLINEAR}
 OURS = DAMPED | {"marker": "s", "markersize": 3.0, "zorder": 3}
 
@@ -38,7 +40,7 @@ def draw_competitors(data):
     upper.set_xlabel("Forcing frequency (Hz)")
     lower.set(xlabel="Excitation / nominal", xscale="log", xticks=data["force_share"].values[::2])
     lower.xaxis.set_major_formatter("{x:g}")
-    lower.xaxis.set_minor_formatter("")
+    lower.xaxis.set_minor_locator(NullLocator())
     for axes in (upper, lower):
         axes.set_ylabel("Largest displacement (mm)")
         decades(axes)
@@ -55,5 +57,5 @@ def _panel(axes, sizes, x):
         if not np.isfinite(each.values).any():
             continue
         low, high = finite(each.min("detuning")), finite(each.max("detuning"))
-        axes.fill_between(x, low, high, color=look["color"], alpha=0.2, linewidth=0)
+        axes.fill_between(x, low, high, color=look["color"], alpha=0.2, linewidth=0, label=DETUNED)
         plot_sizes(axes, x, each.sel(detuning=0.0).values, **look)

@@ -57,7 +57,7 @@ def finite(values):
 def plot_sizes(axes, x, sizes, **look):
     """Plot sizes of motions; one that escapes has no size and is marked at the upper edge."""
     sizes = np.asarray(sizes, float)
-    axes.plot(x, finite(sizes), **look)
+    plot_if_any(axes, x, finite(sizes), **look)
     escaped = np.isposinf(sizes)
     if escaped.any():
         across = axes.get_xaxis_transform()
@@ -69,12 +69,23 @@ def limit_line(axes, data):
     axes.axhline(float(data["displacement_limit"]), **LIMIT)
 
 
-def decades(axes):
-    """Set a logarithmic scale of displacements whose labels are plain numbers."""
-    axes.set_yscale("log")
-    axes.yaxis.set_major_formatter("{x:g}")
-    low, high = axes.get_ylim()
-    if high < 20 * low:  # a decade at most: name numbers between the powers of ten too
-        axes.yaxis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in "25" else "")
-    else:
-        axes.yaxis.set_minor_formatter(lambda x, _: "")
+def decades(axes, name="y"):
+    """Make an axis logarithmic, with plain numbers as labels, as many as there is room for."""
+    axes.set(**{f"{name}scale": "log"})
+    axis = getattr(axes, f"{name}axis")
+    low, high = axis.get_view_interval()
+    name_numbers(axis, low, high)
+
+
+def name_numbers(axis, low, high):
+    """Label a logarithmic axis from `low` to `high` with plain numbers."""
+    ratio = high / low
+    digits = "123456789" if ratio < 3 else "1235" if ratio < 12 else "12" if ratio < 60 else "1"
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in digits else "")
+
+
+def plot_if_any(axes, x, y, **look):
+    """Plot points, with an entry in the legend only if there are any."""
+    if np.isfinite(np.asarray(y, float)).any():
+        axes.plot(x, y, **look)

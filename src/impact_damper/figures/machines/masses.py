@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines.looks import STAR, decades, limit_line, plot_sizes
 from impact_damper.figures.style import BLACK, BLUE, figure, legend, style
 
@@ -14,6 +15,7 @@ front). The numbers are the gaps in mm.
 FRONT = {"color": BLUE, "marker": "o", "markersize": 5, "linestyle": "none"}
 FRONT |= {"label": "on the Pareto front"}
 OTHERS = FRONT | {"markerfacecolor": "none", "label": "bettered by another mass"}
+SMALL = {"textcoords": "offset points", "fontsize": 7}
 DESIGN = STAR | {"label": "this design", "markersize": 4.5, "color": BLACK}
 
 
@@ -23,7 +25,7 @@ def draw_masses(data):
     drawn = figure("single", 3.9)
     panels = drawn.subplots(2, sharex=True)
     mass, best = data["other_mass"].values, data["other_best"].values.astype(bool)
-    here = np.isclose(mass, data.attrs["mass"]) if "mass" in data.attrs else mass < 0
+    here = np.isclose(mass, parameters_of(data)["mass"])
     for axes, name in zip(panels, ("other_displacement", "other_force"), strict=True):
         values = data[name].values
         for chosen, look in ((best, FRONT), (~best, OTHERS)):
@@ -33,9 +35,14 @@ def draw_masses(data):
     panels[0].set_ylabel("Largest displacement (mm)")
     panels[1].set(xlabel="Loose mass (kg)", ylabel="Largest contact force (N)")
     for axes in panels:
-        decades(axes)
+        axes.set_yscale("log")
         axes.margins(0.12)
-    for x, size, gap in zip(mass, data["other_displacement"].values, data["other_gap"].values):
-        panels[0].annotate(f"{gap:.3g}", (x, size), (0, 6), textcoords="offset points")
+        low, high = axes.get_ylim()
+        axes.set_ylim(low / 1.1, high * 1.25)
+        decades(axes)
+    rows = zip(mass, data["other_displacement"].values, data["other_gap"].values, strict=True)
+    for x, size, gap in rows:
+        if np.isfinite(size):
+            panels[0].annotate(f"{gap:.3g}", (x, size), (0, 5), ha="center", **SMALL)
     legend(drawn, 2)
     return drawn

@@ -2,36 +2,47 @@
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import NullLocator
 
-from impact_damper.data.datasets import parameters_of
-from impact_damper.figures.machines.looks import STAR, finite
-from impact_damper.figures.maps import COLOURS, edges
-from impact_damper.figures.style import BLACK, GREY, PALE, WHITE, figure, style
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.figures.machines.looks import STAR, finite, name_numbers
+from impact_damper.figures.style import BLACK, GREY, PALE, WHITE, figure, legend, style
 
 CAPTION = """
 Above: share of random starts that end quiet. Below: largest displacement of any of their motions;
-hatched where one escapes. There are 12 starts in a cell, too few for a claim: the maps show where
-the damper works, and the shares that count are those over the gap.
+hatched where one escapes. Light is good. There are 12 starts in a cell, too few for a claim: the
+maps show where the damper works, and the shares that count are those over the gap. Lines: edges on
+which the exact quiet orbit ceases to be stable, by a fold, by losing its symmetry, or by turning to
+a torus.
 """
 FORCES = CAPTION + "Dashed: the nominal excitation, with which the limit of a quiet motion grows."
 DAMPERS = CAPTION + "Star: the gap and the restitution of the design."
 NOMINAL = STAR | {"markeredgecolor": WHITE, "markersize": 9}
-LINE = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (4, 3))}
+LINE = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (6, 4)), "label": "nominal excitation"}
+HALO = [withStroke(linewidth=2.6, foreground=WHITE)]
+EDGES = {
+    "fold": {"linestyle": "-", "label": "fold"},
+    "symmetry_breaking": {"linestyle": (0, (4, 1.5)), "label": "loss of symmetry"},
+    "neimark_sacker": {"linestyle": (0, (1, 1)), "label": "torus"},
+}
 
 
 @style()
 def draw_forces(data):
     """Return the maps over forcing frequency and excitation."""
     frequency, force = data["operating_frequency"].values, data["force_share"].values
-    ends = _edges(frequency), edges(force)
+    ends = _edges(frequency), np.exp(_edges(np.log(force)))
     drawn, panels = _maps(*ends, data["force_map_share"].T, data["force_map_displacement"].T)
     for axes in panels:
         axes.axhline(1.0, **LINE)
+        _draw_edges(axes, data, "force", "frequency", "share")
         axes.set(yscale="log", ylabel="Excitation / nominal", yticks=force[::2])
         axes.yaxis.set_major_formatter("{x:g}")
         axes.yaxis.set_minor_locator(NullLocator())
+        axes.set(xlim=ends[0][[0, -1]], ylim=ends[1][[0, -1]])
     panels[-1].set_xlabel("Forcing frequency (Hz)")
+    legend(drawn, 2)
     return drawn
 
 
@@ -39,35 +50,53 @@ def draw_forces(data):
 def draw_dampers(data):
     """Return the maps over gap and restitution, at the frequency of the cliff."""
     gap, restitution = data["map_gap"].values, data["map_restitution"].values
-    ends = edges(gap), _edges(restitution)
+    ends = np.exp(_edges(np.log(gap))), _edges(restitution)
     drawn, panels = _maps(*ends, data["damper_map_share"].T, data["damper_map_displacement"].T)
+    star = NOMINAL | {"label": "this design"}
     for axes in panels:
-        axes.plot(float(data["design_gap"]), parameters_of(data)["restitution"], **NOMINAL)
+        axes.plot(float(data["design_gap"]), parameters_of(data)["restitution"], **star)
+        _draw_edges(axes, data, "damper", "gap", "restitution")
         axes.set(xscale="log", ylabel="Restitution", xticks=gap[::2])
         axes.xaxis.set_major_formatter("{x:.3g}")
         axes.xaxis.set_minor_locator(NullLocator())
+        axes.set(xlim=ends[0][[0, -1]], ylim=ends[1][[0, -1]])
     panels[-1].set_xlabel(f"Gap, full play (mm), at {float(data['branch_frequency']):.4g} Hz")
+    legend(drawn, 2)
     return drawn
 
 
 def _maps(x, y, share, size):
     """Return a figure with a map of shares above a map of displacements, and its two axes."""
-    drawn = figure("single", 4.8)
+    drawn = figure("single", 5.2)
     panels = drawn.subplots(2, sharex=True)
     sizes = finite(size)
-    norms = Normalize(0, 1), LogNorm(np.nanmin(sizes), np.nanmax(sizes))
-    words = "Share of quiet starts", "Largest displacement (mm)"
-    for axes, values, norm, label in zip(panels, (share, sizes), norms, words, strict=True):
+    low, high = np.nanmin(sizes), np.nanmax(sizes)
+    looks = (
+        (share, "cividis", Normalize(0, 1), "Share of quiet starts"),
+        (sizes, "cividis_r", LogNorm(low, high), "Largest displacement (mm)"),
+    )
+    for axes, (values, colours, norm, label) in zip(panels, looks, strict=True):
         axes.set_facecolor(PALE)
         axes.patch.set(hatch="////", edgecolor=GREY, linewidth=0)
-        shown = axes.pcolormesh(x, y, values, norm=norm, cmap=COLOURS, rasterized=True)
+        shown = axes.pcolormesh(x, y, values, norm=norm, cmap=colours, rasterized=True)
         bar = drawn.colorbar(shown, ax=axes, label=label)
-        bar.ax.yaxis.set_major_formatter("{x:g}")
+    name_numbers(bar.ax.yaxis, low, high)
     return drawn, panels
 
 
 def _edges(centres):
-    """Return cell edges from evenly spaced centres."""
-    half = (centres[1] - centres[0]) / 2
-    return np.append(centres - half, centres[-1] + half)
+    """Return cell edges midway between centres."""
+    middles = (centres[1:] + centres[:-1]) / 2
+    ends = 2 * centres[[0, -1]] - middles[[0, -1]]
+    return np.concatenate([ends[:1], middles, ends[1:]])
 
+
+def _draw_edges(axes, data, prefix, first, second):
+    """Draw the edges of the quiet orbit."""
+    number, kind, x, y = (
+        data[f"{prefix}_edge_{name}"].values for name in ("number", "kind", first, second)
+    )
+    for each in np.unique(number):
+        part = number == each
+        name = next(n for n in EDGES if flag(f"{prefix}_edge_kind", n) == kind[part][0])
+        axes.plot(x[part], y[part], color=BLACK, linewidth=1.1, path_effects=HALO, **EDGES[name])

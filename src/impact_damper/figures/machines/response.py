@@ -4,7 +4,14 @@ import numpy as np
 
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.figures.branches import runs, runs_of
-from impact_damper.figures.machines.looks import BARE, DAMPED, decades, limit_line, plot_sizes
+from impact_damper.figures.machines.looks import (
+    BARE,
+    DAMPED,
+    decades,
+    limit_line,
+    plot_if_any,
+    plot_sizes,
+)
 from impact_damper.figures.style import BLUE, GREY, ROLES, figure, legend, style
 
 CAPTION = """
@@ -63,11 +70,11 @@ def response_panel(axes, data):
     shown &= data["share"].values > 0
     for chosen, role in ((shown & settled, SETTLED), (shown & ~settled, OTHERS)):
         row, column = chosen.nonzero()
-        axes.plot(data["frequency"].values[row], size[row, column], **role)
+        plot_if_any(axes, data["frequency"].values[row], size[row, column], **role)
     frequency, largest = data["frequency"].values, data["reached_displacement"].values
     plot_sizes(axes, frequency, largest, **REACHED)
     high = data["motion_peak_high"].values
-    axes.plot(frequency, np.where(high < 0.99 * largest, high, np.nan), **HIGH)
+    plot_if_any(axes, frequency, np.where(high < 0.99 * largest, high, np.nan), **HIGH)
     limit_line(axes, data)
     axes.set(xlabel="Forcing frequency (Hz)", ylabel="Largest displacement (mm)")
     decades(axes)

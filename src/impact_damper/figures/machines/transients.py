@@ -29,6 +29,7 @@ def draw_transients(data):
         rung = data.sel(equipment=equipment)
         panels[2].plot(rung["ring_time"], rung["ring_envelope"], **look)
     panels[2].set(xlabel="Time of the ring-down (s)")
+    panels[2].set_ylim(bottom=0.5 * float(data["ring_envelope"].sel(equipment="bare").min()))
     for axes in panels:
         axes.set_ylabel("Displacement (mm)")
         decades(axes)

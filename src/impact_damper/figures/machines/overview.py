@@ -1,0 +1,43 @@
+"""All machines: displacement against frequency, and quiet share and displacement over the gap."""
+
+from impact_damper.figures.machines.cliff import share_panel, size_panel
+from impact_damper.figures.machines.response import response_panel
+from impact_damper.figures.style import figure, legend, letter_panels, style
+
+CAPTION = """
+One row for each machine, (a), (b) and so on in the order named. Left: largest displacement against
+forcing frequency, without the damper and with the one that was designed. Middle: largest
+displacement over the band against the gap, the full play of the loose mass. Right: the least share
+of random starts that end quiet at a frequency of the band. Shaded: the tolerance of the gap to
+build. Star: the smallest stable quiet orbit, which few starts may reach.
+"""
+
+
+@style({"axes.labelsize": 8.0, "lines.markersize": 2.6})
+def draw_machines(*, machines):
+    """Draw the response of each machine and the choice of its gap.
+
+    Parameters
+    ----------
+    machines : list of xarray.Dataset
+        Datasets of the stage machines.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 1.0 + 1.75 * len(machines))
+    panels = drawn.subplots(len(machines), 3, squeeze=False)
+    for (left, middle, right), data in zip(panels, machines, strict=True):
+        response_panel(left, data)
+        size_panel(middle, data)
+        share_panel(right, data)
+        right.set(xscale="log", xlim=middle.get_xlim())
+        for axis in (right.xaxis,):
+            axis.set_major_formatter(middle.xaxis.get_major_formatter())
+            axis.set_minor_formatter(middle.xaxis.get_minor_formatter())
+    for axes in panels[-1, 1:]:
+        axes.set_xlabel("Gap, full play (mm)")
+    letter_panels(panels[:, 0])
+    legend(drawn, 4)
+    return drawn
