@@ -33,6 +33,7 @@ FLOORS = (
     "claims",
     "tables",
     "figures",
+    "pages",
     "workflow",
 )
 

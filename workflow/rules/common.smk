@@ -166,7 +166,17 @@ def target_files(stage):
     if STAGES[stage].paper:
         return data(stage)
     chapter = next(name for name, each in CHAPTERS.items() if STAGES[stage] in each.STAGES)
-    return [*data(stage), *figure_files(chapter), *table_files(chapter)]
+    shown = [*figure_files(chapter), *table_files(chapter)]
+    return [*data(stage), *shown, *page_files(stage)]
+
+
+def page_files(stage):
+    """Files of the pages of the entries of a stage, if it has any."""
+    names = selection.entries(config, stage) if STAGES[stage].page else []
+    files = [f"{figure}.png" for figure in STAGES[stage].page]
+    return expand(
+        f"<results>/{stage}/{{name}}/{{file}}", name=names, file=["index.html", "report.md", *files]
+    )
 
 
 def chapter_files(chapter):

@@ -13,6 +13,31 @@ rule machines:
     params:
         **parameters("machines"),
     message:
-        "The machine {wildcards.name} with its damper, in SI units"
+        "A damper for the machine {wildcards.name}"
     script:
         "../scripts/machines.py"
+
+
+rule machine_pages:
+    input:
+        **data_by_stage({"machines": ["{name}"]}),
+        code=code("machine_pages"),
+        templates=[local(path) for path in sorted((ROOT / "src/impact_damper/pages/templates").iterdir())],
+    output:
+        report(
+            "<results>/machines/{name}/index.html",
+            category=CHAPTERS["machines"].TITLE,
+            labels={"kind": "page", "name": "{name}"},
+        ),
+        "<results>/machines/{name}/report.md",
+        expand("<results>/machines/{{name}}/{figure}.png", figure=STAGES["machines"].page),
+    log:
+        "<logs>/machine_pages/{name}.log",
+    conda:
+        ENVIRONMENT
+    params:
+        name="{name}",
+    message:
+        "The page of the machine {wildcards.name}"
+    script:
+        "../scripts/machine_pages.py"

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import flag, is_settled
 from impact_damper.data.shares import escape_rate
 from impact_damper.design.outcomes import Case, interval, run, summarise
 from impact_damper.orbits.branches import Branch, follow_branch
@@ -134,7 +134,9 @@ def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
     running = {"settling": settling, "workers": workers, "progress": progress}
     records = run(task, cases, LIFE_STARTS, task.seed + 20, **running).random
     quiet = task.millimetres(records["maximum_displacement"]) <= limit
-    lives = np.where(quiet, records["periods_run"], LONGEST + 1)
+    # since when a motion is quiet is known only if it is periodic; others have no life
+    lives = np.where(is_settled(records), records["periods_run"], 0)
+    lives = np.where(quiet, lives, LONGEST + 1)
     counts = quiet.sum(axis=1)
     share = np.column_stack([counts / LIFE_STARTS, interval(counts, LIFE_STARTS)])
     rates = [

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -268,4 +268,6 @@ class Task:
             "band": list(self.band),
             "tolerances": dict(self.tolerances),
             "displacement_limit": self.displacement_limit,
+            "settling": asdict(self.settling),
+            "compared_settling": asdict(self.hurried),
         }

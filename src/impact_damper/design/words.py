@@ -3,23 +3,25 @@
 import numpy as np
 
 from impact_damper.data.datasets import flag
+from impact_damper.design.cliff import LEAD
 
 SUMMARY = {
     "robust": (
-        "Build a gap of {gap:.3g} mm (full play). Over the band, and with gaps from {low:.3g} to "
-        "{high:.3g} mm, at least {share:.0%} of the starts end quiet, at 95 % confidence: the "
-        "machine then moves at most {limit:.3g} mm, instead of {bare:.3g} mm without the damper."
+        "Build a gap of {gap:.3g} mm (full play, from wall to wall); any gap from {low:.3g} to "
+        "{high:.3g} mm will do. At each frequency of the band at least {share} of the starts then "
+        "end quiet, at 95 % confidence: the machine moves at most {limit:.3g} mm, instead of "
+        "{bare:.3g} mm without the damper. {worst}"
     ),
     "needs_tolerance": (
-        "Build a gap of {gap:.3g} mm (full play) and hold it from {edge_low:.4g} to "
-        "{edge_high:.4g} mm, a narrower range than the tolerance of {tolerance:.0%}. Then at least "
-        "{share:.0%} of the starts end quiet at each frequency of the band, at 95 % confidence: "
-        "the machine moves at most {limit:.3g} mm, instead of {bare:.3g} mm without the damper."
+        "Build a gap of {gap:.3g} mm (full play, from wall to wall) and hold it from "
+        "{edge_low:.4g} to {edge_high:.4g} mm, a narrower range than the tolerance of {tolerance}. "
+        "At each frequency of the band at least {share} of the starts then end quiet, at 95 % "
+        "confidence: the machine moves at most {limit:.3g} mm, instead of {bare:.3g} mm without "
+        "the damper. {worst}"
     ),
     "least_worst": (
-        "No gap is quiet over the whole band. The gap of {gap:.3g} mm is the least bad: the "
-        "machine moves up to {worst:.3g} mm, instead of {bare:.3g} mm without the damper. Do not "
-        "build this damper for this band."
+        "No gap is quiet over the whole band. The gap of {gap:.3g} mm is the least bad: {worst}, "
+        "instead of {bare:.3g} mm without the damper. Do not build this damper for this band."
     ),
 }
 
@@ -42,13 +44,13 @@ def conclusion(task, kind, data) -> list[str]:
         "gap": gap,
         "low": gap * (1 - tolerance),
         "high": gap * (1 + tolerance),
-        "tolerance": tolerance,
+        "tolerance": _percent(tolerance),
         "edge_low": edges[0],
         "edge_high": edges[1],
-        "share": task.share,
+        "share": _percent(task.share),
         "limit": float(data["displacement_limit"]),
         "bare": float(data["balance_displacement"].max()),
-        "worst": float(data["reached_displacement"].max()),
+        "worst": _worst(kind, data),
     }
     found = [SUMMARY[kind].format(**numbers), _sureness(task, data)]
     if kind == "least_worst":
@@ -59,18 +61,40 @@ def conclusion(task, kind, data) -> list[str]:
     return [sentence for sentence in found if sentence]
 
 
+def _percent(share):
+    """Return a share in per cent."""
+    return f"{100 * share:.3g} %"
+
+
+def _moves(size):
+    """Return how far the machine moves (mm), or that it escapes."""
+    return f"moves up to {size:.3g} mm" if np.isfinite(size) else "escapes over its barrier"
+
+
+def _worst(kind, data):
+    """Return how far the machine moves in the largest motion that starts reach."""
+    size, limit = float(data["reached_displacement"].max()), float(data["displacement_limit"])
+    if kind == "least_worst":
+        return f"the machine {_moves(size)}"
+    if size <= limit:
+        return f"In none of the motions that starts reached does it move more than {size:.3g} mm."
+    return f"A few starts do not end quiet: in the largest motion found the machine {_moves(size)}."
+
+
 def _sureness(task, data):
     """Return what unseen starts did."""
-    share, worst = data["corner_share"].values, data["corner_displacement"]
+    share, sizes = data["corner_share"].values, data["corner_displacement"].values
     corners = len(share) - 1
     text = (
-        f"Checked by starts that the design had not seen: {share[0, 0]:.1%} of them end quiet at "
-        f"the nominal values (95 % interval {share[0, 1]:.1%} to {share[0, 2]:.1%})"
+        f"Checked with starts that the design had not seen: {_percent(share[0, 0])} of them end "
+        f"quiet at the nominal values (95 % interval {_percent(share[0, 1])} to "
+        f"{_percent(share[0, 2])})"
     )
     if corners:
         text += (
-            f", and at least {share[1:, 0].min():.1%} at each of {corners} corners of the "
-            f"tolerances; the largest displacement of any of them was {float(worst.max()):.3g} mm"
+            f", and at least {_percent(share[1:, 0].min())} with all values off by their whole "
+            f"tolerance ({corners} corners); in the worst of these motions the machine "
+            f"{_moves(sizes.max())}"
         )
     return text + "."
 
@@ -82,19 +106,18 @@ def _margins(data, gap):
         edge = float(data["cliff_gap"][k])
         if int(data["cliff_status"][k]) == flag("cliff_status", "found"):
             texts.append(
-                f"{abs(edge / gap - 1):.1%} {side} (at {float(data['cliff_frequency'][k]):.4g} Hz)"
+                f"{_percent(abs(edge / gap - 1))} {side} this gap, at {edge:.4g} mm (first at "
+                f"{float(data['cliff_frequency'][k]):.4g} Hz)"
             )
-    text = ""
     if texts:
-        text = f"Quiet starts become fewer {' and '.join(texts)}."
+        text = f"The cliff, beyond which fewer starts end quiet, lies {' and '.join(texts)}."
     else:
-        text = "Within the gaps compared, quiet starts do not become fewer."
-    limits = data["stability_gap"].values
-    if np.isfinite(limits).any():
+        text = "Within the gaps compared there is no cliff beyond which fewer starts end quiet."
+    low, high = data["stability_gap"].values
+    if np.isfinite(low):
         text += (
             f" The quiet orbit at {float(data['branch_frequency']):.4g} Hz is stable from "
-            f"{limits[0]:.4g} to {limits[1]:.4g} mm: not this range but the share of starts "
-            "decides."
+            f"{low:.4g} to {high:.4g} mm: not this range but the share of starts decides."
         )
     return text
 
@@ -103,17 +126,20 @@ def _lives(data):
     """Return where chaos beside the quiet motion changes from a transient to an attractor."""
     if "life_rate" not in data:
         return ""
-    gaps = data["life_gap"].values
-    rates, least, most = data["life_rate"].values.T
     texts = []
-    for gap, rate, low, high in zip(gaps, rates, least, most, strict=True):
+    for gap, (rate, low, high) in zip(
+        data["life_gap"].values, data["life_rate"].values, strict=True
+    ):
         if not np.isfinite(rate):
-            continue  # all starts were quiet before lives are counted
-        life = f"{1 / rate:.0f} periods" if low > 0 else f"more than {1 / high:.0f} periods"
+            continue  # all starts are quiet before lives are counted
+        life = f"{1 / rate:.0f}" if low > 0 else f"more than {1 / high:.0f}, or never,"
         texts.append(f"{life} at {gap:.4g} mm")
     if not texts:
         return ""
-    return f"Beside the quiet motion other motions last, on average, {', '.join(texts)}."
+    return (
+        f"Motions that are not quiet after {LEAD} forcing periods become so after, on average, "
+        f"another {', '.join(texts)}."
+    )
 
 
 def _amplitudes(data):
@@ -148,13 +174,14 @@ def _help(task, data):
 
 
 def _competition(data):
-    """Return how far the machine would move with the best tuned absorber of the same mass."""
-    sizes = data["competitor_displacement"].sel(detuning=0.0, force_share=1.0).max("frequency")
-    texts = [
-        f"{float(sizes.sel(competitor=name)):.3g} mm with a {name} absorber"
-        for name in ("tuned", "nonlinear")
-        if np.isfinite(float(sizes.sel(competitor=name)))
-    ]
+    """Return how far the machine would move with tuned absorbers of the same mass."""
+    texts = []
+    for name in ("tuned", "nonlinear"):
+        sizes = data["competitor_displacement"].sel(competitor=name, force_share=1.0)
+        worst = sizes.max("frequency", skipna=False)
+        built, off = float(worst.sel(detuning=0.0)), float(worst.max())
+        if np.isfinite(built):
+            texts.append(f"{built:.3g} mm with a {name} absorber ({off:.3g} mm if it is detuned)")
     if not texts:
-        return "A tuned absorber is not possible for this machine."
-    return f"With the same mass the machine would move {' or '.join(texts)}."
+        return "A tuned absorber of the same mass is not possible, or the machine escapes with it."
+    return f"With the same mass the machine would move up to {', or '.join(texts)}."

@@ -1,4 +1,4 @@
-"""Machines in SI units: without a damper, for various gaps of a damper, contacts after Hertz."""
+"""Machines in SI units: without a damper, and contacts after Hertz."""
 
 from impact_damper.data.variables.variable import STABILITY, Variable
 
@@ -14,17 +14,6 @@ VARIABLES = {
         ("bare_point",), "stability of an orbit without the damper", flags=STABILITY
     ),
     "bare_branch": Variable(("bare_point",), "branch of an orbit without the damper"),
-    # various gaps
-    "swept_frequency": Variable(
-        (), "forcing frequency at which the gap is varied", quantity="frequency"
-    ),
-    "gap": Variable(("clearance",), "gap, the full play", quantity="displacement"),
-    "optimum_gap": Variable(
-        (), "gap, the full play, at which the quiet motion is smallest", quantity="displacement"
-    ),
-    "quiet_share": Variable(
-        ("clearance",), "share of starts that lead to the quiet motion, 0 where there is none"
-    ),
     # contacts after Hertz
     "hertz_status": Variable(
         (),

@@ -17,15 +17,27 @@ def machines(config, name):
     }
 
 
-TITLE = "Machines in SI units"
-STAGES = (Stage("machines", "machines", machines, paper=False),)
-KINDS = (Kind("machines", ("machines",), most=5, named=True),)
+TITLE = "Dampers for machines in SI units"
+# Those of `pages.machine.FIGURES`.
+PAGE = (
+    "drawing",
+    "response",
+    "transients",
+    "cliff",
+    "tolerances",
+    "forces",
+    "dampers",
+    "competitors",
+    "masses",
+)
+STAGES = (Stage("machines", "machines", machines, paper=False, page=PAGE),)
+KINDS = (Kind("machines", ("machines",), "figures.machines.overview", most=6, named=True),)
 TABLES = (
     Table(
         "machines",
         "tables.machines",
         ("machines",),
-        "Machines in SI units: what a damper does over the frequency, and the gap at which its "
-        "quiet motion is smallest.",
+        "Dampers designed for machines: what to build, what it does over the band, how sure that "
+        "is, and the best tuned absorber of the same mass.",
     ),
 )

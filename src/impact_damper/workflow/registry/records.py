@@ -22,6 +22,8 @@ class Stage(NamedTuple):
         Whether the command `snakemake` without a target makes its data. Otherwise the target
         `all_<name>` does, with the figures and tables of its chapter, whose stages are all of this
         kind.
+    page : tuple of str
+        Figures of the page that each entry has, in the folder of its name; none without a page.
     """
 
     name: str
@@ -29,6 +31,7 @@ class Stage(NamedTuple):
     parameters: Callable
     reads: tuple[str, ...] = ()
     paper: bool = True
+    page: tuple[str, ...] = ()
 
 
 class Table(NamedTuple):

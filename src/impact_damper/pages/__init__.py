@@ -1,0 +1,1 @@
+"""Pages in HTML and Markdown: words, numbers with their sources, and figures."""

@@ -1,0 +1,38 @@
+"""The head of a page: what to do, in a few words, and why."""
+
+import json
+
+from impact_damper.tables.machines import named
+
+ADVICE = {
+    "robust": "Build it",
+    "needs_tolerance": "Build it, and hold the gap more closely than asked for",
+    "least_worst": "Do not build it for this band",
+}
+VERDICTS = {
+    "none_made": "Nothing is promised.",
+    "nominal_kept": (
+        "Starts that the design had not seen kept to what is promised at the nominal values. "
+        "Nothing is promised for other values."
+    ),
+    "robust_kept": (
+        "Starts that the design had not seen kept to what is promised, at the nominal values and "
+        "at the corners of the tolerances."
+    ),
+    "broken": (
+        "Starts that the design had not seen did NOT keep to what is promised: do not rely on it."
+    ),
+}
+
+
+def advice(data) -> str:
+    """Return what to do."""
+    if named(data, "promise") == "broken":
+        return "Do not build it: the check failed"
+    return ADVICE[named(data, "design_choice")]
+
+
+def reasons(data) -> list[str]:
+    """Return the conclusion of the design in sentences, and what the check of its promise said."""
+    first, *others = json.loads(data.attrs["conclusion"])
+    return [first, VERDICTS[named(data, "promise")], *others]

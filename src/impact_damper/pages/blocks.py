@@ -1,0 +1,83 @@
+"""Parts of a page, which the templates lay out, and numbers as text."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Words(NamedTuple):
+    """A paragraph."""
+
+    text: str
+    kind: str = "words"
+
+
+class Points(NamedTuple):
+    """A list of sentences."""
+
+    texts: list
+    kind: str = "points"
+
+
+class Numbers(NamedTuple):
+    """Rows of three texts: what a number is, its value with unit, and its source."""
+
+    rows: list
+    kind: str = "numbers"
+
+
+class Table(NamedTuple):
+    """A table of texts."""
+
+    columns: list
+    rows: list
+    kind: str = "table"
+
+
+class Picture(NamedTuple):
+    """A figure: its name, which is that of its file, and its caption."""
+
+    name: str
+    caption: str
+    kind: str = "picture"
+
+
+class Section(NamedTuple):
+    """A heading with the parts below it."""
+
+    title: str
+    blocks: list
+
+
+class Page(NamedTuple):
+    """A page: title, advice in a few words, sentences that give its reasons, and sections."""
+
+    title: str
+    advice: str
+    reasons: list
+    sections: list
+
+
+def shown(value, unit="", digits=3) -> str:
+    """Return a number with its unit, in words where a motion escapes or nothing was found."""
+    value = float(value)
+    if np.isnan(value):
+        return "none found"
+    if np.isinf(value):
+        return "escapes"
+    if abs(value) >= 1e5 or 0 < abs(value) < 1e-3:
+        text = f"{value:.{digits}g}"
+    else:
+        text = np.format_float_positional(value, digits, unique=False, fractional=False, trim="-")
+    return f"{text} {unit}".rstrip()
+
+
+def percent(share, digits=3) -> str:
+    """Return a share in per cent."""
+    return shown(100 * float(share), "%", digits)
+
+
+def share_with_interval(values) -> str:
+    """Return a share with its 95 % interval, from three numbers."""
+    share, low, high = (percent(value) for value in values)
+    return f"{share} ({low} to {high})"

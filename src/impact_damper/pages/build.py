@@ -1,0 +1,112 @@
+"""Section of a page: what to build."""
+
+import json
+
+import numpy as np
+
+from impact_damper.data.datasets import parameters_of
+from impact_damper.figures.machines import drawing
+from impact_damper.pages.blocks import Numbers, Picture, Section, Words, percent, shown
+from impact_damper.tables.machines import named
+
+# Given values of a machine: words, unit.
+GIVEN = {
+    "mass": ("mass without the loose mass", "kg"),
+    "linear_stiffness": ("stiffness of the spring", "N/m"),
+    "cubic_stiffness": ("cubic stiffness of the spring", "N/m^3"),
+    "damping_ratio": ("damping ratio", ""),
+    "damping": ("coefficient of the dashpot", "N s/m"),
+    "force": ("amplitude of the force", "N"),
+    "unbalance": ("unbalance", "kg m"),
+    "base_displacement": ("amplitude of the moving base", "m"),
+    "base_acceleration": ("amplitude of the base's acceleration", "m/s^2"),
+}
+HOW = (
+    "Give the loose mass a straight slot in the machine, along the direction in which the machine "
+    "moves, with a hard stop at each end. The gap is the whole free path of the loose mass from "
+    "stop to stop: the length of the slot less that of the loose mass. It must slide or roll "
+    "freely. A stop has the right restitution if the loose mass, dropped on it from a height of "
+    "1 m, rebounds to {height:.2g} m."
+)
+WRONG = (
+    "The values below are those of the least bad damper found. They are shown so that the "
+    "decision can be checked, not to be built."
+)
+
+
+def section(data) -> Section:
+    """Return the section for the dataset of `stages.machines.design_damper`."""
+    made, asked = json.loads(data.attrs["machine"]), parameters_of(data)
+    height = made["restitution"] ** 2
+    blocks = [Words(HOW.format(height=height))]
+    title = "What to build"
+    if named(data, "design_choice") == "least_worst":
+        title, blocks = "What was found instead of a damper to build", [Words(WRONG)]
+    blocks.append(Picture("drawing", drawing.CAPTION))
+    blocks.append(Numbers([*_damper(data, made, asked), *_machine(asked)]))
+    return Section(title, blocks)
+
+
+def _damper(data, made, asked):
+    """Return the rows of the damper."""
+    gap, ratio = float(data["design_gap"]), made["damper_mass"] / made["mass"]
+    force = float(data["contact_force_by_frequency"].max())
+    return [
+        ("gap, the full play", f"{shown(gap, 'mm')}{_deviation(asked, 'gap')}", "design_gap"),
+        ("gap, allowed range", *_allowed(data, gap, asked)),
+        (
+            "loose mass",
+            f"{shown(made['damper_mass'], 'kg')}, {percent(ratio)} of the machine",
+            "machine.damper_mass",
+        ),
+        (
+            "restitution of the stops",
+            f"{shown(made['restitution'])}{_deviation(asked, 'restitution')}",
+            "machine.restitution",
+        ),
+        (
+            "stiffness of the stops",
+            f"{shown(made['contact_stiffness'], 'N/m')}{_deviation(asked, 'contact_stiffness')}",
+            "machine.contact_stiffness",
+        ),
+        ("largest force that a stop must bear", shown(force, "N"), "contact_force_by_frequency"),
+    ]
+
+
+def _allowed(data, gap, asked):
+    """Return the range of gaps that is promised, and its source."""
+    tolerance = asked["tolerances"].get("gap", 0.0)
+    kind = named(data, "design_choice")
+    if kind == "robust":
+        ends, source = gap * (1 + tolerance * np.array([-1, 1])), "parameters.tolerances.gap"
+    elif kind == "needs_tolerance":
+        ends, source = data["cliff_gap"].values, "cliff_gap"
+    else:
+        return "none", "design_choice"
+    return f"{shown(ends[0], 'mm', 4)} to {shown(ends[1], 'mm', 4)}", source
+
+
+def _machine(asked):
+    """Return the rows of the machine and of the band that were given."""
+    machine = asked["machine"]
+    deviating = {"damping_ratio": "damping", "linear_stiffness": "stiffness"}
+    deviating |= {"damping": "damping", "cubic_stiffness": "stiffness"}
+    deviating |= {name: "force" for name in ("force", "unbalance", "base_displacement")}
+    rows = [
+        (
+            f"machine: {words}",
+            f"{shown(machine[name], unit)}{_deviation(asked, deviating.get(name, name))}",
+            f"parameters.machine.{name}",
+        )
+        for name, (words, unit) in GIVEN.items()
+        if machine.get(name)
+    ]
+    low, high = asked["band"]
+    band = f"{shown(low, 'Hz', 4)} to {shown(high, 'Hz', 4)}"
+    return [*rows, ("band of forcing frequencies", band, "parameters.band")]
+
+
+def _deviation(asked, name):
+    """Return the tolerance of a value, or nothing."""
+    tolerance = asked["tolerances"].get(name) if name != "mass" else None
+    return f" +- {percent(tolerance)}" if tolerance else ""

@@ -1,0 +1,84 @@
+"""Section of a page: what the damper will do."""
+
+import numpy as np
+
+from impact_damper.figures.machines import response, transients
+from impact_damper.pages.blocks import Numbers, Picture, Section, shown
+
+# Ring-down is timed until the displacement has fallen to this share.
+DECAY = 0.1
+
+
+def section(data) -> Section:
+    """Return the section for the dataset of `stages.machines.design_damper`."""
+    frequency = data["frequency"].values
+    bare, reached = data["balance_displacement"].values, data["reached_displacement"].values
+    peak, worst = int(np.argmax(bare)), int(np.argmax(reached))
+    rows = [
+        (
+            "largest displacement without the damper",
+            f"{shown(bare[peak], 'mm')} at {shown(frequency[peak], 'Hz', 4)}",
+            "balance_displacement",
+        ),
+        (
+            "largest displacement with it, of any motion that starts reach",
+            f"{shown(reached[worst], 'mm')} at {shown(frequency[worst], 'Hz', 4)}",
+            "reached_displacement",
+        ),
+        (
+            "there, 95 % of the peaks of the motion are below",
+            shown(data["motion_peak_high"].values[worst], "mm"),
+            "motion_peak_high",
+        ),
+        (
+            "there, r.m.s. displacement",
+            shown(data["motion_rms"].values[worst], "mm"),
+            "motion_rms",
+        ),
+        (
+            "reduction: largest without over largest with it",
+            f"{shown(bare[peak] / reached[worst])} times",
+            "balance_displacement, reached_displacement",
+        ),
+        (
+            "a motion counts as quiet up to",
+            shown(data["displacement_limit"], "mm"),
+            "displacement_limit",
+        ),
+        *_swept(data),
+        *_rung(data),
+    ]
+    pictures = [
+        Picture("response", response.CAPTION),
+        Picture("transients", transients.CAPTION),
+    ]
+    return Section("What it will do", [Numbers(rows), *pictures])
+
+
+def _swept(data):
+    """Yield the largest displacements while the forcing frequency is swept through the band."""
+    for direction in data["direction"].values:
+        sizes = data["sweep_envelope"].sel(direction=direction).max("sweep_window")
+        bare, damped = (shown(sizes.sel(equipment=name), "mm") for name in ("bare", "damped"))
+        yield (
+            f"largest displacement while the frequency is swept {direction}, without / with it",
+            f"{bare} / {damped}",
+            "sweep_envelope",
+        )
+
+
+def _rung(data):
+    """Yield the times in which a free vibration decays."""
+    times = []
+    for equipment in ("bare", "damped"):
+        rung = data.sel(equipment=equipment)
+        size, time = rung["ring_envelope"].values, rung["ring_time"].values
+        known = np.isfinite(size)
+        below = size[known] < DECAY * size[known][0]
+        times.append(shown(time[known][np.argmax(below)] if below.any() else np.nan, "s"))
+    first = shown(data["ring_envelope"].sel(equipment="bare").values[0], "mm")
+    yield (
+        f"time in which a vibration of {first} decays to a tenth, without / with it",
+        " / ".join(times),
+        "ring_envelope, ring_time",
+    )

@@ -1,0 +1,53 @@
+"""The page of a machine: a drawing, what to build, what that does, and how sure it is."""
+
+from impact_damper.figures.machines import (
+    cliff,
+    competitors,
+    drawing,
+    masses,
+    operating,
+    response,
+    tolerances,
+    transients,
+)
+from impact_damper.pages import advice, build, costs, effect, limits, others, sureness
+from impact_damper.pages.blocks import Page
+
+# Functions that draw the figures of a page, by name of the file.
+FIGURES = {
+    "drawing": drawing.draw_drawing,
+    "response": response.draw_response,
+    "transients": transients.draw_transients,
+    "cliff": cliff.draw_cliff,
+    "tolerances": tolerances.draw_tolerances,
+    "forces": operating.draw_forces,
+    "dampers": operating.draw_dampers,
+    "competitors": competitors.draw_competitors,
+    "masses": masses.draw_masses,
+}
+
+
+def machine_page(name, data) -> Page:
+    """Return the page of a machine.
+
+    Parameters
+    ----------
+    name : str
+        Entry of the configuration.
+    data : xarray.Dataset
+        Of `stages.machines.design_damper`.
+    """
+    return Page(
+        f"Impact damper for the machine {name.replace('_', ' ')}",
+        advice.advice(data),
+        advice.reasons(data),
+        [
+            build.section(data),
+            effect.section(data),
+            sureness.section(data),
+            costs.section(data),
+            others.section(data),
+            limits.missing(data),
+            limits.origin(name, data),
+        ],
+    )

@@ -1,0 +1,158 @@
+"""Section of a page: what else one could build, and who wins where."""
+
+import itertools
+import json
+
+import numpy as np
+
+from impact_damper.data.datasets import parameters_of
+from impact_damper.figures.machines import competitors, masses
+from impact_damper.pages.blocks import Numbers, Picture, Points, Section, Table, Words, shown
+
+NAMES = {
+    "bare": "no damper",
+    "this": "this impact damper",
+    "tuned": "tuned absorber",
+    "nonlinear": "nonlinear absorber",
+}
+HEAD = (
+    "Everything here has the same added mass. The tuned absorber has the stiffness and damping "
+    "that make the largest displacement of a linear machine least; the nonlinear one has a cubic "
+    "spring beside. Displacements are the largest of any motion found: the absorbers' by exact "
+    "periodic motions and checked by random starts, this damper's by random starts and ramps of "
+    "frequency."
+)
+MASSES = "Impact dampers of other masses, each with its own gap, by a reduced design:"
+COLUMNS = ["", "as designed", "10 % detuned", "excitation / 4", "excitation x 4", "least at"]
+
+
+def section(data) -> Section:
+    """Return the section for the dataset of `stages.machines.design_damper`."""
+    over_frequency, over_force = _sizes(data)
+    blocks = [
+        Words(HEAD),
+        Table(COLUMNS, _rows(data, over_frequency, over_force)),
+        Points([*_verdict(data, over_frequency), *_ranges(over_force), *_remarks(data)]),
+        Numbers(_absorbers(data)),
+        Picture("competitors", competitors.CAPTION),
+        Words(MASSES),
+        Table(*_masses(data)),
+        Picture("masses", masses.CAPTION),
+    ]
+    return Section("What else would do", blocks)
+
+
+def _sizes(data):
+    """Return displacements (mm) by competitor: over frequency, and of the band over excitation.
+
+    Infinity stands for a motion that escapes, and competitors that cannot be built are left out.
+    """
+    frequency, force = {}, {}
+    for name in NAMES:
+        if name == "this":
+            frequency[name] = data["reached_displacement"].values
+            force[name] = data["force_map_displacement"].values.max(axis=0)
+            continue
+        sizes = data["competitor_displacement"].sel(competitor=name, detuning=0.0)
+        if np.isfinite(sizes.values).any():
+            frequency[name] = sizes.sel(force_share=1.0).values
+            force[name] = sizes.max("frequency", skipna=False).values
+    return frequency, {"share": data["force_share"].values} | force
+
+
+def _rows(data, over_frequency, over_force):
+    """Return the rows of the table of competitors."""
+    best = np.array([*over_frequency.values()]).argmin(axis=0)
+    rows = []
+    for k, (name, sizes) in enumerate(over_frequency.items()):
+        detuned = "-"
+        if name in ("tuned", "nonlinear"):
+            off = data["competitor_displacement"].sel(competitor=name, force_share=1.0)
+            detuned = shown(off.max(skipna=False), "mm")
+        ends = [shown(over_force[name][end], "mm") for end in (0, -1)]
+        where = f"{int((best == k).sum())} of {len(best)} frequencies"
+        rows.append([NAMES[name], shown(sizes.max(), "mm"), detuned, *ends, where])
+    return rows
+
+
+def _verdict(data, over_frequency):
+    """Yield who wins over the band at the nominal excitation."""
+    worst = {name: sizes.max() for name, sizes in over_frequency.items()}
+    first, second = sorted(worst, key=worst.get)[:2]
+    yield (
+        f"Over the band, at the nominal excitation, {NAMES[first]} wins: the machine moves at most "
+        f"{shown(worst[first], 'mm')}; next is {NAMES[second]} with {shown(worst[second], 'mm')}."
+    )
+    if first == "this":
+        yield "So the impact damper is the right choice here, and it has no spring to tune."
+    elif first == "bare":
+        yield "So the impact damper loses: at this excitation it is better to build nothing."
+    else:
+        off = data["competitor_displacement"].sel(competitor=first, force_share=1.0)
+        detuned = float(off.max(skipna=False))
+        what = f"with its springs 10 % off the {NAMES[first]} reaches {shown(detuned, 'mm')}"
+        if detuned < worst["this"]:
+            yield f"So the impact damper loses, also against a detuned absorber: {what}."
+        else:
+            yield f"So the impact damper loses only while the absorber stays tuned: {what}."
+
+
+def _ranges(over_force):
+    """Yield who wins over the excitation."""
+    share = over_force["share"]
+    names = [name for name in over_force if name != "share"]
+    best = np.array([over_force[name] for name in names]).argmin(axis=0)
+    texts = []
+    for winner, group in itertools.groupby(range(len(share)), key=lambda k: best[k]):
+        places = list(group)
+        low, high = share[places[0]], share[places[-1]]
+        where = f"at {shown(low, digits=2)}" if low == high else f"from {low:.2g} to {high:.2g}"
+        texts.append(f"{NAMES[names[winner]]} {where}")
+    yield (
+        "Over the excitation, as a multiple of the nominal one and for the largest displacement "
+        f"over the band: {'; '.join(texts)}."
+    )
+
+
+def _remarks(data):
+    """Yield why a competitor cannot be built."""
+    for name, text in json.loads(data.attrs.get("remarks", "{}")).items():
+        yield f"{NAMES[name].capitalize()}: {text}"
+
+
+def _absorbers(data):
+    """Return the rows of the absorbers' springs and dashpots."""
+    units = (
+        ("absorber_stiffness", "stiffness", "N/m"),
+        ("absorber_damping", "damping", "N s/m"),
+        ("absorber_cubic_stiffness", "cubic stiffness", "N/m^3"),
+    )
+    rows = []
+    for name in ("tuned", "nonlinear"):
+        for variable, words, unit in units:
+            value = float(data[variable].sel(competitor=name, detuning=0.0))
+            if np.isfinite(value) and value != 0:
+                rows.append((f"{NAMES[name]}: {words}", shown(value, unit), variable))
+    return rows
+
+
+def _masses(data):
+    """Return columns and rows of the table of other masses."""
+    here = parameters_of(data)["mass"]
+    columns = ["loose mass", "gap", "largest displacement", "least quiet share", "contact force"]
+    names = ("other_mass", "other_gap", "other_displacement", "other_share", "other_force")
+    values = zip(*(data[name].values for name in names), data["other_best"].values, strict=True)
+    rows = []
+    for mass, gap, size, share, force, best in values:
+        note = " (this one)" if np.isclose(mass, here) else ""
+        note += " *" if best else ""
+        rows.append(
+            [
+                f"{shown(mass, 'kg')}{note}",
+                shown(gap, "mm"),
+                shown(size, "mm"),
+                shown(share),
+                shown(force, "N"),
+            ]
+        )
+    return columns, rows

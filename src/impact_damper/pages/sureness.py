@@ -1,0 +1,150 @@
+"""Section of a page: how sure the promise is."""
+
+import numpy as np
+
+from impact_damper.data.datasets import parameters_of
+from impact_damper.figures.machines import cliff, operating, tolerances
+from impact_damper.pages.blocks import (
+    Numbers,
+    Picture,
+    Section,
+    Words,
+    percent,
+    share_with_interval,
+    shown,
+)
+
+MEANING = (
+    "A damper that works from one start may fail from another: beside the quiet motion the loose "
+    "mass can fall into other motions and stay there. So the machine is let go from many random "
+    "starts, up to three times as large and as fast as its motions without the damper, and the "
+    "share of the starts that end quiet is counted. A share is known only within an interval, "
+    "which is given in brackets: a gap counts as quiet if, at every frequency of the band, the "
+    "lower end of this 95 % interval is at least {share}."
+)
+TIME = (
+    "A share depends on how long one waits. Gaps were compared after at most {hurried} forcing "
+    "periods ({seconds}), the other shares after at most {limit}; a motion that is chaotic for "
+    "certain was stopped after {early} and {patience} periods."
+)
+TRAP = (
+    "The gap of the smallest stable quiet orbit is {best}: that is not the gap to build, because "
+    "the share of starts that reach this orbit decides, and not its size or its stability."
+)
+
+
+def section(data) -> Section:
+    """Return the section for the dataset of `stages.machines.design_damper`."""
+    asked = parameters_of(data)
+    blocks = [
+        Words(MEANING.format(share=percent(asked["share"]))),
+        Numbers([*_shares(data, asked), *_edges(data)]),
+        Words(_time(data, asked)),
+    ]
+    best = float(data["best_orbit_gap"])
+    if np.isfinite(best):
+        blocks.append(Words(TRAP.format(best=shown(best, "mm"))))
+    pictures = [
+        Picture("cliff", cliff.CAPTION),
+        Picture("tolerances", tolerances.CAPTION),
+        Picture("forces", operating.FORCES),
+        Picture("dampers", operating.DAMPERS),
+    ]
+    return Section("How sure that is", [*blocks, *pictures])
+
+
+def _time(data, asked):
+    """Return after how long the shares were taken."""
+    hurried, full = asked["compared_settling"], asked["settling"]
+    seconds = hurried["limit"] / data["frequency"].values.mean()
+    return TIME.format(
+        hurried=hurried["limit"],
+        seconds=f"about {shown(seconds, 's', 2)}",
+        early=hurried["patience"],
+        limit=full["limit"],
+        patience=full["patience"],
+    )
+
+
+def _shares(data, asked):
+    """Yield the shares of quiet starts, from those that chose the gap to those it had not seen."""
+    row = int(np.argmin(np.abs(data["candidate_gap"].values - float(data["design_gap"]))))
+    shares = data["start_quiet_share"].values[row]
+    k = int(np.argmin(shares))
+    chosen = [shares[k], *data["start_quiet_interval"].values[row, k]]
+    gap = shown(data["candidate_gap"].values[row], "mm")
+    yield (
+        f"least quiet share over the band, {asked['starts']} starts at a frequency, nearest "
+        f"gap compared ({gap})",
+        share_with_interval(chosen),
+        "start_quiet_share, start_quiet_interval",
+    )
+    shares = data["reached_quiet_share"].values
+    k = int(np.argmin(shares))
+    yield (
+        f"least quiet share over the band at the gap to build, {asked['starts']} starts",
+        share_with_interval([shares[k], *data["reached_quiet_interval"].values[k]]),
+        "reached_quiet_share, reached_quiet_interval",
+    )
+    unseen, sizes = data["corner_share"].values, data["corner_displacement"].values
+    yield (
+        "1000 unseen starts over the band, nominal values",
+        f"{share_with_interval(unseen[0])}, largest displacement {shown(sizes[0], 'mm')}",
+        "corner_share, corner_displacement",
+    )
+    if len(unseen) > 1:
+        k = 1 + int(np.argmin(unseen[1:, 0]))
+        yield (
+            f"the worst of {len(unseen) - 1} corners of the tolerances, 1000 unseen starts each",
+            f"{share_with_interval(unseen[k])}, largest displacement of all corners "
+            f"{shown(sizes[1:].max(), 'mm')}",
+            "corner_share, corner_displacement",
+        )
+    samples = data["sample_share"].values
+    if len(samples) > 1:
+        k = int(np.argmin(samples[:, 0]))
+        yield (
+            f"the worst of {len(samples)} samples of the tolerances",
+            share_with_interval(samples[k]),
+            "sample_share",
+        )
+    yield (
+        "starts that could lead to motions that were not found, at most",
+        percent(data["missed_share"]),
+        "missed_share",
+    )
+
+
+def _edges(data):
+    """Yield the ends of the quiet gaps, and those of the stability of the quiet orbit."""
+    gap = float(data["design_gap"])
+    for k, side in enumerate(("below", "above")):
+        edge, beyond, frequency = (
+            float(data[name][k]) for name in ("cliff_gap", "cliff_beyond", "cliff_frequency")
+        )
+        if np.isfinite(beyond):
+            value = (
+                f"{shown(edge, 'mm', 4)}, {percent(abs(edge / gap - 1))} {side} the gap to build "
+                f"(at {shown(frequency, 'Hz', 4)})"
+            )
+        elif np.isfinite(edge):
+            value = f"none down to {shown(edge, 'mm', 4)}" if k == 0 else ""
+            value = value or f"none up to {shown(edge, 'mm', 4)}"
+        else:
+            value = "no gap compared is quiet over the band"
+        yield f"cliff {side}: last quiet gap", value, "cliff_gap, cliff_frequency"
+    low, high = data["stability_gap"].values
+    if np.isfinite(low):
+        yield (
+            f"gaps at which the quiet orbit is stable, at "
+            f"{shown(data['branch_frequency'], 'Hz', 4)}",
+            f"{shown(low, 'mm', 4)} to {shown(high, 'mm', 4)}",
+            "stability_gap, branch_frequency",
+        )
+    low, high = data["stability_force"].values
+    if np.isfinite(low):
+        yield (
+            "excitation at which the quiet orbit is stable, over the nominal one",
+            f"{shown(low)} to {shown(high)}",
+            "stability_force",
+        )
