@@ -27,10 +27,11 @@ class Numbers(NamedTuple):
 
 
 class Table(NamedTuple):
-    """A table of texts."""
+    """A table of texts, and the sources of its numbers."""
 
     columns: list
     rows: list
+    source: str
     kind: str = "table"
 
 

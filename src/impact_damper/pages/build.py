@@ -109,4 +109,4 @@ def _machine(asked):
 def _deviation(asked, name):
     """Return the tolerance of a value, or nothing."""
     tolerance = asked["tolerances"].get(name) if name != "mass" else None
-    return f" +- {percent(tolerance)}" if tolerance else ""
+    return f" ± {percent(tolerance)}" if tolerance else ""

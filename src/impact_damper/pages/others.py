@@ -12,8 +12,8 @@ from impact_damper.pages.blocks import Numbers, Picture, Points, Section, Table,
 NAMES = {
     "bare": "no damper",
     "this": "this impact damper",
-    "tuned": "tuned absorber",
-    "nonlinear": "nonlinear absorber",
+    "tuned": "the tuned absorber",
+    "nonlinear": "the nonlinear absorber",
 }
 HEAD = (
     "Everything here has the same added mass. The tuned absorber has the stiffness and damping "
@@ -22,7 +22,14 @@ HEAD = (
     "periodic motions and checked by random starts, this damper's by random starts and ramps of "
     "frequency."
 )
-MASSES = "Impact dampers of other masses, each with its own gap, by a reduced design:"
+MASSES = (
+    "Impact dampers of other masses, each with its own gap, by a reduced design (* on the Pareto "
+    "front: no other mass betters displacement, force and mass together):"
+)
+SOURCES = (
+    "competitor_displacement, reached_displacement (this damper, nominal excitation), "
+    "force_map_displacement (this damper, other excitations)"
+)
 COLUMNS = ["", "as designed", "10 % detuned", "excitation / 4", "excitation x 4", "least at"]
 
 
@@ -31,7 +38,7 @@ def section(data) -> Section:
     over_frequency, over_force = _sizes(data)
     blocks = [
         Words(HEAD),
-        Table(COLUMNS, _rows(data, over_frequency, over_force)),
+        Table(COLUMNS, _rows(data, over_frequency, over_force), SOURCES),
         Points([*_verdict(data, over_frequency), *_ranges(over_force), *_remarks(data)]),
         Numbers(_absorbers(data)),
         Picture("competitors", competitors.CAPTION),
@@ -90,7 +97,7 @@ def _verdict(data, over_frequency):
     else:
         off = data["competitor_displacement"].sel(competitor=first, force_share=1.0)
         detuned = float(off.max(skipna=False))
-        what = f"with its springs 10 % off the {NAMES[first]} reaches {shown(detuned, 'mm')}"
+        what = f"with its springs 10 % off {NAMES[first]} reaches {shown(detuned, 'mm')}"
         if detuned < worst["this"]:
             yield f"So the impact damper loses, also against a detuned absorber: {what}."
         else:
@@ -137,11 +144,12 @@ def _absorbers(data):
 
 
 def _masses(data):
-    """Return columns and rows of the table of other masses."""
+    """Return columns, rows and sources of the table of other masses."""
     here = parameters_of(data)["mass"]
     columns = ["loose mass", "gap", "largest displacement", "least quiet share", "contact force"]
-    names = ("other_mass", "other_gap", "other_displacement", "other_share", "other_force")
-    values = zip(*(data[name].values for name in names), data["other_best"].values, strict=True)
+    names = ("mass", "gap", "displacement", "share", "force", "best")
+    names = [f"other_{name}" for name in names]
+    values = zip(*(data[name].values for name in names), strict=True)
     rows = []
     for mass, gap, size, share, force, best in values:
         note = " (this one)" if np.isclose(mass, here) else ""
@@ -155,4 +163,4 @@ def _masses(data):
                 shown(force, "N"),
             ]
         )
-    return columns, rows
+    return columns, rows, ", ".join(names)

@@ -263,11 +263,13 @@ class _Design(NamedTuple):
     def transients(self, gap):
         task, machine = self.task, self.task.machine
         damper = task.damper(1e-3 * gap)
-        low, high = task.band
+        # a nonlinear machine climbs to its large motions only from its natural frequency on
+        low = min(task.band[0], task.resonance[0])
+        high = max(task.band[1], task.resonance[1])
         span = (high**2 - low**2) / 2
         decay = machine.viscous_damping / (4 * np.pi * machine.mass)
         rate = min(max(SWEEP * decay**2, span / MOST_SWEPT), 0.01 * low**2)
-        swept = swept_sine(machine, damper, task.band, rate)
+        swept = swept_sine(machine, damper, (low, high), rate)
         first = 1e-3 * float(task.millimetres(1.0))
         rung = ring_down(machine, damper, first)
         return _prefixed(swept, "sweep").merge(_prefixed(rung, "ring"))

@@ -1,11 +1,12 @@
 """Transients without and with the damper: swept sine up and down, and ring-down."""
 
+from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines.looks import BARE, DAMPED, decades, limit_line
-from impact_damper.figures.style import figure, legend, style
+from impact_damper.figures.style import PALE, figure, legend, style
 
 CAPTION = """
 Largest displacement in each period. Above and middle: the forcing frequency is swept up and down
-through the band, at a constant rate. Below: ring-down without excitation, from a displacement of
+through the band and the resonance, at a constant rate; shaded outside the band. Below: ring-down without excitation, from a displacement of
 the machine at rest.
 """
 LOOKS = {"bare": BARE, "damped": DAMPED}
@@ -22,6 +23,7 @@ def draw_transients(data):
             size = swept["sweep_envelope"].sel(equipment=equipment)
             axes.plot(swept["sweep_frequency"], size, **look | {"linewidth": 0.8})
         limit_line(axes, data)
+        _shade(axes, data)
         axes.set(xlabel=f"Forcing frequency, swept {direction} (Hz)")
         if direction == "down":
             axes.invert_xaxis()
@@ -35,3 +37,11 @@ def draw_transients(data):
         decades(axes)
     legend(drawn, 2)
     return drawn
+
+
+def _shade(axes, data):
+    """Shade the frequencies of a sweep that lie outside the band."""
+    swept, band = data["sweep_frequency"].values, parameters_of(data)["band"]
+    for low, high in ((swept.min(), band[0]), (band[1], swept.max())):
+        if low < high:
+            axes.axvspan(low, high, facecolor=PALE, linewidth=0, zorder=0)
