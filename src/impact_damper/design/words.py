@@ -174,14 +174,19 @@ def _help(task, data):
 
 
 def _competition(data):
-    """Return how far the machine would move with tuned absorbers of the same mass."""
-    texts = []
-    for name in ("tuned", "nonlinear"):
-        sizes = data["competitor_displacement"].sel(competitor=name, force_share=1.0)
-        worst = sizes.max("frequency", skipna=False)
-        built, off = float(worst.sel(detuning=0.0)), float(worst.max())
-        if np.isfinite(built):
-            texts.append(f"{built:.3g} mm with a {name} absorber ({off:.3g} mm if it is detuned)")
-    if not texts:
+    """Return how far the machine would move with the best tuned absorber of the same mass."""
+    sizes = data["competitor_displacement"].sel(force_share=1.0).max("frequency", skipna=False)
+    built = sizes.sel(detuning=0.0).drop_sel(competitor="bare")
+    if not np.isfinite(built).any():
         return "A tuned absorber of the same mass is not possible, or the machine escapes with it."
-    return f"With the same mass the machine would move up to {', or '.join(texts)}."
+    name = str(built.competitor.values[int(np.nanargmin(built))])
+    off = float(sizes.sel(competitor=name).max())
+    return (
+        f"With the best tuned absorber of the same mass the machine would move "
+        f"{_short(built.min())}, and {_short(off)} with its springs 10 % off."
+    )
+
+
+def _short(size):
+    """Return how far the machine moves (mm), as the end of a sentence."""
+    return f"up to {float(size):.3g} mm" if np.isfinite(size) else "escape"

@@ -18,15 +18,13 @@ CHOICES = {
 
 def machines(datasets) -> pd.DataFrame:
     """For each machine: what to build, what that does, how sure it is, and the best alternative."""
-    return pd.DataFrame(
-        [_row(name, data) for name, data in datasets.get("machines", {}).items()]
-    )
+    return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
 
 
 def _row(name, data):
     made, asked = json.loads(data.attrs["machine"]), parameters_of(data)
     sizes = data["competitor_displacement"].sel(force_share=1.0, detuning=0.0).max("frequency")
-    best = np.fmin(*(float(sizes.sel(competitor=each)) for each in ("tuned", "nonlinear")))
+    absorbers = sizes.drop_sel(competitor="bare").values
     tolerance = asked["tolerances"].get("gap", 0.0)
     return {
         "machine": name,
@@ -37,7 +35,7 @@ def _row(name, data):
         "largest without damper, mm": float(data["balance_displacement"].max()),
         "largest with it, mm": escape_or(data["reached_displacement"].max()),
         "least share of quiet starts (unseen)": float(data["corner_share"][:, 0].min()),
-        "best tuned absorber, mm": best,
+        "best tuned absorber, mm": escape_or(np.fmin.reduce(absorbers)),
     }
 
 

@@ -22,6 +22,12 @@ NONLINEAR = {
     "label": "nonlinear absorber",
     "linestyle": (0, (5, 1.5, 1, 1.5)),
 }
+OPTIMISED = {
+    "color": ORANGE,
+    "linewidth": 1.2,
+    "label": "optimised absorber",
+    "linestyle": (0, (1, 1.2)),
+}
 LIMIT = {
     "color": VERMILION,
     "linewidth": 0.9,
