@@ -1,46 +1,42 @@
-"""The table of machines in SI units."""
-
-import json
+"""The table of dampers designed for machines."""
 
 import numpy as np
 import pytest
+from helpers.made_up_design import made_up_design
 
-from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables.variable import OUTCOME
 from impact_damper.tables.machines import machines
 
 
-def made_up(optimum_gap, largest):
-    """Two frequencies, the motion at the first of which escapes, and three gaps."""
-    data = {
-        "bare_displacement": [1.0, 20.0, 2.0],
-        "bare_frequency": [19.0, 20.5, 22.0],
-        "maximum_displacement": np.array([[np.inf, 3.0], [5.0, np.nan]]),
-        "outcome": [[OUTCOME["escaped"], 1], [1, OUTCOME["absent"]]],
-        "run_outcome": np.array([[OUTCOME["escaped"], 1], [1, 1]]),
-        "swept_frequency": 20.5,
-        "gap": [6.0, 8.0, 10.0],
-        "quiet_share": [1.0, 0.5, 0.0],
-        "largest_displacement": [1.0, largest, 4.0],
-        "optimum_gap": optimum_gap,
-        "optimum_kind": flag("optimum_kind", "smooth"),
+def row(**changed):
+    (found,) = machines({"machines": {"made_up": made_up_design(**changed)}}).to_dict("records")
+    return found
+
+
+def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
+    assert row() == {
+        "machine": "made_up",
+        "loose mass, kg": 0.6,
+        "band, Hz": "26 to 34",
+        "gap (full play), mm": "7 +- 10%",
+        "advice": "build it",
+        "largest without damper, mm": 10.0,
+        "largest with it, mm": 0.8,
+        "least share of quiet starts (unseen)": 0.98,
+        "best tuned absorber, mm": 0.5,
     }
-    found = dataset(data, {"frequency": [20.0, 21.0], "clearance": [3.0, 4.0, 5.0]}, {}, "made up")
-    made = {"damper_mass": 0.6, "gap": 0.008}
-    return found.assign_attrs(machine=json.dumps(made), optimum="in words")
 
 
 @pytest.mark.parametrize(
-    ("optimum_gap", "largest", "share", "shown"),
-    [
-        (8.5, 2.0, 0.5, 2.0),
-        (8.5, np.inf, 0.5, "escapes"),
-        (np.nan, 2.0, "no quiet motion", "no quiet motion"),
-    ],
+    ("choice", "advice"),
+    [("needs_tolerance", "build it, with a closer gap"), ("least_worst", "do not build it")],
 )
-def test_what_has_no_size_is_told_in_words(optimum_gap, largest, share, shown):
-    (row,) = machines({"machines": {"name": made_up(optimum_gap, largest)}}).to_dict("records")
-    assert row["largest without damper, mm"] == 20.0 and row["at, Hz"] == 20.5
-    assert row["largest with damper, mm"] == 5.0 and row["at, Hz (with damper)"] == 21.0
-    assert row["share of starts that escape"] == 0.25 and row["gap (full play), mm"] == 8.0
-    assert (row["starts that end quiet near it"], row["largest near it, mm"]) == (share, shown)
+def test_the_advice_follows_the_choice(choice, advice):
+    assert row(choice=choice)["advice"] == advice
+
+
+def test_a_motion_that_escapes_has_no_size():
+    assert row(reached_displacement=[1, np.inf, 1, 1, 1])["largest with it, mm"] == "escapes"
+
+
+def test_no_machines_make_no_rows():
+    assert machines({}).empty

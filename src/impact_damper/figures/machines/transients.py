@@ -6,8 +6,8 @@ from impact_damper.figures.style import PALE, figure, legend, style
 
 CAPTION = """
 Largest displacement in each period. Above and middle: the forcing frequency is swept up and down
-through the band and the resonance, at a constant rate; shaded outside the band. Below: ring-down without excitation, from a displacement of
-the machine at rest.
+through the band and the resonance, at a constant rate; shaded outside the band. Below: ring-down
+without excitation, from a displacement of the machine at rest.
 """
 LOOKS = {"bare": BARE, "damped": DAMPED}
 

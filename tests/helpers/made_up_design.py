@@ -1,0 +1,213 @@
+"""An invented dataset of `design_damper`, small and in round numbers, for tables, figures, pages."""
+
+import json
+
+import numpy as np
+
+from impact_damper.data.datasets import flag
+from impact_damper.design.labelled import labelled
+from impact_damper.machine.results import shown_variable
+
+FREQUENCY = np.linspace(26.0, 34.0, 5)
+MACHINE = {
+    "mass": 12.0,
+    "linear_stiffness": 2e5,
+    "cubic_stiffness": 4e9,
+    "damping_ratio": 0.005,
+    "force": 40.0,
+}
+SETTLING = {"tolerance": 1e-9, "patience": 300, "limit": 1500, "watched": 50}
+SURE = [1.0, 0.95, 1.0]
+
+
+def made_up_design(choice="robust", promise="robust_kept", **changed):
+    """Return the dataset, with other values of some variables."""
+    data = labelled(
+        _screening() | _comparison(choice) | _deviations(promise) | _masses(),
+        frequency=FREQUENCY,
+        screened_gap=[6.0, 7.0, 8.0],
+        coarse_gap=[5.0, 6.0, 7.0, 8.0, 9.0],
+        candidate_gap=[6.0, 7.0, 8.0, 9.0],
+        side=["lower", "upper"],
+        other_mass=[0.3, 0.6, 1.2],
+        operating_frequency=FREQUENCY,
+        force_share=[0.25, 0.5, 1.0, 2.0, 4.0],
+        map_gap=[4.0, 6.0, 8.0],
+        map_restitution=[0.5, 0.75, 1.0],
+        competitor=["bare", "tuned", "nonlinear", "best"],
+        detuning=[-0.1, 0.0, 0.1],
+    )
+    data = data.merge(labelled(_motions())).merge(labelled(_branches())).assign(_transients())
+    data = data.merge(labelled(_absorbers()))
+    data["followed_value"] = ("point", np.linspace(*FREQUENCY[[0, -1]], 6))
+    for name, values in changed.items():
+        data[name] = (data[name].dims, np.asarray(values, data[name].dtype), data[name].attrs)
+    made = MACHINE | {"gap": 7e-3, "damper_mass": 0.6, "restitution": 0.7}
+    asked = {
+        "machine": MACHINE,
+        "mass": 0.6,
+        "restitution": 0.7,
+        "band": [26.0, 34.0],
+        "starts": 73,
+        "share": 0.95,
+        "seed": 1995,
+        "tolerances": {"gap": 0.1, "restitution": 0.1},
+        "settling": SETTLING,
+        "compared_settling": SETTLING | {"patience": 150, "limit": 900},
+    }
+    return data.assign_attrs(
+        machine=json.dumps(made | {"contact_stiffness": 2e7}),
+        parameters=json.dumps(asked),
+        remarks=json.dumps({}),
+        conclusion=json.dumps(["Build a gap of 7 mm.", "The cliff is far."]),
+    )
+
+
+def _screening():
+    return {
+        "worst_frequency": 34.0,
+        "balance_displacement": np.linspace(6.0, 10.0, 5),
+        "displacement_limit": 2.0,
+        "best_orbit_gap": 9.0,
+        "best_orbit_displacement": 0.4,
+        "best_orbit_status": flag("best_orbit_status", "smooth"),
+        "screen_motions": 320,
+        "screen_orbits": 100,
+    }
+
+
+def _comparison(choice):
+    shares = np.ones((4, 5))
+    shares[3, 2] = 0.5
+    ends = np.stack([0.95 * shares, np.minimum(1.0, 1.1 * shares)], axis=-1)
+    worst = np.where(shares < 1, 6.0, 0.8)
+    return {
+        "coarse_displacement": [7.0, 0.9, 0.8, 0.8, 6.0],
+        "coarse_share": [0.2, 1.0, 1.0, 1.0, 0.4],
+        "start_quiet_share": shares,
+        "start_quiet_interval": ends,
+        "worst_displacement": worst,
+        "compared_motions": 1000,
+        "design_gap": 7.0,
+        "design_choice": flag("design_choice", choice),
+        "cliff_gap": [6.0, 8.5],
+        "cliff_beyond": [np.nan, 8.6],
+        "cliff_frequency": [np.nan, 30.0],
+        "cliff_status": [flag("cliff_status", "range_ends"), flag("cliff_status", "found")],
+        "reached_quiet_share": np.ones(5),
+        "reached_quiet_interval": np.tile([0.95, 1.0], (5, 1)),
+        "reached_displacement": np.linspace(0.8, 0.4, 5),
+        "motion_rms": np.linspace(0.4, 0.2, 5),
+        "motion_peak_mean": np.linspace(0.5, 0.3, 5),
+        "motion_peak_high": np.linspace(0.7, 0.3, 5),
+        "impact_rate_by_frequency": np.linspace(14.0, 10.0, 5),
+        "contact_force_by_frequency": np.linspace(600.0, 500.0, 5),
+        "penetration_by_frequency": np.full(5, 0.03),
+        "impact_speed_by_frequency": np.full(5, 0.2),
+        "impact_loss_by_frequency": np.full(5, 0.003),
+        "impact_power_by_frequency": np.full(5, 0.04),
+        "noise_by_frequency": np.full(5, 0.25),
+        "pressure_by_frequency": np.full(5, np.nan),
+        "yields_by_frequency": np.full(5, flag("yields_by_frequency", "unknown")),
+    }
+
+
+def _deviations(promise):
+    shares = np.array([SURE, [0.98, 0.96, 0.99], SURE])
+    return {
+        "promise": flag("promise", promise),
+        "promised_displacement": 2.0,
+        "sample_displacement": [0.8, 5.0, 0.9],
+        "sample_share": shares,
+        "corner_displacement": [0.8, 6.0, 0.9],
+        "corner_share": shares,
+        "force_map_share": np.tile([1.0, 1.0, 1.0, 0.5, 0.0], (5, 1)),
+        "force_map_displacement": np.tile([0.2, 0.4, 0.8, 6.0, 9.0], (5, 1)),
+        "damper_map_share": np.tile([1.0, 0.9, 0.1], (3, 1)),
+        "damper_map_displacement": np.tile([0.8, 0.9, 6.0], (3, 1)),
+        "force_edge_frequency": [27.0, 28.0, 30.0, 31.0],
+        "force_edge_share": [0.5, 0.6, 2.0, 2.0],
+        "force_edge_kind": [0, 0, 2, 2],
+        "force_edge_number": [0, 0, 1, 1],
+        "force_edges_lost": 1,
+        "damper_edge_gap": [5.0, 6.0],
+        "damper_edge_restitution": [0.6, 0.7],
+        "damper_edge_kind": [1, 1],
+        "damper_edge_number": [0, 0],
+        "damper_edges_lost": 0,
+    }
+
+
+def _masses():
+    return {
+        "other_gap": [14.0, 7.0, 3.0],
+        "other_displacement": [5.0, 0.9, 0.8],
+        "other_share": [0.5, 1.0, 1.0],
+        "other_force": [900.0, 600.0, 1500.0],
+        "other_best": [0, 1, 1],
+    }
+
+
+def _motions():
+    """Return a settled motion and a chaotic one at each frequency."""
+    sizes = np.stack([np.linspace(0.5, 0.3, 5), np.linspace(0.8, 0.4, 5)], axis=1)
+    outcomes = [flag("outcome", "settled"), flag("outcome", "chaotic")]
+    return {
+        "maximum_displacement": sizes,
+        "outcome": np.tile(outcomes, (5, 1)),
+        "share": np.tile([40, 33], (5, 1)),
+        "missed_share": 0.04,
+    }
+
+
+def _branches():
+    x = np.linspace(26.0, 34.0, 6)
+    return {
+        "orbit_branch": np.zeros(6, int),
+        "orbit_displacement": np.linspace(0.5, 0.3, 6),
+        "orbit_stability": np.where(x < 30, 1, -1),
+        "branch_period": [1],
+        "bare_branch": np.repeat([0, 1], 3),
+        "bare_frequency": np.tile([26.0, 30.0, 34.0], 2),
+        "bare_displacement": [6.0, 8.0, 10.0, 5.0, 7.0, 9.0],
+        "bare_stability": [1, 1, 1, -1, -1, -1],
+        "branch_frequency": 30.0,
+        "gap_of_orbit": [6.0, 7.0, 8.0, 9.0],
+        "displacement_by_gap": [0.8, 0.7, 0.5, 0.4],
+        "modulus_by_gap": [1.2, 0.9, 0.8, 1.1],
+        "stability_gap": [6.5, 8.8],
+        "stability_force": [0.5, 2.0],
+    }
+
+
+def _transients():
+    """Return sweeps up and down, and a ring-down that decays at two rates."""
+    turning = np.linspace(20.0, 36.0, 9)
+    sizes = np.stack([np.linspace(1.0, 9.0, 9), np.full(9, 0.5)])
+    time = np.linspace(0.0, 10.0, 21)
+    return {
+        "sweep_frequency": shown_variable("sweep_frequency", [turning, turning[::-1]]),
+        "sweep_envelope": shown_variable(
+            "envelope", [sizes, sizes], ("direction", "equipment", "sweep_window")
+        ),
+        "ring_time": shown_variable("sweep_time", [time, time], ("equipment", "ring_window")),
+        "ring_envelope": shown_variable(
+            "envelope", 2 * np.exp([-0.5 * time, -2 * time]), ("equipment", "ring_window")
+        ),
+        "direction": ("direction", ["up", "down"]),
+        "equipment": ("equipment", ["bare", "damped"]),
+    }
+
+
+def _absorbers():
+    """Return displacements in proportion to the excitation; the optimised absorber is possible."""
+    worst = np.array([10.0, 1.0, np.nan, 0.5])
+    share = np.array([0.25, 0.5, 1.0, 2.0, 4.0])
+    sizes = worst[:, None, None, None] * share * np.ones((4, 3, 5, 1))
+    sizes[:, [0, 2]] *= 1.2
+    return {
+        "competitor_displacement": sizes,
+        "absorber_stiffness": np.tile([[np.nan], [9e3], [np.nan], [9.5e3]], 3),
+        "absorber_damping": np.tile([[np.nan], [20.0], [np.nan], [21.0]], 3),
+        "absorber_cubic_stiffness": np.tile([[np.nan], [0.0], [np.nan], [1e7]], 3),
+    }
