@@ -1,4 +1,4 @@
-"""An invented dataset of `design_damper`, small and in round numbers, for tables, figures, pages."""
+"""An invented dataset of `design_damper`, small and in round numbers."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""The page of a machine: what to build stands first, every number has its source, no other files."""
+"""The page of a machine: the gap to build stands first, each number has its source."""
 
 import base64
 import re

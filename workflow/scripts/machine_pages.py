@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from impact_damper.workflow.job import Job
 from impact_damper.pages.machine import FIGURES, machine_page
 from impact_damper.pages.render import write_page
-from impact_damper.workflow.job import Job
 
 job = Job(snakemake)
 ((name, data),) = job.datasets["machines"].items()
