@@ -23,6 +23,7 @@ WHOLE = {
     "longest_hold",
     "lifetime",
     "highest",
+    "candidates",
 }
 WHOLE |= {"highest_cold", "periods", "passages", "implicit_passages", "points", "most_steps"}
 WHOLE |= {"period", "scipy_every"}
@@ -100,11 +101,12 @@ FIXED = [path for path in MAPPINGS if not is_named(path)]
 NAMED = [path for path in MAPPINGS if is_named(path)]
 # Keys that take a number or a range.
 AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXES]
-# Physical quantities, which may be texts with units too.
+# Physical quantities of machines, which may be texts with units too; all but these.
+NO_QUANTITIES = ("points", "starts", "candidates", "share")
 QUANTITIES = [
     path
     for path, value in places(SMALL)
-    if path[:1] == ("machines",) and is_number(value) and path[-1] not in ("points", "starts")
+    if path[:1] == ("machines",) and is_number(value) and path[-1] not in NO_QUANTITIES
 ]
 NUMBERS = [path for path, value in places(SMALL) if is_number(value) and path not in QUANTITIES]
 TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]

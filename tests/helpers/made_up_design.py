@@ -1,4 +1,4 @@
-"""An invented dataset of `design_damper`, small and in round numbers."""
+"""An invented dataset of `design_damper` in round numbers, for tables, figures and pages."""
 
 import json
 

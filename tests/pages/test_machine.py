@@ -1,4 +1,4 @@
-"""The page of a machine: the gap to build stands first, each number has its source."""
+"""The page of a machine: what to build comes first, every number has its source."""
 
 import base64
 import re

@@ -123,10 +123,12 @@ def test_each_missing_value_has_its_line():
         "scenes": (*damper, "tolerance"),
         "harmonic_convergence": (*damper, "contact_stiffness"),
         "balance_map": ("damping", *damper),
-        "machines": ("linear_stiffness", "damping_ratio", "force", "restitution"),
+        "machines": ("linear_stiffness", "damping_ratio", "force", "base_displacement"),
     }
     needed = {
-        ".".join(path) for path in leaves(SMALL) if path[-1] not in optional.get(path[0], ())
+        ".".join(path)
+        for path in leaves(SMALL)
+        if path[-1] not in optional.get(path[0], ()) and path[::2] != ("machines", "tolerances")
     } - {f"studies.design_plane.{key}.{end}" for key in AXES for end in ("first", "last", "points")}
     lines = problems(emptied(SMALL))
     missing = {line.split(": missing; needed here: ")[0] for line in lines}
@@ -429,3 +431,22 @@ def test_the_check_imports_no_numpy():
 def test_the_reference_is_up_to_date():
     """After a change: python -m impact_damper.workflow.models > config/reference.md"""
     assert (ROOT / "config/reference.md").read_text() == reference()
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "told"),
+    [
+        ("damper/mass", "13 kg", "damper.mass = '13 kg': must be "),
+        ("band/last", 20.4, "band = 20.3 Hz to 20.4 Hz: must "),
+        ("starts", 72, "starts = 72: must be from 73 "),
+        ("tolerances/gap", "110 %", "tolerances.gap = '110 %': must be "),
+        ("tolerances/force", 1.0, "tolerances.force = 1.0: must be "),
+        ("candidates", 3, "candidates = 3: must be "),
+        ("band/points", 2, "band.points = 2: must be "),
+        ("contact", {"radius": "20 mm"}, "contact.youngs_modulus: missing; "),
+        ("machine/force", None, "machine.force = None: must be "),
+    ],
+)
+def test_a_machine_is_refused_in_the_words_of_its_user(path, value, told):
+    lines = problems(changed(f"machines/linear/{path}", value))
+    assert lines[0].startswith(f"machines.linear.{told}"), lines

@@ -40,7 +40,7 @@ def envelope(parameters, lengths, y, tolerance):
         Contacts begun in each window, NaN from an escape on.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
-    side = side_of(parameters[0], y)
+    side = side_of(next(iter(parameters)), y)
     for first in range(0, len(lengths), AT_ONCE):
         part = slice(first, first + AT_ONCE)
         side, escaped = run_windows(

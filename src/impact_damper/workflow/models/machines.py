@@ -136,7 +136,14 @@ Tolerances = create_model(
 Ball = create_model(
     "Ball",
     __base__=Given,
-    radius=(quantity_of("displacement", "radius of the loose mass at the contact", above=0), None),
+    radius=(
+        quantity_of(
+            "displacement",
+            "radius of the loose mass where it touches; without it no pressure",
+            above=0,
+        ),
+        None,
+    ),
     **{
         name: (kind if isinstance(kind, tuple) else (kind, None))
         for name, kind in fields_of(
