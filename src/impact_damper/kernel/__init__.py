@@ -23,6 +23,7 @@ ROOMS_WITHOUT_KERNELS = (
     "claims",
     "tables",
     "figures",
+    "pages",
     "workflow",
 )
 
