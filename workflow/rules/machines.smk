@@ -22,7 +22,9 @@ rule machine_pages:
     input:
         **data_by_stage({"machines": ["{name}"]}),
         code=code("machine_pages"),
-        templates=[local(path) for path in sorted((ROOT / "src/impact_damper/pages/templates").iterdir())],
+        templates=[
+            local(path) for path in sorted((ROOT / "src/impact_damper/pages/templates").iterdir())
+        ],
     output:
         report(
             "<results>/machines/{name}/index.html",
