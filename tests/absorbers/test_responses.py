@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import impact_damper as idm
+from impact_damper.absorbers.direct import best_absorber
 from impact_damper.absorbers.linear_response import response
 from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.responses import absorber_responses
@@ -100,6 +101,19 @@ def test_a_motion_without_a_period_by_scipy():
     strobes = run.y[0, ::32]
     assert np.ptp(strobes) > 0.1 * np.abs(run.y[0]).max()
     assert_allclose(found["competitor_displacement"], 1e3 * np.abs(run.y[0]).max(), rtol=0.01)
+
+
+def test_a_motion_without_a_period_that_few_starts_reach():
+    """It is found from its neighbours in frequency and force where no random start leads to it."""
+    machine, absorber = HARD, best_absorber(HARD, 0.6, (20, 32))
+    frequencies, shares = np.linspace(23.0, 27.5, 16), [2.83, 4.0]
+    problems = problems_of(machine, absorber, frequencies, shares)
+    few = search(problems, (16, 2), 2, 1)[0]
+    many = search(problems, (16, 2), 48, 2)[0]
+    wandering = flag("competitor_status", "not_periodic")
+    np.testing.assert_array_equal(few.status == wandering, many.status == wandering)
+    assert_allclose(few.most, many.most, rtol=0.1)
+    assert ((few.status == wandering) & (few.share == 0)).any()
 
 
 def test_a_detached_resonance():

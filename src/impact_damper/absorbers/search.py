@@ -2,7 +2,8 @@
 
 Orbits come first from the balance of one harmonic (`seeds`), then from random starts that end near
 none of them (`settling`). An orbit that only a start led to is looked for at the neighbouring
-frequencies and forces too.
+frequencies and forces too. Motions without a period come from random starts, from beside orbits
+that are unstable but for a fold, and from such motions at neighbouring frequencies and forces.
 """
 
 from typing import NamedTuple
@@ -13,9 +14,12 @@ from impact_damper.absorbers.orbits import Orbits, find_orbits
 from impact_damper.absorbers.seeds import harmonic_seeds
 from impact_damper.absorbers.settling import ESCAPED, UNSETTLED, WANDERING, random_starts, settle
 from impact_damper.data.datasets import flag
+from impact_damper.motions.smooth_runs import SIZE
 
-# Times that neighbours of new orbits are searched.
+# Times that neighbours of new motions are searched.
 ROUNDS = 50
+# Factor by which a start lies beside an unstable orbit.
+BESIDE = 1.01
 # Ratio of two displacements above which they count as that of one motion.
 ALIKE = 0.95
 NEIGHBOURS = ((-1, 0), (1, 0), (0, -1), (0, 1))
@@ -68,20 +72,47 @@ def search(problems, shape, starts, seed, sizes=None):
     sizes : numpy.ndarray, shape (number of shares, SIZE)
         Largest components of the orbits for each force share, and of `sizes`.
     """
-    known = _stable(find_orbits(problems, *harmonic_seeds(problems)))
-    most = np.zeros((shape[1], problems.shape[1] // 2)) if sizes is None else sizes.copy()
+    found = find_orbits(problems, *harmonic_seeds(problems))
+    known = _stable(found)
+    most = np.zeros((shape[1], SIZE)) if sizes is None else sizes.copy()
     np.maximum.at(most, known.problem % shape[1], known.largest)
     wide = most.copy()
     # an absorber may be as far from the machine as this is from its rest
     wide[:, 2:] = np.maximum(wide[:, 2:], wide[:, :2])
     wide = np.tile(wide, (shape[0], 1))
-    ends = settle(problems, known, random_starts(problems, wide, starts, seed), wide)
+    problem = np.repeat(np.arange(len(problems)), starts)
+    states = random_starts(problems, wide, starts, seed)
+    lost = _without_period(found)
+    ends = settle(problems, known, problem, states, wide)
+    ends = ends.joined(settle(problems, ends.orbits, lost.problem, BESIDE * lost.state, wide))
     orbits = _with_neighbours(problems, ends.orbits, len(known.problem), shape)
-    return _summary(ends, orbits, len(problems)), orbits, most
+    ends = _with_wandering(problems, ends._replace(orbits=orbits), shape, wide)
+    return _summary(ends, len(problems), starts), ends.orbits, most
+
+
+def _without_period(orbits) -> Orbits:
+    """Return orbits beside which a motion may wander: a torus, or of twice the period.
+
+    The largest multiplier is complex or negative.
+    """
+    orbits = orbits.take(orbits.converged & ~orbits.stable).distinct()
+    place = np.abs(orbits.multipliers).argmax(axis=1)
+    largest = orbits.multipliers[np.arange(len(place)), place]
+    return orbits.take((largest.imag != 0) | (largest.real < 0))
 
 
 def _stable(orbits) -> Orbits:
     return orbits.take(orbits.stable).distinct()
+
+
+def _neighbours(index, shape):
+    """Return the neighbours of problems in the grid, and the place in `index` each belongs to."""
+    frequency, force = np.unravel_index(index, shape)
+    there = [(frequency + i, force + j) for i, j in NEIGHBOURS]
+    frequency, force = np.concatenate(there, axis=1)
+    inside = (frequency >= 0) & (frequency < shape[0]) & (force >= 0) & (force < shape[1])
+    beside = np.ravel_multi_index((frequency[inside], force[inside]), shape)
+    return beside, np.tile(np.arange(len(index)), len(NEIGHBOURS))[inside]
 
 
 def _with_neighbours(problems, orbits, first, shape):
@@ -91,21 +122,36 @@ def _with_neighbours(problems, orbits, first, shape):
         first = len(orbits.problem)
         for period in np.unique(new.period):
             some = new.take(new.period == period)
-            frequency, force = np.unravel_index(some.problem, shape)
-            there = [(frequency + i, force + j) for i, j in NEIGHBOURS]
-            frequency, force = np.concatenate(there, axis=1)
-            inside = (frequency >= 0) & (frequency < shape[0]) & (force >= 0) & (force < shape[1])
-            index = np.ravel_multi_index((frequency[inside], force[inside]), shape)
-            guesses = np.tile(some.state, (len(NEIGHBOURS), 1))[inside]
-            orbits = orbits.joined(_stable(find_orbits(problems, index, guesses, period)))
+            index, place = _neighbours(some.problem, shape)
+            orbits = orbits.joined(_stable(find_orbits(problems, index, some.state[place], period)))
         orbits = orbits.distinct()
         if len(orbits.problem) == first:
             break
     return orbits
 
 
-def _summary(ends, orbits, count) -> Search:
-    """Return the values of each problem."""
+def _with_wandering(problems, ends, shape, sizes):
+    """Return ends of runs with those of runs from motions without a period at neighbours."""
+    tried = np.zeros(len(problems), bool)
+    first = 0
+    for _ in range(ROUNDS):
+        new = first + np.flatnonzero(ends.orbit[first:] == WANDERING)
+        first = len(ends.orbit)
+        tried[ends.problem[new]] = True
+        index, place = _neighbours(ends.problem[new], shape)
+        index, once = np.unique(index, return_index=True)
+        fresh = ~tried[index]
+        index, place = index[fresh], place[once[fresh]]
+        if not len(index):
+            break
+        tried[index] = True
+        ends = ends.joined(settle(problems, ends.orbits, index, ends.state[new[place]], sizes))
+    return ends
+
+
+def _summary(ends, count, starts) -> Search:
+    """Return the values of each problem; shares are those of the first `starts` of each."""
+    orbits = ends.orbits
     displacement = orbits.largest[:, 0]
     settled, wandering = ends.orbit >= 0, ends.orbit == WANDERING
     most, least = np.full(count, -np.inf), np.full(count, np.inf)
@@ -117,18 +163,17 @@ def _summary(ends, orbits, count) -> Search:
         np.minimum.at(least, problem, sizes)
     reached = ends.displacement.copy()
     reached[settled] = displacement[ends.orbit[settled]]
-    starts = len(ends.problem) / count
-
-    def share(mask):
-        return np.bincount(ends.problem[mask], minlength=count) / starts
-
     # runs on one motion without a period differ in what they reach
     worst = reached >= ALIKE * most[ends.problem]
+
+    def share(mask):
+        return mask[: count * starts].reshape(count, starts).mean(axis=1)
+
     known = np.bincount(orbits.problem, weights=1 / orbits.period, minlength=count)
     status = np.full(count, flag("competitor_status", "found"))
     status[np.isinf(most)] = flag("competitor_status", "escaped")
-    status[share(ends.orbit == UNSETTLED) > 0] = flag("competitor_status", "not_settled")
-    status[share(wandering) > 0] = flag("competitor_status", "not_periodic")
+    status[ends.problem[ends.orbit == UNSETTLED]] = flag("competitor_status", "not_settled")
+    status[ends.problem[wandering]] = flag("competitor_status", "not_periodic")
     none = np.isinf(most)
     most[none] = least[none] = np.nan
     escaped = share(ends.orbit == ESCAPED)

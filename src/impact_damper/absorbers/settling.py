@@ -27,7 +27,7 @@ NEAR, SMALL = 0.02, 0.1
 # and it is not settled if its largest displacement does.
 DECAY, LONGEST = 9.0, 40
 WATCHED, FALLEN = 20, 0.95
-# Beyond this number of times the largest start a run has escaped.
+# Beyond this number of times the largest motions a run has escaped.
 OUTSIDE = 100.0
 # Ends of runs that are no indices of orbits. A run that is wandering keeps its size.
 WANDERING, ESCAPED, UNSETTLED = -1, -2, -3
@@ -47,12 +47,20 @@ class Settled(NamedTuple):
         Index of the orbit on which it ends, or one of WANDERING, ESCAPED and UNSETTLED.
     displacement : numpy.ndarray, shape (n,)
         Largest |x| of a run that is wandering, while it is watched; else NaN.
+    state : numpy.ndarray, shape (n, SIZE)
+        State at T = 0 when the run was last looked at.
     """
 
     orbits: Orbits
     problem: np.ndarray
     orbit: np.ndarray
     displacement: np.ndarray
+    state: np.ndarray
+
+    def joined(self, later) -> "Settled":
+        """Return these ends and those of later runs, which began with the orbits of these."""
+        pairs = zip(self[1:], later[1:], strict=True)
+        return Settled(later.orbits, *(np.concatenate(pair) for pair in pairs))
 
 
 def random_starts(problems, sizes, count, seed):
@@ -84,7 +92,7 @@ def random_starts(problems, sizes, count, seed):
     return states
 
 
-def settle(problems, orbits, starts, sizes) -> Settled:
+def settle(problems, orbits, problem, starts, sizes) -> Settled:
     """Run starts until they are near a stable orbit, have escaped, or are given up.
 
     Parameters
@@ -92,14 +100,14 @@ def settle(problems, orbits, starts, sizes) -> Settled:
     problems : numpy.ndarray, shape (n, COUNT)
     orbits : Orbits
         Stable orbits that are known.
-    starts : numpy.ndarray, shape (n count, SIZE)
-        The same number for each problem in turn.
+    problem : numpy.ndarray of int, shape (m,)
+        Problem of each start.
+    starts : numpy.ndarray, shape (m, SIZE)
     sizes : numpy.ndarray, shape (n, SIZE)
         Components of the largest motions.
     """
-    problem = np.repeat(np.arange(len(problems)), len(starts) // len(problems))
     state, end = starts.copy(), np.full(len(starts), UNSETTLED)
-    bound = OUTSIDE * np.abs(starts).max(axis=0)
+    bound = OUTSIDE * sizes.max(axis=0)
     decay = np.pi * problems[:, DAMPING].min()
     needed = int(np.ceil(DECAY / decay / STRETCH))
     looks = min(needed, LONGEST)
@@ -116,17 +124,17 @@ def settle(problems, orbits, starts, sizes) -> Settled:
         if not len(active):
             break
     displacement = np.full(len(starts), np.nan)
-    end[active], displacement[active] = _watch(
+    end[active], displacement[active], state[active] = _watch(
         problems, orbits, problem[active], state[active], sizes
     )
     if active_size(problems) < SIZE and needed > looks:
         # beats of a free vibration that has not yet decayed look like a motion of their own
         end[end == WANDERING] = UNSETTLED
-    return Settled(orbits, problem, end, displacement)
+    return Settled(orbits, problem, end, displacement, state)
 
 
 def _watch(problems, orbits, problem, state, sizes):
-    """Return the ends of runs that were long near no orbit, and largest |x| of those wandering."""
+    """Return ends of runs that were long near no orbit, largest |x| of those wandering, states."""
     distances, displacements = [], []
     for _ in range(WATCHED):
         state, largest = _run(problems[problem], state, COARSE, STRETCH)
@@ -137,7 +145,7 @@ def _watch(problems, orbits, problem, state, sizes):
     end = _candidates(orbits, problem)[nearest, columns]
     approaches = _falls(distances[:, nearest, columns])
     end = np.where(approaches, end, np.where(_falls(displacements), UNSETTLED, WANDERING))
-    return end, np.where(end == WANDERING, displacements.max(axis=0), np.nan)
+    return end, np.where(end == WANDERING, displacements.max(axis=0), np.nan), state
 
 
 def _falls(values):
