@@ -49,6 +49,8 @@ class Pool(NamedTuple):
         Lengths of the queues.
     contacts : array of int, shape (m,)
         Contacts begun since the trajectory was last sent.
+    held : array of int, shape (LANES,)
+        Index of the trajectory whose parameters stand in each lane, or -1.
     a, d : array
         Rows of the step and of its tangents (`series.rows`).
     """
@@ -60,6 +62,7 @@ class Pool(NamedTuple):
     queues: np.ndarray
     waiting: np.ndarray
     contacts: np.ndarray
+    held: np.ndarray
     a: np.ndarray
     d: np.ndarray
 
@@ -75,6 +78,7 @@ def make_pool(size):
         np.zeros((4, size), np.int64),
         np.zeros(4, np.int64),
         np.zeros(size, np.int64),
+        np.full(LANES, -1),
         aligned(SIZE),
         aligned(TANGENT_SIZE),
     )
@@ -91,6 +95,9 @@ def enter(pool, m, p, y, side, tolerance):
     numbers[SIDE] = side
     numbers[TOLERANCE] = tolerance
     pool.farthest[m] = no_return(p)
+    for lane in range(LANES):
+        if pool.held[lane] == m:
+            pool.held[lane] = -1
 
 
 @kernel
@@ -127,7 +134,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy the chosen trajectories into the lanes.
+    """Copy the chosen trajectories into the lanes, their parameters only if these change.
 
     If there are fewer than LANES, `choose` has put one of them into several lanes.
     """
@@ -135,7 +142,11 @@ def gather(pool, chosen, kind):
         m = chosen[lane]
         numbers = pool.numbers[m]
         numbers[LONGEST] = pool.ends[m] - numbers[TIME]
-        for row in range(LENGTH):
+        if pool.held[lane] != m:
+            pool.held[lane] = m
+            for row in range(STATE):
+                pool.a[row * LANES + lane] = numbers[row]
+        for row in range(STATE, LENGTH):
             pool.a[row * LANES + lane] = numbers[row]
         if kind >= FLIGHT_WITH_TANGENT:
             for row in range(4):
