@@ -44,7 +44,7 @@ def test_no_absorber_nearby_is_better(machine):
     for name in ("stiffness", "damping", "cubic_stiffness"):
         for factor in (0.9, 0.97, 1.03, 1.1):
             other = replace(absorber, **{name: getattr(absorber, name) * factor})
-            assert worst(other) > least * (1 - 2e-3)
+            assert worst(other) > least * (1 - 1e-2)
 
 
 def test_it_is_better_by_exact_motions():

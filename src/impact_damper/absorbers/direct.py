@@ -31,14 +31,14 @@ from impact_damper.motions.smooth_runs import (
 TUNINGS, LOWEST = 16, 0.3
 DAMPINGS = np.geomspace(0.03, 0.5, 5)
 CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
-COARSE, FINE = 31, 61
+COARSE, FINE = 25, 45
 # With MARGIN times the machine's force the largest displacement may be up to MOST_RISE times as
 # large. If it is larger, a detached resonance lies so near that the balance of one harmonic, which
 # places it some per cent wrong, may miss it; then the larger displacement counts.
 MARGIN, MOST_RISE = 1.1, 1.3
 # Points of each grid that are refined, and tolerance of the logarithms.
 REFINED = 2
-TOLERANCE = 1e-3
+TOLERANCE = 2e-3
 
 
 def best_absorber(machine, mass, band) -> TunedAbsorber:
