@@ -86,7 +86,6 @@ def size_panel(axes, data):
     limit_line(axes, data)
     axes.set(xlim=_span(data), ylabel="Largest displacement (mm)")
     decades(axes)
-    decades(axes, "x")
 
 
 def _span(data):

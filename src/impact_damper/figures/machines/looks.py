@@ -75,12 +75,10 @@ def limit_line(axes, data):
     axes.axhline(float(data["displacement_limit"]), **LIMIT)
 
 
-def decades(axes, name="y"):
-    """Make an axis logarithmic, with plain numbers as labels, as many as there is room for."""
-    axes.set(**{f"{name}scale": "log"})
-    axis = getattr(axes, f"{name}axis")
-    low, high = axis.get_view_interval()
-    name_numbers(axis, low, high)
+def decades(axes):
+    """Make the axis of displacements logarithmic, with plain numbers as labels."""
+    axes.set_yscale("log")
+    name_numbers(axes.yaxis, *axes.get_ylim())
 
 
 def name_numbers(axis, low, high):

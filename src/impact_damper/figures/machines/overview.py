@@ -32,10 +32,7 @@ def draw_machines(*, machines):
         response_panel(left, data)
         size_panel(middle, data)
         share_panel(right, data)
-        right.set(xscale="log", xlim=middle.get_xlim())
-        for axis in (right.xaxis,):
-            axis.set_major_formatter(middle.xaxis.get_major_formatter())
-            axis.set_minor_formatter(middle.xaxis.get_minor_formatter())
+        right.set_xlim(middle.get_xlim())
     for axes in panels[-1, 1:]:
         axes.set_xlabel("Gap, full play (mm)")
     letter_panels(panels[:, 0])
