@@ -10,7 +10,7 @@ import numpy as np
 
 from impact_damper.design.outcomes import Case, run, summarise
 
-# Coarse comparison: number of gaps, of frequencies and of starts.
+# Coarse comparison: most gaps (fewer with few candidates), number of frequencies and of starts.
 COARSE_GAPS, COARSE_FREQUENCIES, COARSE_STARTS = 14, 9, 24
 # The candidates reach beyond the tolerated deviation from the best gap of the coarse comparison by
 # this share.
@@ -180,7 +180,7 @@ def coarse_comparison(task, span, frequency, limit, *, starts=COARSE_STARTS, **r
     Comparison
     """
     kept = np.union1d(spread(task.grid, COARSE_FREQUENCIES), frequency)
-    gaps = np.geomspace(*span, COARSE_GAPS)
+    gaps = np.geomspace(*span, min(COARSE_GAPS, 2 * task.candidates - 2))
     return compare(task, gaps, kept, limit, starts, task.seed + 1, **running)
 
 

@@ -16,11 +16,11 @@ from impact_damper.edges.maps import map_edges
 from impact_damper.orbits.shooting import shoot
 from impact_damper.system.bounds import RESTITUTION_RANGE
 
-# Cells along each axis of a map, starts in a cell; ratio of the gap to the nominal one; least
-# restitution.
+# Most cells along each axis of a map (fewer for a task with few candidates), starts in a cell;
+# ratio of the gap to the nominal one; least restitution.
 CELLS, CELL_STARTS = 11, 12
 GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
-# Cells along each axis of the grid on which edges are found.
+# Most cells along each axis of the grid on which edges are found.
 EDGE_CELLS = 14
 # Edges that are kept, in the words of `edges.curves.Edge.kind`.
 KINDS = ("fold", "symmetry_breaking", "neimark_sacker")
@@ -59,8 +59,9 @@ def map_forces(task, gap, limit, shares, **running) -> Map:
 
 def map_dampers(task, gap, frequency, limit, **running) -> Map:
     """Return the motions at a frequency over gap (mm) and restitution."""
-    gaps = gap * np.geomspace(*GAPS, CELLS)
-    restitutions = np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], CELLS)
+    count = min(CELLS, task.candidates + 3)
+    gaps = gap * np.geomspace(*GAPS, count)
+    restitutions = np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], count)
     place = VARIED.index("restitution")
     cells = [
         (Case(1e-3 * each, frequency, _with(place, e / task.restitution)), limit)
@@ -124,9 +125,10 @@ def force_curves(task, gap, frequency, orbit, shares) -> Curves:
         Least and greatest multiple of the force are its ends.
     """
     place = VARIED.index("force")
+    count = min(EDGE_CELLS, task.candidates + 6)
     axes = (
-        np.linspace(*task.band, EDGE_CELLS),
-        np.geomspace(shares[0], shares[-1], EDGE_CELLS),
+        np.linspace(*task.band, count),
+        np.geomspace(shares[0], shares[-1], count),
     )
 
     def family(f, share):
@@ -138,9 +140,10 @@ def force_curves(task, gap, frequency, orbit, shares) -> Curves:
 def damper_curves(task, gap, frequency, orbit) -> Curves:
     """Return the edges over gap (mm) and restitution at a frequency (Hz)."""
     place = VARIED.index("restitution")
+    count = min(EDGE_CELLS, task.candidates + 6)
     axes = (
-        gap * np.geomspace(*GAPS, EDGE_CELLS),
-        np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], EDGE_CELLS),
+        gap * np.geomspace(*GAPS, count),
+        np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], count),
     )
 
     def family(each, e):

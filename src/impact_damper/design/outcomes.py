@@ -8,9 +8,9 @@ also reach motions that hardly any random start reaches, count in the worst disp
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import binomtest
 
 from impact_damper.data.datasets import is_settled
+from impact_damper.data.shares import wilson
 from impact_damper.design.task import NOMINAL
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, CHAOTIC, NON_COLLIDING, SETTLED
@@ -94,8 +94,8 @@ def run(task, cases, count, seed, *, settling=None, placed=False, workers=1, pro
 
 def interval(quiet, total):
     """Return Wilson's 95 % intervals of shares, shape (..., 2)."""
-    ends = [binomtest(int(k), int(total)).proportion_ci(method="wilson") for k in np.ravel(quiet)]
-    return np.array([(end.low, end.high) for end in ends]).reshape(*np.shape(quiet), 2)
+    ends = [wilson(count, total)[1:] for count in np.ravel(quiet)]
+    return np.reshape(ends, (*np.shape(quiet), 2))
 
 
 def summarise(task, outcomes, limit) -> dict:
