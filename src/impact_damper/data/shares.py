@@ -1,5 +1,7 @@
 """Binomial shares, survival curves and escape rates with 95 % confidence intervals."""
 
+import math
+
 import numpy as np
 from scipy.special import gammaincinv, ndtri  # `scipy.stats` takes half a second to import
 
@@ -7,6 +9,8 @@ from impact_damper.system.bounds import LEAD
 
 # Labels of the numbers that `wilson` and `escape_rate` return.
 BOUNDS = ["share", "lower", "upper"]
+# Quantile of the normal distribution of a two-sided 95 % interval.
+QUANTILE = 1.959963984540054
 
 
 def wilson(successes, total):
@@ -20,6 +24,41 @@ def wilson(successes, total):
     lower = centre - half if successes > 0 else 0.0
     upper = centre + half if successes < total else 1.0
     return np.array([share, lower, upper])
+
+
+def wilson_intervals(successes, total):
+    """Return the ends of Wilson's 95 % intervals of k successes in n trials, shape (..., 2).
+
+    With q = QUANTILE they are [k + q^2/2 -+ q sqrt(k (n - k)/n + q^2/4)]/(n + q^2).
+
+    Parameters
+    ----------
+    successes, total : array
+        k and n > 0; broadcast together.
+    """
+    k, n = np.broadcast_arrays(np.asarray(successes, float), total)
+    middle, square = k + QUANTILE**2 / 2, QUANTILE**2
+    half = QUANTILE * np.sqrt(k * (n - k) / n + square / 4)
+    lower = np.where(k == 0, 0.0, (middle - half) / (n + square))
+    upper = np.where(k == n, 1.0, (middle + half) / (n + square))
+    return np.stack([lower, upper], axis=-1)
+
+
+def starts_needed(share) -> int:
+    """Return the least number of trials, all successful, whose interval lies above a share.
+
+    The lower end of Wilson's 95 % interval of n successes in n trials is n/(n + QUANTILE^2).
+    """
+    return math.ceil(share / (1 - share) * QUANTILE**2)
+
+
+def failures_allowed(share, total) -> int:
+    """Return the most failures in a number of trials with which the interval lies above a share.
+
+    -1 if there are too few trials even without a failure.
+    """
+    lower = wilson_intervals(np.arange(total, -1, -1), total)[:, 0]
+    return int(np.sum(lower >= share)) - 1
 
 
 def survival(lives, horizon, times):

@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import flag, is_settled
-from impact_damper.data.shares import escape_rate
-from impact_damper.design.outcomes import Case, interval, run, summarise
+from impact_damper.data.shares import escape_rate, wilson
+from impact_damper.design.choose import Choice, compare, middle_gap
+from impact_damper.design.outcomes import Case, are_quiet, run
 from impact_damper.orbits.branches import Branch, follow_branch
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 from impact_damper.orbits.shooting import STROBE, Orbit, find_orbit
@@ -20,9 +21,9 @@ from impact_damper.system.families import family_of
 
 # Bisections of each edge, and number of frequencies, those of least share, at which it is sought.
 BISECTIONS, CRITICAL = 4, 2
-# Lives of chaotic motions: gaps, divided by that of the cliff; starts at each; longest run and time
-# before which a motion may still be on its way, in forcing periods; least number of motions that
-# last longer than this time.
+# Lives of chaotic motions: gaps, divided by that of the cliff or, at the lower end, the inverse;
+# starts at each; longest run and time before which a motion may still be on its way, in forcing
+# periods; least number of motions that last longer than this time.
 LIFE_GAPS = (0.99, 1.02, 1.06, 1.12, 1.2)
 LIFE_STARTS, LONGEST, LEAD, FEWEST = 32, 3000, 200, 5
 # Least and greatest gap and force of branches of quiet orbits, divided by the nominal values.
@@ -35,7 +36,8 @@ class Edge(NamedTuple):
     Attributes
     ----------
     gap : float
-        mm; the last gap known to be quiet. NaN without such a range.
+        mm; the last gap known to be quiet, after the comparison at the frequencies at which the
+        next one is least quiet. NaN without such a range.
     beyond : float
         mm; the first gap known not to be quiet, NaN where the comparison ends before.
     status : int
@@ -53,7 +55,7 @@ class Edge(NamedTuple):
 NO_EDGE = Edge(np.nan, np.nan, flag("cliff_status", "no_quiet_gap"), np.nan)
 
 
-def find_edges(task, comparison, gap, limit, *, workers=1) -> tuple[Edge, Edge]:
+def find_edges(task, comparison, gap, *, workers=1) -> tuple[Edge, Edge]:
     """Return the lower and the upper end of the range of quiet gaps around a gap.
 
     The comparison brackets each end between two gaps. They are bisected with all starts at the
@@ -65,8 +67,6 @@ def find_edges(task, comparison, gap, limit, *, workers=1) -> tuple[Edge, Edge]:
     comparison : choose.Comparison
     gap : float
         Nominal gap, mm.
-    limit : float
-        Largest displacement of a quiet motion, mm.
     workers : int
     """
     quiet = comparison.quiet
@@ -83,25 +83,46 @@ def find_edges(task, comparison, gap, limit, *, workers=1) -> tuple[Edge, Edge]:
             edge = float(comparison.gaps[last])
             found.append(Edge(edge, np.nan, flag("cliff_status", "range_ends"), np.nan))
         else:
-            found.append(_bisect(task, comparison, last, last + step, limit, workers))
+            found.append(_bisect(task, comparison, last, last + step, workers))
     return tuple(found)
 
 
-def _bisect(task, comparison, last, beyond, limit, workers):
+def _bisect(task, comparison, last, beyond, workers):
     """Return the edge between two neighbouring gaps of a comparison, the first of them quiet."""
     shares = comparison.numbers["start_quiet_share"][beyond]
-    critical = comparison.frequencies[np.argsort(shares)[:CRITICAL]]
+    critical = comparison.frequencies[np.argsort(shares, kind="stable")[:CRITICAL]]
     inside, outside = comparison.gaps[last], comparison.gaps[beyond]
-    for turn in range(BISECTIONS):
-        middle = float(np.sqrt(inside * outside))
-        cases = [Case(1e-3 * middle, f) for f in critical]
-        found = run(task, cases, task.starts, task.seed + 10 + turn, workers=workers)
-        lower = summarise(task, found, limit)["start_quiet_interval"][:, 0]
-        if (lower >= task.share).all():
+    limit = comparison.limit
+    for _ in range(BISECTIONS):
+        middle = np.sqrt(inside * outside)
+        found = compare(task, [middle], critical, limit, task.starts, "edges", workers=workers)
+        if found.quiet[0]:
             inside = middle
         else:
             outside = middle
     return Edge(float(inside), float(outside), flag("cliff_status", "found"), float(critical[0]))
+
+
+def recentre(task, choice, edges, limit, *, workers=1) -> Choice:
+    """Return the choice, moved to the middle of a narrow range of quiet gaps if that is quiet.
+
+    The comparison knows such a range by a few gaps only, which may lie close to an end.
+
+    Parameters
+    ----------
+    task : Task
+    choice : Choice
+    edges : tuple of Edge
+        The lower and the upper end of the range around its gap.
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    workers : int
+    """
+    if choice.kind != "needs_tolerance":
+        return choice
+    gap = middle_gap(*(edge.gap for edge in edges))
+    found = compare(task, [gap], task.grid, limit, task.starts, "middle", workers=workers)
+    return choice._replace(gap=gap) if found.quiet[0] else choice
 
 
 class Lives(NamedTuple):
@@ -126,24 +147,36 @@ class Lives(NamedTuple):
 
 
 def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
-    """Return how long motions that are not quiet last, at gaps across an edge."""
-    gaps = edge.gap * np.array(LIFE_GAPS)
+    """Return how long motions that are not quiet last, at gaps across an edge.
+
+    Parameters
+    ----------
+    task : Task
+    edge : Edge
+        With a gap beyond.
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    workers, progress
+        As in `outcomes.run`.
+    """
+    outward = 1 if edge.beyond > edge.gap else -1
+    gaps = edge.gap * np.array(LIFE_GAPS) ** outward
     cases = [Case(1e-3 * gap, edge.frequency) for gap in gaps]
     # a transient is certainly chaotic too, so that only the end of the run may stop it
-    settling = task.lasting(LONGEST)
-    running = {"settling": settling, "workers": workers, "progress": progress}
-    records = run(task, cases, LIFE_STARTS, task.seed + 20, **running).random
-    quiet = task.millimetres(records["maximum_displacement"]) <= limit
-    # since when a motion is quiet is known only if it is periodic; others have no life
-    lives = np.where(is_settled(records), records["periods_run"], 0)
-    lives = np.where(quiet, lives, LONGEST + 1)
-    counts = quiet.sum(axis=1)
-    share = np.column_stack([counts / LIFE_STARTS, interval(counts, LIFE_STARTS)])
-    rates = [
-        escape_rate(row, LONGEST, LEAD) if np.sum(row > LEAD) >= FEWEST else np.full(3, np.nan)
-        for row in lives
-    ]
-    return Lives(gaps, share, np.array(rates))
+    running = {"settling": task.lasting(LONGEST), "workers": workers, "progress": progress}
+    records = run(task, cases, LIFE_STARTS, "lives", **running)
+    sizes = task.millimetres(records["maximum_displacement"])
+    quiet = are_quiet(sizes, records["outcome"], limit)
+    settled = is_settled(records)
+    lives = np.where(quiet & settled, records["periods_run"], LONGEST + 1)
+    rates = []
+    # when a motion that goes on without settling became quiet, if it is, is not known
+    for row, known in zip(lives, settled | ~quiet, strict=True):
+        lasting = row[known]
+        enough = np.sum(lasting > LEAD) >= FEWEST
+        rates.append(escape_rate(lasting, LONGEST, LEAD) if enough else np.full(3, np.nan))
+    shares = [wilson(count, LIFE_STARTS) for count in quiet.sum(axis=1)]
+    return Lives(gaps, np.array(shares), np.array(rates))
 
 
 class QuietBranch(NamedTuple):
@@ -169,7 +202,7 @@ def quiet_orbit(task, gap, frequency, *, workers=1) -> Orbit | None:
     It is symmetric, with two contacts in a forcing period.
     """
     case = Case(1e-3 * gap, frequency)
-    records = run(task, [case], task.starts, task.seed + 30, workers=workers).random[0]
+    records = run(task, [case], task.starts, "orbit", workers=workers)[0]
     pairs = records[is_symmetric_pair(records)]
     if len(pairs) == 0:
         return None

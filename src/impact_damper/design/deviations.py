@@ -4,17 +4,20 @@ import itertools
 from typing import NamedTuple
 
 import numpy as np
+from scipy.special import bdtr
 from scipy.stats import qmc
 
-from impact_damper.design.choose import spread
-from impact_damper.design.outcomes import Case, interval, run, summarise
+from impact_damper.data.shares import wilson
+from impact_damper.design.outcomes import Case, run, summarise
 from impact_damper.design.task import NOMINAL, VARIED
 
 # Samples of the tolerances, a power of 2 for Sobol's sequence; most frequencies and the starts at
 # which each is run.
 SAMPLES, SAMPLE_FREQUENCIES, SAMPLE_STARTS = 16, 7, 24
-# Starts that the design has not seen: in all, at the nominal values and at each corner.
+# Starts that the design has not seen, at the nominal values and at each corner; most corners.
 UNSEEN, CORNERS = 1000, 20
+# Chance with which unseen starts of a design that keeps its promise are taken for a breach of it.
+FALSE_ALARM = 0.05
 
 
 class Cloud(NamedTuple):
@@ -30,23 +33,48 @@ class Cloud(NamedTuple):
         Share of all starts over the band that end quiet, with its 95 % interval.
     least : numpy.ndarray, shape (m,)
         Least share at one of the frequencies.
+    starts : int
+        Starts at each frequency.
+    frequencies : int
     """
 
     factors: np.ndarray
     worst: np.ndarray
     share: np.ndarray
     least: np.ndarray
+    starts: int
+    frequencies: int
+
+    def keeps(self, share) -> np.ndarray:
+        """Return whether starts agree with a claim that a share ends quiet, shape (m,) of bool.
+
+        They do not if fewer do over the band, or at one frequency so many fewer that with the share
+        claimed this happened, at any frequency of any row, with a chance below FALSE_ALARM.
+        """
+        chance = bdtr(np.rint(self.least * self.starts), self.starts, share)
+        agree = chance >= FALSE_ALARM / (self.frequencies * len(self.least))
+        return (self.share[:, 0] >= share) & agree
 
 
 def sampled_factors(task) -> np.ndarray:
-    """Return the nominal values, then deviations spread over the tolerances by Sobol's sequence."""
+    """Return the nominal values, then SAMPLES deviations spread over the tolerances.
+
+    They are the first points of Sobol's sequence, scrambled: as many as are evenly spread. Without
+    tolerances only the nominal values are returned.
+    """
     names = [name for name in VARIED if task.tolerances.get(name)]
-    factors = np.ones((SAMPLES, len(VARIED)))
-    if not names:
-        return factors[:1]
-    points = qmc.Sobol(len(names), rng=task.seed).random(SAMPLES)
-    for column, name in enumerate(names):
-        factors[1:, VARIED.index(name)] += task.tolerances[name] * (2 * points[1:, column] - 1)
+    factors = np.ones((SAMPLES + 1 if names else 1, len(VARIED)))
+    if names:
+        points = qmc.Sobol(len(names), rng=task.seed).random(SAMPLES)
+        for name, column in zip(names, points.T, strict=True):
+            factors[1:, VARIED.index(name)] += task.tolerances[name] * (2 * column - 1)
+    return _possible(task, factors)
+
+
+def _possible(task, factors):
+    """Return factors with those of the restitution so small that it is at most 1."""
+    place = VARIED.index("restitution")
+    factors[:, place] = np.minimum(factors[:, place], 1 / task.restitution)
     return factors
 
 
@@ -59,10 +87,10 @@ def corner_factors(task) -> np.ndarray:
         generator = np.random.default_rng(task.seed)
         corners = corners[np.sort(generator.permutation(len(corners))[:CORNERS])]
     corners = corners[np.any(corners != 0, axis=1)]
-    return np.vstack([NOMINAL, 1 + corners * widths])
+    return _possible(task, np.vstack([NOMINAL, 1 + corners * widths]))
 
 
-def run_cloud(task, gap, factors, frequencies, starts, limit, seed, **running) -> Cloud:
+def run_cloud(task, gap, factors, frequencies, starts, limit, stream, **running) -> Cloud:
     """Return the motions at each set of deviations, over frequencies.
 
     Parameters
@@ -77,35 +105,57 @@ def run_cloud(task, gap, factors, frequencies, starts, limit, seed, **running) -
         Random starts at each frequency.
     limit : float
         Largest displacement of a quiet motion, mm.
-    seed : int
-    running
-        `settling`, `workers` and `progress` of `outcomes.run`.
+    stream, running
+        `stream`, `settling`, `workers` and `progress` of `outcomes.run`.
     """
     cases = [Case(1e-3 * gap, f, tuple(row)) for row in factors for f in frequencies]
-    found = run(task, cases, starts, seed, **running)
-    numbers = summarise(task, found, limit)
+    numbers = summarise(task, run(task, cases, starts, stream, **running), limit)
     shape = len(factors), len(frequencies)
     shares = numbers["start_quiet_share"].reshape(shape)
-    counts = np.rint(shares.sum(axis=1) * starts).astype(int)
-    total = len(frequencies) * starts
+    counts = np.rint(shares.sum(axis=1) * starts)
     return Cloud(
         factors,
         numbers["worst_displacement"].reshape(shape).max(axis=1),
-        np.column_stack([counts / total, interval(counts, total)]),
+        np.array([wilson(count, len(frequencies) * starts) for count in counts]),
         shares.min(axis=1),
+        starts,
+        len(frequencies),
     )
 
 
-def sample_tolerances(task, gap, limit, **running) -> Cloud:
-    """Return the motions at samples of all tolerances."""
-    few = spread(task.grid, SAMPLE_FREQUENCIES)
-    factors = sampled_factors(task)
+def sample_tolerances(task, gap, frequency, limit, **running) -> Cloud:
+    """Return the motions at samples of all tolerances; `frequency` (Hz) is among those tried."""
+    few = task.few(SAMPLE_FREQUENCIES, frequency)
     running = {"settling": task.hurried} | running
-    return run_cloud(task, gap, factors, few, SAMPLE_STARTS, limit, task.seed + 40, **running)
+    factors = sampled_factors(task)
+    return run_cloud(task, gap, factors, few, SAMPLE_STARTS, limit, "samples", **running)
 
 
 def check_unseen(task, gap, limit, **running) -> Cloud:
     """Return the motions of UNSEEN new starts at the nominal values and at each corner."""
     starts = -(-UNSEEN // len(task.grid))
     factors = corner_factors(task)
-    return run_cloud(task, gap, factors, task.grid, starts, limit, task.seed + 50, **running)
+    return run_cloud(task, gap, factors, task.grid, starts, limit, "unseen", **running)
+
+
+def promise(task, kind, samples, unseen) -> str:
+    """Return what a design promises and whether unseen starts keep to it, a flag of `promise`.
+
+    A design with a quiet gap promises that at its nominal values, at each frequency, at least
+    `task.share` of the starts end quiet. A robust design promises this within all tolerances,
+    provided that the samples of the tolerances agree.
+
+    Parameters
+    ----------
+    task : Task
+    kind : str
+        Of `choose.Choice`.
+    samples, unseen : Cloud
+        Of the tolerances, and of unseen starts at the nominal values and at corners.
+    """
+    if kind == "least_worst":
+        return "none_made"
+    kept = unseen.keeps(task.share)
+    if kind == "robust" and samples.keeps(task.share).all():
+        return "robust_kept" if kept.all() else "broken"
+    return "nominal_kept" if kept[0] else "broken"

@@ -20,47 +20,36 @@ def labelled(values, **coordinates) -> xr.Dataset:
     return xr.Dataset(made, known, {"source": SOURCE})
 
 
-def screening_dataset(screening) -> xr.Dataset:
+def screening_dataset(task, screening) -> xr.Dataset:
     """Return a `screen.Screening` as a dataset."""
     best = screening.best
-    known = best is not None
-    column = screening.stable[:, screening.worst]
     values = {
-        "worst_frequency": screening.frequencies[screening.worst],
-        "balance_displacement": screening.bare,
-        "displacement_limit": screening.limit,
+        "worst_frequency": task.worst_frequency,
+        "balance_displacement": task.bare,
+        "orbit_limit": screening.limit,
         "flight_gap": screening.rule_gap,
         "manifold_gap": screening.manifold_gap,
         "screened_displacement": screening.displacement,
         "screened_modulus": screening.modulus,
-        "best_orbit_gap": screening.gaps[best] if known else np.nan,
-        "best_orbit_displacement": column[best] if known else np.nan,
-        "best_orbit_status": flag("best_orbit_status", _best_status(column, best)),
+        "best_orbit_frequency": best.frequency,
+        "best_orbit_gap": best.gap,
+        "best_orbit_displacement": best.displacement,
+        "best_orbit_modulus": best.modulus,
+        "best_orbit_edge": best.edge,
+        "best_orbit_status": flag("best_orbit_status", best.status),
         "screen_motions": screening.motions,
-        "screen_orbits": screening.orbits,
+        "screen_orbits": np.sum(np.isfinite(screening.modulus)),
     }
-    return labelled(values, frequency=screening.frequencies, screened_gap=screening.gaps)
-
-
-def _best_status(column, best):
-    """Return how the smallest stable orbit of a column of displacements lies in it."""
-    if best is None:
-        return "absent"
-    if best in (0, len(column) - 1):
-        return "range_ends"
-    return "smooth" if np.isfinite(column[best - 1 : best + 2]).all() else "stability_ends"
+    return labelled(values, frequency=task.grid, screened_gap=screening.gaps)
 
 
 def comparison_dataset(coarse, candidates) -> xr.Dataset:
     """Return both comparisons of gaps as a dataset."""
-    total = sum(
-        each.numbers["start_quiet_share"].size * count
-        for each, count in ((coarse, coarse.starts), (candidates, candidates.starts))
-    )
     values = {
+        "displacement_limit": candidates.limit,
         "coarse_displacement": coarse.worst,
-        "coarse_share": coarse.numbers["start_quiet_share"].min(axis=1),
-        "compared_motions": total,
+        "coarse_share": coarse.least_share,
+        "compared_motions": sum(each.numbers["start_count"].sum() for each in (coarse, candidates)),
         **candidates.numbers,
     }
     return labelled(
@@ -83,14 +72,23 @@ def comparison_of(data, task) -> Comparison:
         data["candidate_gap"].values,
         data["frequency"].values,
         {name: data[name].values for name in names},
+        float(data["displacement_limit"]),
         task.share,
-        task.starts,
     )
 
 
-def edges_dataset(edges, lives) -> xr.Dataset:
-    """Return the ends of the quiet gaps, and lives of motions across the upper or lower one."""
+def cliff_dataset(choice, edges, lives) -> xr.Dataset:
+    """Return the gap chosen, the ends of the quiet gaps, and lives of motions across one of them.
+
+    Parameters
+    ----------
+    choice : choose.Choice
+    edges : tuple of cliff.Edge
+    lives : cliff.Lives or None
+    """
     values = {
+        "design_gap": choice.gap,
+        "design_choice": flag("design_choice", choice.kind),
         "cliff_gap": [edge.gap for edge in edges],
         "cliff_beyond": [edge.beyond for edge in edges],
         "cliff_status": [edge.status for edge in edges],
@@ -150,14 +148,25 @@ def _stability_end(found, step):
     return branch.values[k], "range_ends" if end == "range_ends" else "branch_ends"
 
 
-def cloud_dataset(cloud, prefix) -> xr.Dataset:
-    """Return a `deviations.Cloud` as a dataset; `prefix` is "sample" or "corner"."""
-    values = {
-        f"{prefix}_factor": cloud.factors,
-        f"{prefix}_displacement": cloud.worst,
-        f"{prefix}_share": cloud.share,
-        f"{prefix}_least_share": cloud.least,
-    }
+def deviations_dataset(samples, unseen, promise, limit) -> xr.Dataset:
+    """Return samples of the tolerances and unseen starts, two clouds, and the promise.
+
+    Parameters
+    ----------
+    samples, unseen : deviations.Cloud
+    promise : str
+        Flag of `promise`.
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    """
+    values = {"promise": flag("promise", promise), "promised_displacement": limit}
+    for prefix, cloud in (("sample", samples), ("corner", unseen)):
+        values |= {
+            f"{prefix}_factor": cloud.factors,
+            f"{prefix}_displacement": cloud.worst,
+            f"{prefix}_share": cloud.share,
+            f"{prefix}_least_share": cloud.least,
+        }
     return labelled(values, varied=list(VARIED), bound=BOUNDS)
 
 
@@ -190,12 +199,6 @@ def maps_dataset(forces, dampers) -> xr.Dataset:
         map_gap=over_gap.first,
         map_restitution=over_gap.second,
     )
-
-
-def choice_dataset(choice) -> xr.Dataset:
-    """Return a `choose.Choice` as a dataset."""
-    kind = flag("design_choice", choice.kind)
-    return labelled({"design_gap": choice.gap, "design_choice": kind})
 
 
 def masses_dataset(found) -> xr.Dataset:

@@ -5,16 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.design.choose import coarse_comparison, compare, spread
+from impact_damper.design.choose import coarse_comparison, compare
 from impact_damper.design.outcomes import Case, run
-from impact_damper.design.screen import screen
+from impact_damper.design.screen import gap_span
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.performance.costs import measured_costs
 
-# Masses divided by the nominal mass; frequencies of their reduced design, and starts
-# of its two comparisons.
+# Masses divided by the nominal mass; frequencies of their reduced design, gaps and starts of its
+# coarse comparison, and starts of its last one.
 MASSES = (0.5, 0.7, 1.4, 2.0)
-FREQUENCIES, COARSE_STARTS, STARTS = 5, 10, 24
+FREQUENCIES, GAPS, COARSE_STARTS, STARTS = 5, 20, 8, 24
 # Forcing periods over which the force of a motion that is not periodic is measured.
 WATCHED = 100
 
@@ -52,10 +52,8 @@ def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
             continue
         other = replace(task, mass=mass, frequencies=FREQUENCIES, displacement_limit=1e-3 * limit)
         running = {"workers": workers, "progress": progress}
-        screening = screen(other, **running)
-        span = screening.gaps[0], screening.gaps[-1]
-        frequency = screening.frequencies[screening.worst]
-        coarse = coarse_comparison(other, span, frequency, limit, starts=COARSE_STARTS, **running)
+        fewer = {"most": GAPS, "starts": COARSE_STARTS}
+        coarse = coarse_comparison(other, gap_span(other), limit, **fewer, **running)
         gap = coarse.choose(_tolerance(task)).gap
         found.append(judge(other, gap, limit, **running))
     return found
@@ -73,16 +71,16 @@ def judge(task, gap, limit, **running) -> Alternative:
         `workers` and `progress` of `outcomes.run`.
     """
     gaps = gap * (1 + _tolerance(task) * np.array([-1, -0.5, 0, 0.5, 1]))
-    few = spread(task.grid, FREQUENCIES)
-    found = compare(task, np.unique(gaps), few, limit, STARTS, task.seed + 80, **running)
-    least = found.numbers["start_quiet_share"].min()
+    few = task.few(FREQUENCIES)
+    found = compare(task, np.unique(gaps), few, limit, STARTS, "masses", **running)
     cases = [Case(1e-3 * gap, f) for f in few]
-    records = run(task, cases, STARTS, task.seed + 81, settling=task.hurried, **running).random
+    records = run(task, cases, STARTS, "masses", settling=task.hurried, **running)
     forces = [
         _largest_force(task, case, row[np.argmax(row["maximum_displacement"])])
         for case, row in zip(cases, records, strict=True)
     ]
-    return Alternative(task, gap, float(found.worst.max()), float(least), max(forces))
+    least = float(found.least_share.min())
+    return Alternative(task, gap, float(found.worst.max()), least, float(np.max(forces)))
 
 
 def _largest_force(task, case, record):
@@ -102,13 +100,14 @@ def is_best(masses, costs) -> np.ndarray:
     ----------
     masses : array, shape (m,)
     costs : array, shape (m, k)
-        Quantities to be small, such as worst displacement and contact force.
+        Quantities to be small, such as worst displacement and contact force; NaN where one is not
+        known because motions escape, which is worse than any number.
 
     Returns
     -------
     numpy.ndarray of bool, shape (m,)
     """
-    table = np.column_stack([masses, costs])
+    table = np.column_stack([masses, np.where(np.isnan(costs), np.inf, costs)])
     worse = [np.any(np.all(table <= row, axis=1) & np.any(table < row, axis=1)) for row in table]
     return ~np.array(worse)
 

@@ -4,8 +4,9 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
+from impact_damper.data.shares import wilson_intervals
 from impact_damper.design.labelled import SIDES, labelled
-from impact_damper.design.outcomes import Case, interval
+from impact_damper.design.outcomes import Case, are_quiet
 from impact_damper.machine.results import from_si
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.motions import records
@@ -42,7 +43,8 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     contact : HertzContact or None
     """
     sizes = response["maximum_displacement"].values
-    counts = np.where(sizes <= limit, response["share"].values, 0).sum(axis=1)
+    quiet = are_quiet(sizes, response["outcome"].values, limit)
+    counts = np.where(quiet, response["share"].values, 0).sum(axis=1)
     total = response.sizes["start"]
     placed = response["origin"].values == flag("origin", "placed_start")
     reached = (response["share"].values > 0) | placed
@@ -57,7 +59,7 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     values |= {
         "reached_quiet_share": counts / total,
-        "reached_quiet_interval": interval(counts, total),
+        "reached_quiet_interval": wilson_intervals(counts, total),
     }
     return labelled(values, frequency=task.grid, side=SIDES)
 

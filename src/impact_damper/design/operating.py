@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.design.choose import spread
-from impact_damper.design.outcomes import Case, run
+from impact_damper.design.outcomes import Case, are_quiet, run
 from impact_damper.design.task import VARIED
 from impact_damper.edges.maps import map_edges
 from impact_damper.orbits.shooting import shoot
@@ -47,14 +46,14 @@ def map_forces(task, gap, limit, shares, **running) -> Map:
 
     The largest displacement of a quiet motion grows in proportion to the force.
     """
-    frequencies, shares = spread(task.grid, CELLS), np.asarray(shares)
+    frequencies, shares = task.few(CELLS), np.asarray(shares)
     place = VARIED.index("force")
     cells = [
         (Case(1e-3 * gap, f, _with(place, share)), limit * share)
         for f in frequencies
         for share in shares
     ]
-    return _map(task, frequencies, shares, cells, task.seed + 60, running)
+    return _map(task, frequencies, shares, cells, "force_map", running)
 
 
 def map_dampers(task, gap, frequency, limit, **running) -> Map:
@@ -68,7 +67,7 @@ def map_dampers(task, gap, frequency, limit, **running) -> Map:
         for each in gaps
         for e in restitutions
     ]
-    return _map(task, gaps, restitutions, cells, task.seed + 70, running)
+    return _map(task, gaps, restitutions, cells, "damper_map", running)
 
 
 def _with(place, factor):
@@ -76,13 +75,13 @@ def _with(place, factor):
     return tuple(factor if k == place else 1.0 for k in range(len(VARIED)))
 
 
-def _map(task, first, second, cells, seed, running):
+def _map(task, first, second, cells, stream, running):
     """Return the motions in the cells of a map, each with its displacement limit."""
     cases, limits = zip(*cells, strict=True)
     running = {"settling": task.hurried} | running
-    records = run(task, cases, CELL_STARTS, seed, **running).random
+    records = run(task, cases, CELL_STARTS, stream, **running)
     sizes = task.millimetres(records["maximum_displacement"])
-    quiet = (sizes <= np.array(limits)[:, None]).mean(axis=1)
+    quiet = are_quiet(sizes, records["outcome"], np.array(limits)[:, None]).mean(axis=1)
     shape = len(first), len(second)
     return Map(first, second, quiet.reshape(shape), sizes.max(axis=1).reshape(shape))
 

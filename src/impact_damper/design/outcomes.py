@@ -1,8 +1,8 @@
-"""Where start states lead: quiet motions and others, for many gaps and frequencies at once.
+"""Where random starts lead: quiet motions and others, for many gaps and frequencies at once.
 
-A motion is quiet if its largest displacement is at most the displacement limit of the task, whether
-it is periodic or not. Random starts count in shares; placed starts (`motions.start_states`), which
-also reach motions that hardly any random start reaches, count in the worst displacement only.
+A motion is quiet if its largest displacement is at most a displacement limit, whether it is
+periodic or not. Of a motion that has not settled only the peaks of some periods are known, which
+later ones exceed: it is quiet if LATER times its largest displacement is within the limit.
 """
 
 from typing import NamedTuple
@@ -10,14 +10,35 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import is_settled
-from impact_damper.data.shares import wilson
+from impact_damper.data.shares import wilson_intervals
 from impact_damper.design.task import NOMINAL
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, CHAOTIC, NON_COLLIDING, SETTLED
-from impact_damper.motions.start_states import random_starts, wide_starts
+from impact_damper.motions.start_states import random_starts
 
-# Outcomes that say for certain what a motion is.
-CERTAIN = (SETTLED, NON_COLLIDING, AT_REST, CHAOTIC)
+# Outcomes of motions that go on as they are, and that say for certain what a motion is.
+LASTING = (SETTLED, NON_COLLIDING, AT_REST)
+CERTAIN = (*LASTING, CHAOTIC)
+# Largest displacement of chaos in the long run, divided by that over `Settling.watched` periods.
+LATER = 1.5
+# What starts are drawn for. Each has starts of its own, so that a choice and its check share none.
+STREAMS = (
+    "screening",
+    "coarse",
+    "candidates",
+    "further_candidates",
+    "edges",
+    "middle",
+    "lives",
+    "orbit",
+    "samples",
+    "unseen",
+    "force_map",
+    "damper_map",
+    "masses",
+)
+# Cases whose starts a thread draws at once.
+DRAWN = 4
 
 
 class Case(NamedTuple):
@@ -28,22 +49,8 @@ class Case(NamedTuple):
     factors: tuple = NOMINAL
 
 
-class Outcomes(NamedTuple):
-    """Motions that random and placed starts reach in each case.
-
-    Attributes
-    ----------
-    random : numpy.ndarray of records.MOTION, shape (cases, starts)
-    placed : list of numpy.ndarray of records.MOTION
-        One array for each case, of varying length.
-    """
-
-    random: np.ndarray
-    placed: list
-
-
-def run(task, cases, count, seed, *, settling=None, placed=False, workers=1, progress=None):
-    """Run the motions of all cases until they settle, in one ensemble.
+def draw_starts(task, cases, count, stream, *, workers=1):
+    """Return random starts, as wide as the machine of each case, shape (cases, count, 4).
 
     Parameters
     ----------
@@ -51,79 +58,94 @@ def run(task, cases, count, seed, *, settling=None, placed=False, workers=1, pro
     cases : sequence of Case
     count : int
         Random starts in each case.
-    seed : int
-        Each case has random starts of its own, drawn with the seed and its place.
+    stream : str
+        Of STREAMS. Each case has starts of its own, drawn with the seed of the task, the stream and
+        the place of the case.
+    workers : int
+        Threads, in which the free motions are found that say how wide the starts are.
+    """
+    states, stop = np.empty((len(cases), count, 4)), np.zeros(1, bool)
+
+    def work(part):
+        for place in range(part.start, part.stop):
+            if not stop[0]:
+                seed = [task.seed, STREAMS.index(stream), place]
+                system = task.system(*cases[place])
+                states[place], _ = random_starts(*system, count, seed, task.settling)
+
+    ensemble.run_chunks(work, len(cases), workers, None, stop, size=DRAWN)
+    return states
+
+
+def run_starts(task, cases, starts, *, settling=None, workers=1, progress=None):
+    """Run motions from starts of all cases until they settle, in one ensemble.
+
+    Parameters
+    ----------
+    task : Task
+    cases : sequence of Case
+    starts : array, shape (cases, count, 4)
     settling : Settling, optional
         In place of that of the task.
-    placed : bool
-        Whether placed starts are run too; their ramps cost some 20 ms a case.
     workers, progress
         As in `ensemble.settle`.
 
     Returns
     -------
-    Outcomes
+    numpy.ndarray of records.MOTION, shape (cases, count)
     """
-    settling = settling or task.settling
-    rows, randoms, others = [], [], []
-    for place, case in enumerate(cases):
-        nominal = task.system(case.gap, case.frequency)
-        # free motions are found once for each frequency, at nominal values
-        if placed:
-            states, extra, *_ = wide_starts(*nominal, count, [seed, place], task.settling)
-        else:
-            states, _ = random_starts(*nominal, count, [seed, place], task.settling)
-            extra = np.empty((0, 4))
-        rows.append(task.packed(*case))
-        states[:, 2] *= case.factors[0]
-        randoms.append(states)
-        others.append(extra)
-    rows = np.array(rows)
-    counts = [len(extra) for extra in others]
+    count = starts.shape[1]
+    rows = np.array([task.packed(*case) for case in cases])
     records = ensemble.settle(
-        np.concatenate([np.repeat(rows, count, axis=0), np.repeat(rows, counts, axis=0)]),
-        np.concatenate([*randoms, *others]),
-        settling,
+        np.repeat(rows, count, axis=0),
+        starts.reshape(-1, 4),
+        settling or task.settling,
         workers=workers,
         progress=progress,
     )
-    first = len(cases) * count
-    parts = np.split(records[first:], np.cumsum(counts)[:-1])
-    return Outcomes(records[:first].reshape(len(cases), count), parts)
+    return records.reshape(len(cases), count)
 
 
-def interval(quiet, total):
-    """Return Wilson's 95 % intervals of shares, shape (..., 2)."""
-    ends = [wilson(count, total)[1:] for count in np.ravel(quiet)]
-    return np.reshape(ends, (*np.shape(quiet), 2))
+def run(task, cases, count, stream, *, workers=1, **running):
+    """Draw random starts and run them: `draw_starts`, then `run_starts`."""
+    starts = draw_starts(task, cases, count, stream, workers=workers)
+    return run_starts(task, cases, starts, workers=workers, **running)
 
 
-def summarise(task, outcomes, limit) -> dict:
+def are_quiet(sizes, outcomes, limit) -> np.ndarray:
+    """Return which motions are quiet.
+
+    Parameters
+    ----------
+    sizes, outcomes, limit : array
+        Largest displacements, flags of `outcome`, and displacement limits in the unit of `sizes`;
+        broadcast together.
+    """
+    return np.where(np.isin(outcomes, LASTING), 1.0, LATER) * sizes <= limit
+
+
+def summarise(task, records, limit) -> dict:
     """Return numbers on the motions of each case, keyed by registered name.
 
     Parameters
     ----------
     task : Task
-    outcomes : Outcomes
+    records : array of records.MOTION, shape (cases, starts)
     limit : float
         Largest displacement of a quiet motion, mm.
 
     Returns
     -------
     dict of numpy.ndarray, shape (cases,)
-        `start_quiet_share` and, with (cases, 2), its interval; `worst_displacement` of all motions
-        reached and `median_displacement` of those that random starts reach (mm);
-        `quiet_time_median` and `quiet_time_late`, the forcing periods until quiet motions that
-        settle have settled (NaN if none does); `chaotic_share`; `uncertain_share`, that of the
-        motions that are neither settled nor certainly chaotic.
+        `start_count`, `start_quiet_share` and, with (cases, 2), its interval; `worst_displacement`
+        and `median_displacement` of the motions reached (mm); `quiet_time_median` and
+        `quiet_time_late`, the forcing periods until quiet motions that settle have settled (NaN if
+        none does); `chaotic_share`; `uncertain_share`, that of the motions that are neither settled
+        nor certainly chaotic.
     """
-    records = outcomes.random
     size = task.millimetres(records["maximum_displacement"])
-    quiet = size <= limit
-    worst = [
-        max(np.max(row), np.max(task.millimetres(extra["maximum_displacement"]), initial=0.0))
-        for row, extra in zip(size, outcomes.placed, strict=True)
-    ]
+    count = size.shape[1]
+    quiet = are_quiet(size, records["outcome"], limit)
     times = np.where(quiet & is_settled(records), records["periods_run"], np.nan)
     known = np.isfinite(times).any(axis=1)
     median, late = np.full((2, len(times)), np.nan)
@@ -131,9 +153,10 @@ def summarise(task, outcomes, limit) -> dict:
         median[known] = np.nanmedian(times[known], axis=1)
         late[known] = np.nanquantile(times[known], 0.95, axis=1)
     return {
+        "start_count": np.full(len(size), count),
         "start_quiet_share": quiet.mean(axis=1),
-        "start_quiet_interval": interval(quiet.sum(axis=1), quiet.shape[1]),
-        "worst_displacement": np.array(worst),
+        "start_quiet_interval": wilson_intervals(quiet.sum(axis=1), count),
+        "worst_displacement": size.max(axis=1),
         "median_displacement": np.median(size, axis=1),
         "quiet_time_median": median,
         "quiet_time_late": late,

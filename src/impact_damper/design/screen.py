@@ -12,19 +12,24 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.design.outcomes import Case, run
+from impact_damper.design.refine import BestOrbit, refine
+from impact_damper.design.task import LEAST_GAP, spread
 from impact_damper.literature.slow_invariant_manifold import VibroImpactAbsorber
-from impact_damper.motions.free_motions import balance_amplitudes
-from impact_damper.orbits.quiet_orbits import follow_quiet_orbits, is_symmetric_pair
+from impact_damper.orbits.quiet_orbits import dominant_root, is_symmetric_pair, quiet_orbits
+from impact_damper.system.packed import CLEARANCE
 
-# Gaps of the map of quiet orbits: the least, divided by the gap of the flight rule at the highest
-# frequency; the greatest, divided by that at the lowest frequency; and number.
-LEAST, MOST, GAPS = 0.3, 1.7, 40
+# Gaps of the map of quiet orbits: the greatest, divided by that of rule (18) at the lowest
+# frequency; and number.
+MOST_GAP, GAPS = 1.95, 40
 # Gap of the flight rule divided by that of rule (18), near e = 1 (`theory.straight_flight`).
 FLIGHT = 1.14
-# Random starts, gaps and frequencies from which quiet orbits are first reached.
+# Random starts, gaps, divided by that of the flight rule, and frequencies from which quiet orbits
+# are first reached.
 SEEDED = 16
 SEED_GAPS = (0.3, 0.5, 0.7, 0.9, 1.05)
 SEED_FREQUENCIES = 5
+# Shortest step between neighbours of the map, as a share of their distance.
+SHORTEST = 0.25
 
 
 class Screening(NamedTuple):
@@ -32,48 +37,37 @@ class Screening(NamedTuple):
 
     Attributes
     ----------
-    frequencies : numpy.ndarray, shape (n,)
-        Hz.
-    bare : numpy.ndarray, shape (n,)
-        Largest displacement without the damper by harmonic balance, mm.
-    worst : int
-        Index of the frequency at which the bare machine moves most.
     rule_gap, manifold_gap : float
-        Gap by the flight rule, and by the slow invariant manifold at the resonance, mm. The latter
-        is NaN unless the spring is linear and contacts lose energy.
+        Gap by the flight rule at the worst frequency of the task, and by the slow invariant
+        manifold at the resonance, mm. The latter is NaN unless the spring is linear and contacts
+        lose energy.
     gaps : numpy.ndarray, shape (m,)
         Gaps of the map of quiet orbits, mm.
     displacement, modulus : numpy.ndarray, shape (m, n)
-        Largest displacement of the quiet orbit (mm), and its largest multiplier of half a period
-        in modulus; NaN where no quiet orbit was found.
+        Over gaps and the frequencies of the task: largest displacement of the quiet orbit (mm), and
+        its largest multiplier of half a period in modulus; NaN where no quiet orbit was found.
+    best : BestOrbit
+        The smallest stable quiet orbit.
     limit : float
-        Largest displacement of a motion that counts as quiet, mm.
-    motions, orbits : int
-        Numbers of motions and of exact orbits computed.
+        Largest displacement of a motion that counts as quiet as far as known, mm.
+    motions : int
+        Number of motions that were run.
     """
 
-    frequencies: np.ndarray
-    bare: np.ndarray
-    worst: int
     rule_gap: float
     manifold_gap: float
     gaps: np.ndarray
     displacement: np.ndarray
     modulus: np.ndarray
+    best: BestOrbit
     limit: float
     motions: int
-    orbits: int
 
-    @property
-    def stable(self) -> np.ndarray:
-        """Displacements of the stable quiet orbits, NaN elsewhere, shape (m, n)."""
-        return np.where(self.modulus < 1, self.displacement, np.nan)
 
-    @property
-    def best(self) -> int | None:
-        """Index of the gap of the least stable quiet orbit at the worst frequency, or None."""
-        column = self.stable[:, self.worst]
-        return int(np.nanargmin(column)) if np.isfinite(column).any() else None
+def gap_span(task) -> tuple[float, float]:
+    """Return the least and the greatest gap that are looked at, mm."""
+    rules = [task.rule_gap(f) for f in task.grid]
+    return 1e3 * LEAST_GAP * min(rules), 1e3 * MOST_GAP * max(rules)
 
 
 def screen(task, *, workers=1, progress=None) -> Screening:
@@ -89,61 +83,57 @@ def screen(task, *, workers=1, progress=None) -> Screening:
     -------
     Screening
     """
-    frequencies = task.grid
-    bare = task.millimetres(
-        np.array([balance_amplitudes(*task.system(1e-3, f)[::2])[-1] for f in frequencies])
-    )
-    worst = int(np.argmax(bare))
-    rules = FLIGHT * np.array([task.rule_gap(f) for f in frequencies])
-    gaps = np.geomspace(LEAST * rules.min(), MOST * rules.max(), GAPS)
-    parameters = np.array([[task.packed(gap, f) for f in frequencies] for gap in gaps])
-    columns = np.linspace(0, len(frequencies) - 1, SEED_FREQUENCIES).round().astype(int)
+    frequencies, gaps = task.grid, np.geomspace(*gap_span(task), GAPS)
+    worst = int(np.argmax(task.bare))
+    parameters = np.array([[task.packed(1e-3 * gaps[0], f) for f in frequencies]] * GAPS)
+    clearances = task.scales.from_si(1e-3 * gaps / 2, "clearance")
+    parameters[..., CLEARANCE] = clearances[:, None]
+    rules = 1e3 * FLIGHT * np.array([task.rule_gap(f) for f in frequencies])
+    columns = spread(np.arange(len(frequencies)), SEED_FREQUENCIES)
     cells = [
-        (int(np.argmin(np.abs(gaps - share * rules[column]))), column)
-        for column in sorted({*columns.tolist(), worst})
+        (int(np.argmin(np.abs(gaps - share * rules[column]))), int(column))
+        for column in np.union1d(columns, worst)
         for share in SEED_GAPS
     ]
-    cases = [Case(gaps[row], frequencies[column]) for row, column in cells]
-    found = run(task, cases, SEEDED, task.seed, workers=workers, progress=progress).random
+    cases = [Case(1e-3 * gaps[row], frequencies[column]) for row, column in cells]
+    running = {"settling": task.hurried, "workers": workers, "progress": progress}
+    found = run(task, cases, SEEDED, "screening", **running)
     states = np.full((*parameters.shape[:2], 4), np.nan)
     for cell, records in zip(cells, found, strict=True):
         pairs = records[is_symmetric_pair(records)]
         if len(pairs):
             states[cell] = pairs["state"][np.argmin(pairs["maximum_displacement"])]
-    quiet = follow_quiet_orbits(parameters, states)
-    displacement, modulus = task.millimetres(quiet.displacement), np.abs(quiet.multiplier)
-    limit = _limit(task, bare, np.where(modulus < 1, displacement, np.nan))
+    grid = quiet_orbits(parameters, states, shortest=SHORTEST)
+    displacement, modulus = np.full((2, *grid.shape), np.nan)
+    for cell, orbit in grid.orbits.items():
+        displacement[cell] = task.millimetres(orbit.record["maximum_displacement"])
+        modulus[cell] = abs(dominant_root(orbit))
+    best = refine(task, grid, np.where(modulus < 1, displacement, np.nan))
     return Screening(
-        frequencies,
-        bare,
-        worst,
-        1e3 * rules[worst],
+        rules[worst],
         1e3 * _manifold_gap(task),
-        1e3 * gaps,
+        gaps,
         displacement,
         modulus,
-        limit,
+        best,
+        _limit(task, best),
         found.size,
-        int(np.isfinite(displacement).sum()),
     )
 
 
-def _limit(task, bare, stable):
-    """Return the largest displacement of a quiet motion, mm.
+def _limit(task, best):
+    """Return the largest displacement of a quiet motion as far as the orbits tell, mm.
 
-    If the task gives none: the geometric mean of the bare machine's displacement and of that of the
-    least stable quiet orbit at the same frequency, so that a motion is quiet if it lies, on a
-    logarithmic scale, nearer to the orbit. The frequency is that at which, of those with a stable
-    quiet orbit, the bare machine moves most. Without any such orbit, half of the bare machine's
-    displacement.
+    If the task gives none: the geometric mean of the displacements of the bare machine and of the
+    best orbit at its frequency, so that a motion is quiet if it lies, on a logarithmic scale,
+    nearer to the orbit. Without an orbit, half of the bare machine's displacement.
     """
     if task.displacement_limit is not None:
         return 1e3 * task.displacement_limit
-    known = np.isfinite(stable).any(axis=0)
-    if not known.any():
-        return float(bare.max() / 2)
-    column = np.argmax(np.where(known, bare, 0))
-    return float(np.sqrt(bare[column] * np.nanmin(stable[:, column])))
+    if best.status == "absent":
+        return float(task.bare.max() / 2)
+    bare = task.bare[np.argmin(np.abs(task.grid - best.frequency))]
+    return float(np.sqrt(bare * best.displacement))
 
 
 def _manifold_gap(task):

@@ -7,9 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
+from impact_damper.data.shares import starts_needed
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import check_si, with_unit
+from impact_damper.motions.free_motions import balance_amplitudes
 from impact_damper.system.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
@@ -19,6 +21,7 @@ from impact_damper.system.bounds import (
     check_number,
     shown,
 )
+from impact_damper.system.checks import check_starts
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
 from impact_damper.theory.free_oscillator import free_folds, maximum_response
@@ -27,19 +30,21 @@ from impact_damper.theory.free_oscillator import free_folds, maximum_response
 VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
-# Quantile of the normal distribution of a two-sided 95 % interval.
-QUANTILE = 1.959963984540054
+# Least gap that is looked at, divided by that of rule (18).
+LEAST_GAP = 0.3
 # Comparisons run motions for LEAST_PATIENCE forcing periods, or for PATIENT times the time in which
 # a free vibration decays by the factor e if that is longer.
 PATIENT, LEAST_PATIENCE = 5, 100
+# They stop motions that have not settled after LONG times this time, LEAST_LIMIT periods at least.
+LONG, LEAST_LIMIT = 3, 500
+# Forcing periods over which motions that have not settled are measured. Over 50 periods the peaks
+# of chaos spread by a factor of two, and shares would depend on this chance.
+WATCHED = 100
 
 
-def starts_needed(share) -> int:
-    """Return the least number of starts, all quiet, whose Wilson interval lies above a share.
-
-    The lower end of the 95 % interval of n successes in n trials is n/(n + q^2), q being QUANTILE.
-    """
-    return math.ceil(share / (1 - share) * QUANTILE**2)
+def spread(values, count) -> np.ndarray:
+    """Return at most `count` of some values, evenly spread, the first and the last among them."""
+    return values[np.unique(np.linspace(0, len(values) - 1, count).round().astype(int))]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +77,7 @@ class Task:
         Share of starts that must end quiet, claimed at 95 % confidence.
     seed : int
     settling : Settling
+        If it is not given, motions that have not settled are watched for WATCHED forcing periods.
 
     Raises
     ------
@@ -109,7 +115,9 @@ class Task:
         bounds = self.scales.range_to_si(STIFFNESS_RANGE, "stiffness")
         stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
         settle(self, "contact_stiffness", stiffness)
-        settle(self, "settling", check_settling(self.settling))
+        settling = Settling(watched=WATCHED) if self.settling is None else self.settling
+        settle(self, "settling", check_settling(settling))
+        self._check_excitation()
         settle(self, "band", self._checked_band())
         settle(self, "tolerances", self._checked_tolerances())
         check_count("seed", self.seed, **SEED_RANGE)
@@ -119,9 +127,37 @@ class Task:
         check_count("starts", self.starts, least=least, most=10**5, why=why)
         check_count("frequencies", self.frequencies, least=3, most=10**4)
         check_count("candidates", self.candidates, least=4, most=1000)
+        check_starts(self.starts, self.frequencies * self.candidates, least)
         if self.displacement_limit is not None:
             limit = check_si("displacement_limit", self.displacement_limit, "displacement", above=0)
             settle(self, "displacement_limit", limit)
+        self._check_deviations()
+
+    def _check_excitation(self):
+        if not self.machine.static_force:
+            raise ValueError(
+                "machine: force = 0 N: must be greater than 0 N (without excitation nothing is to "
+                "be damped)"
+            )
+        self.machine.oscillator()  # raises for a moving base whose force cannot be swept
+
+    def _check_deviations(self):
+        """Raise ValueError if a damper within the tolerances is not allowed."""
+        least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
+        if least < RESTITUTION_RANGE["least"]:
+            raise ValueError(
+                f"tolerances['restitution'] = {self.tolerances['restitution']:g}: the restitution "
+                f"{self.restitution:g} may fall to {least:.3g}, must stay at least "
+                f"{RESTITUTION_RANGE['least']:g} ({RESTITUTION_RANGE['why']})"
+            )
+        gap = LEAST_GAP * min(self.rule_gap(f) for f in self.band)
+        least, most = (
+            [1 + sign * self.tolerances.get(name, 0.0) for name in VARIED] for sign in (-1, 1)
+        )
+        for factors in (NOMINAL, least, most):
+            self.damper(gap, factors).check_for(self.machine)
+            for frequency in self.band:
+                self.packed(gap, frequency, factors)
 
     def _checked_band(self):
         if not isinstance(self.band, Sequence | np.ndarray) or len(self.band) != 2:
@@ -160,18 +196,20 @@ class Task:
     def resonance(self) -> tuple[float, float]:
         """Frequencies between which the free machine resonates, Hz.
 
-        From the natural frequency of small vibrations to the peak and the folds of the free
-        response by harmonic balance, which a cubic spring bends away.
+        From the natural frequency of small vibrations, if the spring has a linear part, to the peak
+        and the folds of the free response by harmonic balance, which a cubic spring bends away.
         """
         natural = self.machine.natural_frequency
-        oscillator = self.machine.oscillator(natural or None)
+        oscillator = self.machine.oscillator()
         found = [point.frequency for point in free_folds(oscillator)]
         try:
             found.append(maximum_response(oscillator).frequency)
         except ValueError:
             pass  # no peak: damped too much, or over the barrier of a softening spring
-        ends = [*self.scales.to_si(np.array(found), "frequency"), natural]
-        return min(ends), max(ends)
+        ends = [*self.scales.to_si(np.array(found), "frequency")]
+        if natural or not ends:
+            ends.append(natural)
+        return float(min(ends)), float(max(ends))
 
     @cached_property
     def hurried(self) -> Settling:
@@ -179,28 +217,44 @@ class Task:
 
         A share after fewer periods is smaller, because slow motions are not yet quiet.
         """
-        decay = (
-            self.machine.natural_frequency * 2 * self.machine.mass / self.machine.viscous_damping
-        )
+        # forcing periods in which a free vibration decays by the factor e
+        decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, self.settling.patience))
-        limit = int(np.clip(6 * PATIENT * decay, 6 * LEAST_PATIENCE, self.settling.limit))
+        limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, self.settling.limit))
         return replace(self.settling, patience=patience, limit=limit)
 
     @cached_property
     def grid(self) -> np.ndarray:
         """Frequencies over the band, Hz.
 
-        They are even, but the nearest ones are moved onto the resonances in the band: those of the
-        machine alone and with the loose mass attached, at which a lightly damped machine moves
-        most.
+        They are even, but the nearest ones between the ends are moved onto the resonances in the
+        band: those of the machine alone and with the loose mass attached, at which a lightly damped
+        machine moves most.
         """
         values = np.linspace(*self.band, self.frequencies)
         ratio = 1 + self.mass / self.machine.mass
         for end in self.resonance:
-            for frequency in (end, end / math.sqrt(ratio)):
+            for frequency in (end / math.sqrt(ratio), end):
                 if self.band[0] < frequency < self.band[1]:
-                    values[np.argmin(np.abs(values - frequency))] = frequency
+                    values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
         return np.unique(values)
+
+    @cached_property
+    def bare(self) -> np.ndarray:
+        """Largest displacement of the machine without damper by harmonic balance on `grid`, mm."""
+        turning = self.scales.from_si(self.grid, "frequency")
+        oscillators = [self.machine.oscillator(f) for f in self.grid]
+        sizes = map(balance_amplitudes, oscillators, turning)
+        return self.millimetres(np.array([ascending[-1] for ascending in sizes]))
+
+    @property
+    def worst_frequency(self) -> float:
+        """Frequency of `grid` at which the machine without damper moves most, Hz."""
+        return float(self.grid[np.argmax(self.bare)])
+
+    def few(self, count, *others) -> np.ndarray:
+        """Return some frequencies of `grid`, evenly spread, the worst one and others among them."""
+        return np.union1d(spread(self.grid, count), [self.worst_frequency, *others])
 
     @property
     def scales(self):
@@ -246,11 +300,21 @@ class Task:
             damping=oscillator.damping * varied["damping"],
             linear_frequency=oscillator.linear_frequency * math.sqrt(varied["stiffness"]),
             cubic=oscillator.cubic * varied["stiffness"],
-            force=oscillator.force * varied["force"],
+            force=oscillator.force * self._force(frequency, varied),
             unbalance=oscillator.unbalance * varied["force"],
         )
         damper = self.damper(gap, factors).scaled(self.scales)
         return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
+
+    def _force(self, frequency, varied):
+        """Return the factor of the force, which by a moving base depends on spring and dashpot."""
+        machine = self.machine
+        if machine.force is not None or machine.unbalance is not None:
+            return varied["force"]
+        angular = 2 * math.pi * frequency
+        spring, dashpot = machine.linear_stiffness, machine.viscous_damping * angular
+        deviated = math.hypot(spring * varied["stiffness"], dashpot * varied["damping"])
+        return varied["force"] * deviated / math.hypot(spring, dashpot)
 
     def packed(self, gap, frequency, factors=NOMINAL) -> np.ndarray:
         """Return the packed parameters of `system`."""

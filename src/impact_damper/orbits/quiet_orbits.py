@@ -105,27 +105,37 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
     ValueError
         If the arrays are not of these shapes.
     """
+    grid = quiet_orbits(parameters, states)
+    rows, columns = grid.shape
+    ends, events = zip(*(_row_ends(grid, row) for row in range(rows)), strict=True)
+    multiplier = np.full((rows, columns), complex(np.nan, np.nan))
+    displacement, harmonic = np.full((2, rows, columns), np.nan)
+    for cell, orbit in grid.orbits.items():
+        multiplier[cell] = dominant_root(orbit)
+        displacement[cell] = orbit.record["maximum_displacement"]
+        harmonic[cell] = abs(orbit.record["harmonic_displacement"])
+    return QuietOrbits(multiplier, displacement, harmonic, np.array(ends), np.array(events))
+
+
+def quiet_orbits(parameters, states, *, shortest=SHORTEST) -> Grid:
+    """Return the grid with the quiet orbits in the cells to which they are followed.
+
+    Parameters and errors as of `follow_quiet_orbits`; `shortest` is the shortest step between
+    cells, as a share of their distance.
+    """
     if parameters.shape[2:] != (packed.COUNT,) or states.shape != (*parameters.shape[:2], 4):
         raise ValueError(
             f"parameters and states: must be of shapes (n, m, {packed.COUNT}) and (n, m, 4), "
             f"{parameters.shape} and {states.shape} given"
         )
-    rows, columns = states.shape[:2]
-    grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
+    grid = Grid(parameters, find_quiet_orbit, shortest=shortest, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe, _ = shoot(parameters[cell], states[cell], 1, STROBE)
         orbit, _ = find_quiet_orbit(parameters[cell], at_strobe.at(PHASE))
         if orbit is not None:
             grid.put(cell, orbit)
     grid.spread()
-    ends, events = zip(*(_row_ends(grid, row) for row in range(rows)), strict=True)
-    multiplier = np.full((rows, columns), complex(np.nan, np.nan))
-    displacement, harmonic = np.full((2, rows, columns), np.nan)
-    for cell, orbit in grid.orbits.items():
-        multiplier[cell] = _dominant(orbit)
-        displacement[cell] = orbit.record["maximum_displacement"]
-        harmonic[cell] = abs(orbit.record["harmonic_displacement"])
-    return QuietOrbits(multiplier, displacement, harmonic, np.array(ends), np.array(events))
+    return grid
 
 
 def find_quiet_orbit(p, guess):
@@ -159,7 +169,7 @@ def find_quiet_orbit(p, guess):
     return None, "not_converged"
 
 
-def _dominant(orbit):
+def dominant_root(orbit):
     """Return the multiplier of the root of largest modulus, its imaginary part not negative."""
     values = np.linalg.eigvals(orbit.root)
     value = values[np.argmax(np.abs(values))]

@@ -13,17 +13,17 @@ import xarray as xr
 
 from impact_damper.absorbers.responses import SHARES, absorber_responses
 from impact_damper.data.datasets import SOURCE
+from impact_damper.data.variables import VARIABLES
 from impact_damper.design import choose, cliff, deviations, labelled, operating
 from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.masses import alternatives, judge
 from impact_damper.design.motions import reached_motions
-from impact_damper.design.promises import promise_dataset
 from impact_damper.design.screen import screen
 from impact_damper.design.task import TOLERANCES, Task
 from impact_damper.design.words import conclusion
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.hertz import HertzContact
-from impact_damper.machine.machine import describe_si
+from impact_damper.machine.machine import Machine, describe_si
 from impact_damper.machine.results import shown_variable
 from impact_damper.performance.contact_stiffness import first_stiffness
 from impact_damper.performance.ring_down import ring_down
@@ -38,6 +38,8 @@ SWEEP, MOST_SWEPT = 4.0, 6000
 # Absorbers are tuned for the largest displacement over all frequencies: from a share of the least
 # to a multiple of the greatest of band and resonance.
 ABSORBED = 0.5, 2.0
+# Contact stiffness of a typical damper, dimensionless.
+TYPICAL = 2000.0
 # New names in the response without the damper, and in transients.
 BARE = {
     "followed_value": "bare_frequency",
@@ -139,7 +141,9 @@ def _stiffness(stiffness, contact, asked):
     if stiffness is not None or contact is None:
         return stiffness
     # restitution and stiffness have no effect on the gap of the flight rule
-    first = Task(**asked, restitution=1.0, contact_stiffness=1.0)
+    known = isinstance(asked["machine"], Machine)
+    typical = asked["machine"].scales.to_si(TYPICAL, "stiffness") if known else TYPICAL
+    first = Task(**asked, restitution=1.0, contact_stiffness=typical)
     middle = sum(first.band) / 2
     gap = first.rule_gap(middle)
     return first_stiffness(first.machine, contact, first.mass, gap, middle)
@@ -158,25 +162,25 @@ class _Design(NamedTuple):
         """Return the choice of the gap and the datasets of all steps."""
         task, step = self.task, self.kept.step
         first = step("screening", self.screening)
-        limit = float(first["displacement_limit"])
-        compared = step("comparison", lambda: self.comparison(first, limit))
+        compared = step("comparison", lambda: self.comparison(first))
         comparison = labelled.comparison_of(compared, task)
-        choice = comparison.choose(task.tolerances.get("gap", 0.0))
+        limit = comparison.limit
+        edges = step("cliff", lambda: self.cliff(comparison))
+        kinds = VARIABLES["design_choice"].flags
+        kind = next(name for name, number in kinds.items() if number == edges["design_choice"])
+        choice = choose.Choice(float(edges["design_gap"]), kind)
         gap = choice.gap
-        edges = step("cliff", lambda: self.cliff(comparison, gap, limit))
         frequency = _critical(edges, first)
         response = step("response", lambda: self.response(gap))
-        cloud = step("tolerances", lambda: self.deviations(gap, limit))
+        cloud = step("tolerances", lambda: self.deviations(choice, frequency, limit))
         parts = [
             first,
             compared,
-            labelled.choice_dataset(choice),
             edges,
             step("orbits", lambda: self.orbits(gap, frequency)),
             response,
             step("motions", lambda: reached_motions(task, gap, response, limit, self.contact)),
             cloud,
-            promise_dataset(task, choice.kind, limit, cloud),
             step("maps", lambda: self.maps(gap, frequency, limit)),
             step("masses", lambda: self.masses(gap, limit)),
             step("transients", lambda: self.transients(gap)),
@@ -189,23 +193,26 @@ class _Design(NamedTuple):
         return {"workers": self.workers, "progress": title if self.progress else None}
 
     def screening(self):
-        return labelled.screening_dataset(screen(self.task, **self.running("First look")))
+        return labelled.screening_dataset(
+            self.task, screen(self.task, **self.running("First look"))
+        )
 
-    def comparison(self, first, limit):
-        span = first["screened_gap"].values[[0, -1]]
-        frequency = float(first["worst_frequency"])
+    def comparison(self, first):
+        span, limit = first["screened_gap"].values[[0, -1]], float(first["orbit_limit"])
         running = self.running("Gaps, coarsely")
-        coarse = choose.coarse_comparison(self.task, span, frequency, limit, **running)
+        coarse = choose.coarse_comparison(self.task, span, limit, **running)
         running = self.running("Candidates")
-        candidates = choose.candidate_comparison(self.task, coarse, limit, **running)
+        candidates = choose.candidate_comparison(self.task, coarse, **running)
         return labelled.comparison_dataset(coarse, candidates)
 
-    def cliff(self, comparison, gap, limit):
-        edges = cliff.find_edges(self.task, comparison, gap, limit, workers=self.workers)
+    def cliff(self, comparison):
+        task, limit, workers = self.task, comparison.limit, {"workers": self.workers}
+        choice = comparison.choose(task.tolerances.get("gap", 0.0))
+        edges = cliff.find_edges(task, comparison, choice.gap, **workers)
+        choice = cliff.recentre(task, choice, edges, limit, **workers)
         known = [edge for edge in reversed(edges) if np.isfinite(edge.frequency)]
-        running = self.running("Lives")
-        lives = cliff.find_lives(self.task, known[0], limit, **running) if known else None
-        return labelled.edges_dataset(edges, lives)
+        lives = cliff.find_lives(task, known[0], limit, **self.running("Lives")) if known else None
+        return labelled.cliff_dataset(choice, edges, lives)
 
     def orbits(self, gap, frequency):
         force = "force" if self.task.machine.unbalance is None else "unbalance"
@@ -232,14 +239,14 @@ class _Design(NamedTuple):
         motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
         return motions.merge(orbits.rename_dims(branch="curve")).merge(xr.Dataset(bare))
 
-    def deviations(self, gap, limit):
+    def deviations(self, choice, frequency, limit):
+        task, gap = self.task, choice.gap
         running = self.running("Tolerances")
-        cloud = deviations.sample_tolerances(self.task, gap, limit, **running)
+        samples = deviations.sample_tolerances(task, gap, frequency, limit, **running)
         running = self.running("Unseen starts")
-        unseen = deviations.check_unseen(self.task, gap, limit, **running)
-        return labelled.cloud_dataset(cloud, "sample").merge(
-            labelled.cloud_dataset(unseen, "corner")
-        )
+        unseen = deviations.check_unseen(task, gap, limit, **running)
+        promise = deviations.promise(task, choice.kind, samples, unseen)
+        return labelled.deviations_dataset(samples, unseen, promise, limit)
 
     def maps(self, gap, frequency, limit):
         task, running = self.task, self.running("Operating range")

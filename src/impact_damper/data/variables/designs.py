@@ -25,11 +25,16 @@ VARIABLES = {
         "largest displacement without damper by harmonic balance",
         quantity="displacement",
     ),
+    "orbit_limit": Variable(
+        (),
+        "displacement halfway, in logarithms, between the bare machine and its least quiet orbit",
+        quantity="displacement",
+    ),
     "displacement_limit": Variable(
         (), "largest displacement of a quiet motion", quantity="displacement"
     ),
     "flight_gap": Variable(
-        (), "gap by the flight rule at worst_frequency", quantity="displacement"
+        (), "gap by the rule of straight flight at worst_frequency", quantity="displacement"
     ),
     "manifold_gap": Variable(
         (), "gap by the slow invariant manifold at resonance", quantity="displacement"
@@ -43,16 +48,34 @@ VARIABLES = {
     "screened_modulus": Variable(
         ("screened", "frequency"), "largest multiplier of half a period of the quiet orbit"
     ),
+    "best_orbit_frequency": Variable(
+        (),
+        "frequency at which, of those with a stable quiet orbit, the bare machine moves most",
+        quantity="frequency",
+    ),
     "best_orbit_gap": Variable(
-        (), "gap of the smallest stable quiet orbit at worst_frequency", quantity="displacement"
+        (), "gap of the smallest stable quiet orbit at this frequency", quantity="displacement"
     ),
     "best_orbit_displacement": Variable(
         (), "largest displacement of this orbit", quantity="displacement"
     ),
+    "best_orbit_modulus": Variable((), "modulus of the largest multiplier of this orbit"),
+    "best_orbit_edge": Variable(
+        (),
+        "least gap above at which a multiplier of the quiet orbit has the modulus 1",
+        quantity="displacement",
+    ),
     "best_orbit_status": Variable(
         (),
         "how this orbit was found",
-        flags={"absent": 0, "smooth": 1, "stability_ends": 2, "range_ends": 3},
+        flags={
+            "absent": 0,
+            "smooth": 1,
+            "kink": 2,
+            "stability_ends": 3,
+            "range_ends": 4,
+            "not_refined": 5,
+        },
     ),
     "screen_motions": Variable((), "motions that the screening ran"),
     "screen_orbits": Variable((), "exact orbits that the screening computed"),
@@ -63,6 +86,7 @@ VARIABLES = {
     ),
     "coarse_share": Variable(("coarse",), "least share of quiet starts over the band"),
     "candidate_gap": Variable(("candidate",), "gap of a candidate", quantity="displacement"),
+    "start_count": Variable(CELL, "random starts; fewer where they show that the gap is not quiet"),
     "start_quiet_share": Variable(CELL, "share of random starts that end quiet"),
     "start_quiet_interval": Variable((*CELL, "side"), "95 % interval of this share"),
     "worst_displacement": Variable(
@@ -197,7 +221,7 @@ VARIABLES = {
     ),
     # motions of the design
     "motion_rms": Variable(
-        ("frequency",), "largest r.m.s. displacement of a motion reached", quantity="displacement"
+        ("frequency",), "r.m.s. displacement of the largest motion reached", quantity="displacement"
     ),
     "motion_peak_mean": Variable(
         ("frequency",), "mean of its peaks of each forcing period", quantity="displacement"

@@ -1,0 +1,158 @@
+"""The smallest stable quiet orbit over the gap, found exactly, and what its size depends on.
+
+At each gap Newton's method gives the orbit, and the variational equations give the derivatives of
+its largest displacement and of the modulus of its largest multiplier. The displacement is least
+where its derivative by the gap changes sign or, if that is beyond, where the modulus reaches 1.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq, root_scalar
+
+from impact_damper.orbits.quiet_orbits import find_quiet_orbit
+from impact_damper.orbits.sensitivity import Sensitivity, sensitivity
+from impact_damper.system.packed import CLEARANCE
+
+# Accuracy of logarithms of gaps.
+ACCURACY = 1e-10
+
+
+class BestOrbit(NamedTuple):
+    """The smallest stable quiet orbit at one frequency, over the gap.
+
+    Attributes
+    ----------
+    frequency : float
+        Hz.
+    gap, displacement, modulus : float
+        mm, mm, and modulus of its largest Floquet multiplier; NaN if there is none.
+    edge : float
+        Least gap above at which the modulus reaches 1, mm; NaN if the orbits of the map end before.
+    status : str
+        Flag of `best_orbit_status`: "smooth" if the displacement has a minimum, "kink" if two of
+        its peaks are equal there, "stability_ends" if the orbit ceases to be stable before,
+        "range_ends" if it is smallest at the first or last gap with an orbit in the map,
+        "not_refined" if no orbit was found between gaps of the map, which the numbers then belong
+        to; "absent" without a stable orbit.
+    """
+
+    frequency: float
+    gap: float
+    displacement: float
+    modulus: float
+    edge: float
+    status: str
+
+
+NO_ORBIT = BestOrbit(np.nan, np.nan, np.nan, np.nan, np.nan, "absent")
+
+
+def refine(task, grid, stable) -> BestOrbit:
+    """Return the smallest stable quiet orbit of a map.
+
+    Its frequency is that at which, of those with a stable quiet orbit, the bare machine moves most.
+
+    Parameters
+    ----------
+    task : Task
+    grid : grid_following.Grid
+        Quiet orbits over ascending gaps and the frequencies of the task.
+    stable : array, shape (m, n)
+        Displacements of the stable ones, NaN elsewhere.
+    """
+    known = np.isfinite(stable).any(axis=0)
+    if not known.any():
+        return NO_ORBIT
+    place = int(np.argmax(np.where(known, task.bare, 0)))
+    row = int(np.nanargmin(stable[:, place]))
+    column = _Column(grid, place)
+    try:
+        x, status = column.smallest(row)
+    except ArithmeticError:
+        x, status = column.x[row], "not_refined"
+    found = column.at(x)
+    gap, edge = 2e3 * task.scales.to_si(np.exp([x, column.edge_above(row)]), "clearance")
+    size = task.millimetres(found.maximum_displacement)
+    return BestOrbit(float(task.grid[place]), gap, size, found.modulus, edge, status)
+
+
+class _Column:
+    """The quiet orbits at one frequency, as functions of the logarithm x of the clearance."""
+
+    def __init__(self, grid, place):
+        self.x, self.found = np.log(grid.points[:, place, CLEARANCE]), {}
+        self.orbits = {
+            row: orbit for (row, column), orbit in grid.orbits.items() if column == place
+        }
+
+    def at(self, x) -> Sensitivity:
+        """Return the orbit at x with its derivatives; Newton's guess follows the nearest tangent.
+
+        Raises
+        ------
+        ArithmeticError
+            If no orbit is found, or it is at a fold.
+        """
+        if x in self.found:
+            return self.found[x]
+        row = min(self.orbits, key=lambda each: abs(self.x[each] - x))
+        orbit = self.orbits[row]
+        if x != self.x[row]:
+            p, slopes = orbit.p.copy(), self.at(self.x[row]).state_slopes
+            p[CLEARANCE] = np.exp(x)
+            guess = orbit.state + slopes[:, CLEARANCE] * (p[CLEARANCE] - orbit.p[CLEARANCE])
+            orbit, status = find_quiet_orbit(p, guess)
+            if orbit is None:
+                raise ArithmeticError(f"no quiet orbit at the clearance {np.exp(x):g}: {status}")
+        try:
+            self.found[x] = sensitivity(orbit)
+        except np.linalg.LinAlgError as error:
+            raise ArithmeticError(f"fold at the clearance {np.exp(x):g}") from error
+        return self.found[x]
+
+    def slope(self, x):
+        """Return the derivative of the largest displacement by the clearance."""
+        return self.at(x).displacement_slopes[CLEARANCE]
+
+    def excess(self, x):
+        """Return by how much the modulus exceeds 1, and its derivative by x."""
+        found = self.at(x)
+        return found.modulus - 1, found.modulus_slopes[CLEARANCE] * np.exp(x)
+
+    def smallest(self, row):
+        """Return the x of the smallest stable orbit near the smallest one of the map, and how."""
+        here = self.x[row]
+        step = 1 if self.slope(here) < 0 else -1
+        if row + step not in self.orbits:
+            return here, "range_ends"
+        there = self.x[row + step]
+        if self.slope(there) * step > 0:
+            there = brentq(self.slope, here, there, xtol=ACCURACY)
+            if self.at(there).modulus < 1:
+                return there, "smooth" if self.at(there).displacement_smooth else "kink"
+        elif self.at(there).modulus < 1:
+            return here, "not_refined"
+        return self.edge_between(here, there), "stability_ends"
+
+    def edge_between(self, inside, outside):
+        """Return the x at which the modulus reaches 1, by Newton's method within a bracket."""
+        ends = sorted((inside, outside))
+        (low, _), (high, _) = self.excess(ends[0]), self.excess(ends[1])
+        guess = ends[0] + (ends[1] - ends[0]) * low / (low - high)
+        found = root_scalar(self.excess, x0=guess, fprime=True, method="newton", xtol=ACCURACY)
+        if found.converged and ends[0] <= found.root <= ends[1]:
+            return float(found.root)
+        # where two multipliers meet, the modulus has a kink
+        return brentq(lambda x: self.excess(x)[0], *ends, xtol=ACCURACY)
+
+    def edge_above(self, row):
+        """Return the least x above a row at which the modulus reaches 1, or NaN."""
+        try:
+            while self.at(self.x[row]).modulus < 1:
+                row += 1
+                if row not in self.orbits:
+                    return np.nan
+            return self.edge_between(self.x[row - 1], self.x[row])
+        except ArithmeticError:
+            return np.nan
