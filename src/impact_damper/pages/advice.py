@@ -29,7 +29,11 @@ def advice(data) -> str:
     """Return what to do."""
     if named(data, "promise") == "broken":
         return "Do not build it: the check failed"
-    return ADVICE[named(data, "design_choice")]
+    choice = named(data, "design_choice")
+    larger = float(data["reached_displacement"].max()) > float(data["displacement_limit"])
+    if choice != "least_worst" and larger:
+        return f"{ADVICE[choice]}, and beware of a large motion beside the quiet one"
+    return ADVICE[choice]
 
 
 def reasons(data) -> list[str]:

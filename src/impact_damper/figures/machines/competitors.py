@@ -17,8 +17,8 @@ from impact_damper.figures.style import figure, legend, style
 
 CAPTION = """
 Largest displacement of any motion found. Above: at the nominal excitation, against the forcing
-frequency. Below: the largest over the band, against the excitation. Bands: the absorber's springs
-10 % softer and stiffer than designed.
+frequency. Below: the largest over the band, against the excitation; there this damper's motions are
+those of random starts only. Bands: the absorber's springs 10 % softer and stiffer than designed.
 """
 DETUNED = "detuned by 10 %"
 LOOKS = {"tuned": TUNED, "nonlinear": NONLINEAR, "best": OPTIMISED}

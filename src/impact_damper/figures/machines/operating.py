@@ -35,7 +35,7 @@ def draw_forces(data):
     ends = _edges(frequency), np.exp(_edges(np.log(force)))
     drawn, panels = _maps(*ends, data["force_map_share"].T, data["force_map_displacement"].T)
     for axes in panels:
-        axes.axhline(1.0, **LINE)
+        axes.axhline(1.0, path_effects=HALO, **LINE)
         _draw_edges(axes, data, "force", "frequency", "share")
         axes.set(yscale="log", ylabel="Excitation / nominal", yticks=force[::2])
         axes.yaxis.set_major_formatter("{x:g}")

@@ -1,0 +1,81 @@
+"""The conclusion of a design: which sentences stand when."""
+
+import numpy as np
+import pytest
+from helpers.made_up_design import MACHINE, made_up_design
+
+import impact_damper as idm
+from impact_damper.design.task import Task
+from impact_damper.design.words import conclusion
+
+TASK = Task(
+    machine=idm.Machine(**MACHINE),
+    mass=0.6,
+    band=(26.0, 34.0),
+    restitution=0.7,
+    contact_stiffness=2e7,
+    tolerances={"gap": 0.1},
+)
+VIOLENT = {"reached_displacement": [0.8, 9.5, 0.8, 0.8, 0.8]}
+
+
+def said(kind="robust", **changed):
+    return " ".join(conclusion(TASK, kind, made_up_design(choice=kind, **changed)))
+
+
+def test_a_robust_gap_is_promised_within_its_tolerance():
+    words = said()
+    assert "Build a gap of 7 mm (full play, from wall to wall); any gap from 6.3 to 7.7 mm" in words
+    assert "at least 95 % of the starts then end quiet, at 95 % confidence" in words
+    assert "does it move more than 0.8 mm" in words
+
+
+def test_a_gap_that_needs_a_closer_tolerance_is_held_between_its_cliffs():
+    assert "hold it from 6 to 8.5 mm, a narrower range than the tolerance of 10 %" in said(
+        "needs_tolerance"
+    )
+
+
+def test_a_large_motion_is_told_with_the_starts_that_lead_to_it():
+    assert "All random starts ended quiet, but there is a larger motion" in said(**VIOLENT)
+    some = said(**VIOLENT, reached_quiet_share=[1, 0.97, 1, 1, 1])
+    assert "Some starts do not end quiet: in the largest motion the machine moves up to 9.5 mm" in (
+        some
+    )
+    escaped = said(reached_displacement=[np.inf, 1, 1, 1, 1])
+    assert "the machine escapes over its barrier" in escaped
+
+
+def test_without_a_quiet_gap_the_words_say_what_there_is_and_what_would_help():
+    words = said("least_worst")
+    assert "No gap is quiet over the whole band." in words
+    assert "Do not build this damper for this band." in words
+    assert "What would help: a loose mass of 0.6 kg" in words
+
+
+def test_distances_to_the_cliff_and_to_the_end_of_stability_are_apart():
+    words = said()
+    assert "21.4 % above this gap, at 8.5 mm (first at 30 Hz)" in words
+    assert "The quiet orbit at 30 Hz is stable from 6.5 to 8.8 mm: not this range" in words
+    none = said(cliff_status=[1, 1])
+    assert "there is no cliff beyond which fewer starts end quiet" in none
+
+
+@pytest.mark.parametrize(
+    ("rates", "told"),
+    [
+        ([[0.01, 0.005, 0.02]] * 2, "another 100 at 8 mm, 100 at 9 mm."),
+        ([[np.nan] * 3, [0.001, 0, 0.004]], "another more than 250, or never, at 9 mm."),
+    ],
+)
+def test_transients_and_attractors_are_told_apart(rates, told):
+    data = made_up_design().assign_coords(life_gap=("life", [8.0, 9.0]))
+    data["life_rate"] = (("life", "bound"), rates)
+    assert told in " ".join(conclusion(TASK, "robust", data))
+
+
+def test_the_best_absorber_is_named_with_its_loss_when_detuned():
+    words = (
+        "the best tuned absorber of the same mass the machine would move up to 0.5 mm, and up to"
+    )
+    assert f"{words} 0.6 mm with its springs 10 % off" in said()
