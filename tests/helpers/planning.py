@@ -36,6 +36,8 @@ def jobs(config) -> dict:
         for name in names:
             needs = _needed(selection.read_by(config, stage, name))
             found[f"{stage}/{name}"] = Job(_texts({"name": name} | given[name]), needs)
+            if record.page:
+                found[f"page/{name}"] = Job(_texts({"name": name}), _needed({stage: [name]}))
     for chapter, record in CHAPTERS.items():
         given = {
             f"figure_{name}": selection.figure_values(config, name)
@@ -64,6 +66,8 @@ def job_of_file(config, path):
         return f"chapter/{next(chapters)}"
     if folder == "tables":
         return f"chapter/{next(c for c in CHAPTERS if TABLES[name] in CHAPTERS[c].TABLES)}"
+    if path.parent.parent.name in STAGES:
+        return f"page/{folder}"
     return job_of(folder, name) if folder in STAGES else name
 
 

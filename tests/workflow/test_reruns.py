@@ -59,7 +59,8 @@ VALUES = {
 # Edits of files, and the jobs that run again; None stands for all.
 FILES = {
     "requirements.lock": None,
-    "src/impact_damper/figures/style.py": chapters(*CHAPTERS),
+    "src/impact_damper/figures/style.py": {"page/*", *chapters(*CHAPTERS)},
+    "src/impact_damper/pages/templates/page.html": {"page/*"},
     "src/impact_damper/tables/migration.py": chapters("migration"),
     "src/impact_damper/figures/response.py": chapters("responses"),
     "workflow/scripts/motion.py": {"motion/figure_04", *chapters("responses", "claims")},

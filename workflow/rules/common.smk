@@ -17,7 +17,7 @@ from impact_damper.workflow.configuration import (
 )
 from impact_damper.workflow.registry import CHAPTERS, PAPER, STAGES
 from impact_damper.workflow.registry.clearance import study_chunk
-from impact_damper.workflow.sources import module_file, sources
+from impact_damper.workflow.sources import PACKAGE, module_file, sources
 
 # Planning makes many small objects and keeps them all. Collecting garbage less often saves a
 # fifteenth of the time of a dry run.

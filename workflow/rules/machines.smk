@@ -22,9 +22,7 @@ rule machine_pages:
     input:
         **data_by_stage({"machines": ["{name}"]}),
         code=code("machine_pages"),
-        templates=[
-            local(path) for path in sorted((ROOT / "src/impact_damper/pages/templates").iterdir())
-        ],
+        templates=[local(PACKAGE / "pages/templates" / name) for name in ("page.html", "page.md")],
     output:
         report(
             "<results>/machines/{name}/index.html",
@@ -38,7 +36,7 @@ rule machine_pages:
     conda:
         ENVIRONMENT
     params:
-        name="{name}",
+        name=lambda wildcards: {"name": wildcards.name},
     message:
         "The page of the machine {wildcards.name}"
     script:
