@@ -52,6 +52,7 @@ def made_up_design(choice="robust", promise="robust_kept", **changed):
         "share": 0.95,
         "seed": 1995,
         "tolerances": {"gap": 0.1, "restitution": 0.1},
+        "later_displacement": 1.5,
         "settling": SETTLING,
         "compared_settling": SETTLING | {"patience": 150, "limit": 900},
     }

@@ -428,6 +428,16 @@ def test_the_check_imports_no_numpy():
     assert found.stdout == "False\n"
 
 
+def test_the_check_of_a_machine_imports_no_numba():
+    code = (
+        "import sys, yaml, impact_damper.workflow.configuration as c; "
+        "c.check_configuration(yaml.safe_load(open('config/config.yaml'))); "
+        "print('numba' in sys.modules)"
+    )
+    run = {"capture_output": True, "text": True, "check": True, "cwd": ROOT}
+    assert subprocess.run([sys.executable, "-c", code], **run).stdout == "False\n"
+
+
 def test_the_reference_is_up_to_date():
     """After a change: python -m impact_damper.workflow.models > config/reference.md"""
     assert (ROOT / "config/reference.md").read_text() == reference()

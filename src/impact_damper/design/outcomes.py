@@ -11,7 +11,7 @@ import numpy as np
 
 from impact_damper.data.datasets import is_settled
 from impact_damper.data.shares import wilson_intervals
-from impact_damper.design.task import NOMINAL
+from impact_damper.design.task import LATER, NOMINAL
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, CHAOTIC, NON_COLLIDING, SETTLED
 from impact_damper.motions.start_states import random_starts
@@ -19,8 +19,6 @@ from impact_damper.motions.start_states import random_starts
 # Outcomes of motions that go on as they are, and that say for certain what a motion is.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST)
 CERTAIN = (*LASTING, CHAOTIC)
-# Largest displacement of chaos in the long run, divided by that over `Settling.watched` periods.
-LATER = 1.5
 # What starts are drawn for. Each has starts of its own, so that a choice and its check share none.
 STREAMS = (
     "screening",

@@ -11,7 +11,6 @@ from impact_damper.data.shares import starts_needed
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import check_si, with_unit
-from impact_damper.motions.free_motions import balance_amplitudes
 from impact_damper.system.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
@@ -24,7 +23,11 @@ from impact_damper.system.bounds import (
 from impact_damper.system.checks import check_starts
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
-from impact_damper.theory.free_oscillator import free_folds, maximum_response
+from impact_damper.theory.free_oscillator import (
+    balance_amplitudes,
+    free_folds,
+    maximum_response,
+)
 
 # Quantities of a machine and its damper that may deviate from their nominal values.
 VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
@@ -40,6 +43,8 @@ LONG, LEAST_LIMIT = 3, 500
 # Forcing periods over which motions that have not settled are measured. Over 50 periods the peaks
 # of chaos spread by a factor of two, and shares would depend on this chance.
 WATCHED = 100
+# Largest displacement of chaos in the long run, divided by that over the periods watched.
+LATER = 1.5
 
 
 def spread(values, count) -> np.ndarray:
@@ -332,6 +337,7 @@ class Task:
             "band": list(self.band),
             "tolerances": dict(self.tolerances),
             "displacement_limit": self.displacement_limit,
+            "later_displacement": LATER,
             "settling": asdict(self.settling),
             "compared_settling": asdict(self.hurried),
         }

@@ -10,7 +10,7 @@ import numpy as np
 
 from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.theory.free_oscillator import free_solutions, main_solutions, maximum_response
+from impact_damper.theory.free_oscillator import balance_amplitudes, maximum_response
 
 # Phases at which free motions are started with the amplitudes of harmonic balance.
 PHASES = 6
@@ -70,17 +70,6 @@ def free_motions(oscillator, frequency, settling) -> FreeMotions:
         # T = 0 comes three quarters of a period after the strobe
         states.append(course[3 * SAMPLES // 4 :: SAMPLES, :2][:MOST_STATES])
     return FreeMotions(np.concatenate(states or [[(0.0, 0.0)]]), float(largest), float(fastest))
-
-
-def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of free motions by harmonic balance, ascending.
-
-    For a softening spring without a resonance peak only the smallest amplitude is returned.
-    """
-    try:
-        return main_solutions(oscillator, frequency).amplitude
-    except ValueError:
-        return free_solutions(oscillator, frequency).amplitude[:1]
 
 
 def _peak_amplitude(oscillator):

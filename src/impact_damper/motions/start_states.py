@@ -24,11 +24,11 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.motions import records, strobe_map
-from impact_damper.motions.free_motions import balance_amplitudes, free_motions
+from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
 from impact_damper.system.packed import FORCE, FREQUENCY, UNBALANCE, pack
-from impact_damper.theory.free_oscillator import free_folds
+from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds
 from impact_damper.theory.single_harmonic import impacting_solutions
 
 # Ratios: largest random start to largest free motion, and smallest to largest random start.

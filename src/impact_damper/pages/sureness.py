@@ -18,9 +18,11 @@ MEANING = (
     "A damper that works from one start may fail from another: beside the quiet motion the loose "
     "mass can fall into other motions and stay there. So the machine is let go from many random "
     "starts, up to three times as large and as fast as its motions without the damper, and the "
-    "share of the starts that end quiet is counted. A share is known only within an interval, "
-    "which is given in brackets: a gap counts as quiet if, at every frequency of the band, the "
-    "lower end of this 95 % interval is at least {share}."
+    "share of the starts that end quiet is counted: with the machine moving at most {limit}, or, "
+    "in a motion that never repeats, {chaotic} while it is watched, because later peaks are "
+    "larger. A share is known only within an interval, which is given in brackets: a gap counts as "
+    "quiet if, at every frequency of the band, the lower end of this 95 % interval is at least "
+    "{share}."
 )
 TIME = (
     "A share depends on how long one waits. Gaps were compared after at most {hurried} forcing "
@@ -37,7 +39,7 @@ def section(data) -> Section:
     """Return the section for the dataset of `stages.machines.design_damper`."""
     asked = parameters_of(data)
     blocks = [
-        Words(MEANING.format(share=percent(asked["share"]))),
+        Words(_meaning(data, asked)),
         Numbers([*_shares(data, asked), *_edges(data)]),
         Words(_time(data, asked)),
     ]
@@ -51,6 +53,16 @@ def section(data) -> Section:
         Picture("dampers", operating.DAMPERS),
     ]
     return Section("How sure that is", [*blocks, *pictures])
+
+
+def _meaning(data, asked):
+    """Return what a share of quiet starts is."""
+    limit = float(data["displacement_limit"])
+    return MEANING.format(
+        share=percent(asked["share"]),
+        limit=shown(limit, "mm"),
+        chaotic=shown(limit / asked["later_displacement"], "mm"),
+    )
 
 
 def _time(data, asked):

@@ -101,6 +101,17 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
     return FreeSolutions(free.amplitude[kept], free.phase[kept])
 
 
+def balance_amplitudes(oscillator, frequency):
+    """Return the amplitudes of `main_solutions`, ascending.
+
+    For a softening spring without a resonance peak only the smallest amplitude is returned.
+    """
+    try:
+        return main_solutions(oscillator, frequency).amplitude
+    except ValueError:
+        return free_solutions(oscillator, frequency).amplitude[:1]
+
+
 def resonance(oscillator, frequency) -> Resonance:
     """Free resonance branch: the part of the response curve that begins at the peak.
 
