@@ -148,6 +148,15 @@ def _stability_end(found, step):
     return branch.values[k], "range_ends" if end == "range_ends" else "branch_ends"
 
 
+def dependence_dataset(dependence) -> xr.Dataset:
+    """Return a `refine.Dependence` as a dataset."""
+    values = {
+        "displacement_change": dependence.displacement,
+        "modulus_change": dependence.modulus,
+    }
+    return labelled(values, changed=dependence.names)
+
+
 def deviations_dataset(samples, unseen, promise, limit) -> xr.Dataset:
     """Return samples of the tolerances and unseen starts, two clouds, and the promise.
 

@@ -12,10 +12,18 @@ from scipy.optimize import brentq, root_scalar
 
 from impact_damper.orbits.quiet_orbits import find_quiet_orbit
 from impact_damper.orbits.sensitivity import Sensitivity, sensitivity
-from impact_damper.system.packed import CLEARANCE
+from impact_damper.system.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    DESIGN,
+    INVERSE_MASS_RATIO,
+    SIMPLE,
+)
 
 # Accuracy of logarithms of gaps.
 ACCURACY = 1e-10
+# Words for parameters of `packed.DESIGN` that have other ones for a machine.
+SAID = {"cubic": "cubic_stiffness", "clearance": "gap", "mass_ratio": "mass"}
 
 
 class BestOrbit(NamedTuple):
@@ -156,3 +164,45 @@ class _Column:
             return self.edge_between(self.x[row - 1], self.x[row])
         except ArithmeticError:
             return np.nan
+
+
+class Dependence(NamedTuple):
+    """Changes of an orbit in per cent, if a parameter of machine or damper grows by 1 per cent.
+
+    Attributes
+    ----------
+    names : list of str
+        The parameters; the mass is that of the damper.
+    displacement, modulus : numpy.ndarray, shape (n,)
+        Changes of the largest displacement and of the modulus of the largest multiplier; NaN
+        without an orbit or where it has no derivative.
+    """
+
+    names: list
+    displacement: np.ndarray
+    modulus: np.ndarray
+
+
+def dependence(task, orbit) -> Dependence:
+    """Return the exact relative derivatives of an orbit of the damper of a task, or of None."""
+    names = [SAID.get(name, name) for name in DESIGN]
+    missing = np.full(len(names), np.nan)
+    if orbit is None:
+        return Dependence(names, missing, missing)
+    p, found = orbit.p, sensitivity(orbit)
+    values = {name: p[place] for name, place in SIMPLE.items()} | {
+        "restitution": task.restitution,
+        "contact_stiffness": p[CONTACT_STIFFNESS],
+        "mass_ratio": 1 / p[INVERSE_MASS_RATIO],
+    }
+
+    def relative(slopes, size, smooth):
+        by_design = found.by_design(slopes)
+        changes = np.array([by_design[name] * values[name] for name in DESIGN]) / size
+        return changes if smooth else missing
+
+    return Dependence(
+        names,
+        relative(found.displacement_slopes, found.maximum_displacement, found.displacement_smooth),
+        relative(found.modulus_slopes, found.modulus, found.modulus_smooth),
+    )

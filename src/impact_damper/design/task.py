@@ -23,11 +23,7 @@ from impact_damper.system.bounds import (
 from impact_damper.system.checks import check_starts
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
-from impact_damper.theory.free_oscillator import (
-    balance_amplitudes,
-    free_folds,
-    maximum_response,
-)
+from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
 # Quantities of a machine and its damper that may deviate from their nominal values.
 VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
@@ -39,7 +35,7 @@ LEAST_GAP = 0.3
 # a free vibration decays by the factor e if that is longer.
 PATIENT, LEAST_PATIENCE = 5, 100
 # They stop motions that have not settled after LONG times this time, LEAST_LIMIT periods at least.
-LONG, LEAST_LIMIT = 3, 500
+LONG, LEAST_LIMIT = 6, 600
 # Forcing periods over which motions that have not settled are measured. Over 50 periods the peaks
 # of chaos spread by a factor of two, and shares would depend on this chance.
 WATCHED = 100
@@ -82,7 +78,7 @@ class Task:
         Share of starts that must end quiet, claimed at 95 % confidence.
     seed : int
     settling : Settling
-        If it is not given, motions that have not settled are watched for WATCHED forcing periods.
+        Motions that have not settled are watched for WATCHED forcing periods at least.
 
     Raises
     ------
@@ -120,8 +116,9 @@ class Task:
         bounds = self.scales.range_to_si(STIFFNESS_RANGE, "stiffness")
         stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
         settle(self, "contact_stiffness", stiffness)
-        settling = Settling(watched=WATCHED) if self.settling is None else self.settling
-        settle(self, "settling", check_settling(settling))
+        settling = check_settling(self.settling)
+        settling = replace(settling, watched=max(settling.watched, WATCHED))
+        settle(self, "settling", settling)
         self._check_excitation()
         settle(self, "band", self._checked_band())
         settle(self, "tolerances", self._checked_tolerances())

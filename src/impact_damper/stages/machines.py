@@ -18,6 +18,7 @@ from impact_damper.design import choose, cliff, deviations, labelled, operating
 from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.masses import alternatives, judge
 from impact_damper.design.motions import reached_motions
+from impact_damper.design.refine import dependence
 from impact_damper.design.screen import screen
 from impact_damper.design.task import TOLERANCES, Task
 from impact_damper.design.words import conclusion
@@ -223,6 +224,7 @@ class _Design(NamedTuple):
         )
         found = labelled.branch_dataset(self.task, over_gap, "gap")
         found = found.merge(labelled.branch_dataset(self.task, over_force, "force"))
+        found = found.merge(labelled.dependence_dataset(dependence(self.task, orbit)))
         return found.assign(branch_frequency=shown_variable("branch_frequency", frequency))
 
     def response(self, gap):

@@ -148,6 +148,13 @@ VARIABLES = {
     ),
     "stability_gap_event": Variable(("side",), "why it ceases to be stable there", flags=ENDS),
     "stability_force_event": Variable(("side",), "why it ceases to be stable there", flags=ENDS),
+    "changed": Variable(("changed",), "parameter that grows by 1 per cent"),
+    "displacement_change": Variable(
+        ("changed",), "change of the largest displacement of the quiet orbit, per cent"
+    ),
+    "modulus_change": Variable(
+        ("changed",), "change of the modulus of its largest multiplier, per cent"
+    ),
     # deviations
     "varied": Variable(("varied",), "quantity that deviates"),
     "sample_factor": Variable(("sample", "varied"), "value divided by the nominal one"),
