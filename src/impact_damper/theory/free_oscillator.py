@@ -237,14 +237,3 @@ def _by_unbalance(oscillator):
         - 2 * force * unbalance**2 * slope * bend
         + unbalance**3 * bend**2
     )
-
-
-def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of free motions by harmonic balance, ascending.
-
-    For a softening spring without a resonance peak only the smallest amplitude is returned.
-    """
-    try:
-        return main_solutions(oscillator, frequency).amplitude
-    except ValueError:
-        return free_solutions(oscillator, frequency).amplitude[:1]
