@@ -29,7 +29,7 @@ rule compile_kernels:
 def compile_again():
     """Before the first job: compile kernels that were edited since the marker file was written."""
     marker, now = Path(config["results"]) / "kernels.compiled", compiled_kernels(config)
-    if not marker.exists() or marker.read_text() == now:
+    if not marker.exists() or marker.read_bytes() == now.encode():
         return
     logger.info("Compiling the kernels again: they were edited")
     program = [sys.executable, "-m", "impact_damper.workflow.compile_kernels"]
