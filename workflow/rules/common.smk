@@ -3,6 +3,8 @@
 import gc
 import json
 import os
+import subprocess
+import sys
 from functools import cache, partial
 from pathlib import Path
 
@@ -17,7 +19,7 @@ from impact_damper.workflow.configuration import (
 )
 from impact_damper.workflow.registry import CHAPTERS, PAPER, STAGES
 from impact_damper.workflow.registry.clearance import study_chunk
-from impact_damper.workflow.sources import PACKAGE, module_file, sources
+from impact_damper.workflow.sources import PACKAGE, compiled_kernels, module_file, sources
 
 # Planning makes many small objects and keeps them all. Collecting garbage less often saves a
 # fifteenth of the time of a dry run.
@@ -199,3 +201,16 @@ def in_report(chapter, folder, name, kind):
         category=CHAPTERS[chapter].TITLE,
         labels={"kind": folder.removesuffix("s"), "name": name},
     )
+
+
+def compile_again():
+    """Before the first job: compile kernels that were edited since the marker file was written."""
+    marker, now = Path(config["results"]) / "kernels.compiled", compiled_kernels(config)
+    if not marker.exists() or marker.read_bytes() == now.encode():
+        return
+    logger.info("Compiling the kernels again: they were edited")
+    program = [sys.executable, "-m", "impact_damper.workflow.compile_kernels"]
+    arguments = json.dumps([workflow.cores or 1, config["comparison"]["orders"]])
+    if subprocess.run([*program, arguments]).returncode:
+        raise WorkflowError("The kernels cannot be compiled: see the error above.")
+    marker.write_text(now)

@@ -1,9 +1,3 @@
-import subprocess
-import sys
-
-from impact_damper.workflow.sources import compiled_kernels
-
-
 # The marker file states which kernels were compiled. This rule has neither inputs nor parameters:
 # if an edit of them started it, Snakemake would not examine the jobs that take the marker for
 # changes of their own (its issue 4166). So `compile_again` follows edits.
@@ -24,16 +18,3 @@ rule compile_kernels:
         "Compiling the kernels, once for all jobs"
     script:
         "../scripts/compile_kernels.py"
-
-
-def compile_again():
-    """Before the first job: compile kernels that were edited since the marker file was written."""
-    marker, now = Path(config["results"]) / "kernels.compiled", compiled_kernels(config)
-    if not marker.exists() or marker.read_bytes() == now.encode():
-        return
-    logger.info("Compiling the kernels again: they were edited")
-    program = [sys.executable, "-m", "impact_damper.workflow.compile_kernels"]
-    arguments = json.dumps([workflow.cores or 1, config["comparison"]["orders"]])
-    if subprocess.run([*program, arguments]).returncode:
-        raise WorkflowError("The kernels cannot be compiled: see the error above.")
-    marker.write_text(now)
