@@ -27,7 +27,8 @@ from impact_damper.motions import records, strobe_map
 from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
-from impact_damper.system.packed import FORCE, FREQUENCY, UNBALANCE, pack
+from impact_damper.system.families import FORCING
+from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds
 from impact_damper.theory.single_harmonic import impacting_solutions
 
@@ -248,7 +249,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
     ramps = [
         _ramp(target, [FREQUENCY], lowest / frequency, tolerance),
         _ramp(target, [FREQUENCY], highest / frequency, tolerance),
-        _ramp(target, [FORCE, UNBALANCE], RAISED, tolerance),
+        _ramp(target, list(FORCING.values()), RAISED, tolerance),
     ]
     return [state for state in ramps if np.isfinite(state).all()]
 

@@ -17,6 +17,7 @@ a machine. (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.kernel.equation import energy, forcing_amplitude, spring
 from impact_damper.kernel.single import side_of
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.hertz import HertzContact
@@ -29,14 +30,9 @@ from impact_damper.system.bounds import check_count, check_number, shown
 from impact_damper.system.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
-    CUBIC,
     DAMPING,
     DASHPOT,
-    FORCE,
     FREQUENCY,
-    INVERSE_MASS_RATIO,
-    STIFFNESS,
-    UNBALANCE,
     pack,
 )
 from impact_damper.system.parameters import check_damper, describe
@@ -211,12 +207,13 @@ def _extremes_and_powers(p, panels, time):
     depth, rate = _penetration(p, panels)
     contact = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     x, v = panels.states[..., 0], panels.states[..., 1]
-    amplitude = p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2
-    external = amplitude * np.cos(p[FREQUENCY] * panels.times)
-    acceleration = external - p[DAMPING] * v - (p[STIFFNESS] + p[CUBIC] * x**2) * x
+    # kernels as plain Python functions, which take arrays
+    external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
+    acceleration = external - p[DAMPING] * v - spring.py_func(p, x)
     powers = external * v, p[DAMPING] * v**2, p[DASHPOT] * rate**2
     work, damped, lost = (np.sum(integrals(panels, each)) / time for each in powers)
-    stored = (energy(p, panels.states[-1, -1]) - energy(p, panels.states[0, 0])) / time
+    first, last = (energy.py_func(p, panels.states[place, place]) for place in (0, -1))
+    stored = (last - first) / time
     return {
         "contact_force": largest(contact),
         "penetration": largest(depth),
@@ -227,13 +224,3 @@ def _extremes_and_powers(p, panels, time):
         "stored_power": stored,
         "power_error": (work - damped - lost - stored) / (damped + lost),
     }
-
-
-def energy(p, y):
-    """Return the energy of a state, of both masses and all springs, over the primary mass."""
-    depth = max(abs(y[2]) - p[CLEARANCE], 0.0)
-    spring = (p[STIFFNESS] / 2 + p[CUBIC] / 4 * y[0] ** 2) * y[0] ** 2
-    found = y[1] ** 2 / 2 + spring + p[CONTACT_STIFFNESS] * depth**2 / 2
-    if p[INVERSE_MASS_RATIO] > 0:
-        found += (y[1] - y[3]) ** 2 / (2 * p[INVERSE_MASS_RATIO])
-    return found

@@ -10,15 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from impact_damper.kernel.equation import spring_slope
 from impact_damper.motions.records import trace
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
-from impact_damper.system.packed import (
-    CONTACT_STIFFNESS,
-    CUBIC,
-    FREQUENCY,
-    INVERSE_MASS_RATIO,
-    STIFFNESS,
-)
+from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
 # Nodes of a panel on [-1, 1]; matrix from values at the nodes to coefficients of Chebyshev
 # polynomials; weights of an integral (Clenshaw and Curtis), the integrals of the even polynomials
@@ -84,7 +79,9 @@ def sampled(p, state, begin, end) -> Panels:
     walls = np.zeros(len(edges) - 1)
     walls[1::2] = log[:, 0]
     farthest = np.nanmax(np.abs(states[:, 0]))
-    fastest = np.sqrt(p[STIFFNESS] + 3 * abs(p[CUBIC]) * farthest**2) + p[FREQUENCY]
+    # the slope is steepest at one of the two ends, for a hardening and for a softening spring
+    steepest = np.max(np.abs(spring_slope.py_func(p, np.array([0.0, farthest]))))
+    fastest = np.sqrt(steepest) + p[FREQUENCY]
     contact = np.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
     rates = np.where(walls, fastest + contact, fastest)
     counts = np.ceil(np.diff(edges) * rates / LONGEST_ANGLE).astype(int)

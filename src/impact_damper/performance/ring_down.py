@@ -6,14 +6,15 @@ import numpy as np
 from scipy.special import ellipk
 
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.kernel.equation import energy
 from impact_damper.machine.machine import check_fit
 from impact_damper.machine.results import in_si
 from impact_damper.machine.units import check_si
 from impact_damper.motions.envelopes import envelope
-from impact_damper.performance.costs import energy
 from impact_damper.performance.swept_sine import EQUIPMENT, TOLERANCE
 from impact_damper.system.bounds import FARTHEST
-from impact_damper.system.packed import CUBIC, FORCE, STIFFNESS, UNBALANCE, pack
+from impact_damper.system.families import FORCING
+from impact_damper.system.packed import CUBIC, STIFFNESS, pack
 
 # A ring-down ends once the energy is that at the share REST of the first displacement, and at the
 # latest after MOST_WINDOWS free periods.
@@ -73,7 +74,7 @@ def _unforced(machine, damper):
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
     p = pack(machine.oscillator(scales.to_si(1.0, "frequency")), scaled, 1.0)
-    p[FORCE] = p[UNBALANCE] = 0.0
+    p[list(FORCING.values())] = 0.0
     return p
 
 
@@ -88,10 +89,10 @@ def _decay(p, displacement):
         Status.
     """
     y = np.array([displacement, 0.0, 0.0, 0.0])
-    rest = energy(p, REST * y)
+    rest = energy.py_func(p, REST * y)
     rows, begin = [], 0.0
     while len(rows) < MOST_WINDOWS:
-        left = energy(p, y)
+        left = energy.py_func(p, y)
         if left <= rest:
             return np.array(rows), "at_rest"
         length = _window(p, left)

@@ -97,7 +97,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     }
     data |= hill_table(solutions, exact)
     data |= exact_table(exact, 2 if damper is None else 4)
-    data["series_error"] = errors(data, solutions, exact, p)
+    data["series_error"] = errors(data, solutions, exact)
     data |= decay_table(harmonics, data, damper, p, exact)
     made = describe(oscillator, damper) | {"frequency": float(frequency)}
     return dataset(
@@ -164,7 +164,7 @@ def exact_table(exact, number):
     }
 
 
-def errors(data, solutions, exact, p):
+def errors(data, solutions, exact):
     """Return errors relative to the exact orbit, shape (4, n): a row per `convergence.MEASURES`."""
     found = np.full((4, len(solutions)), np.nan)
     if data["exact_status"] == flag("exact_status", "not_found"):

@@ -1,0 +1,19 @@
+"""The documents name every stage, and only files that exist."""
+
+import re
+
+from helpers.running import ROOT
+
+from impact_damper.workflow.registry import STAGES
+
+
+def test_the_table_of_the_readme_has_every_stage():
+    table = "".join(re.findall(r"^\| (.*?) \|", (ROOT / "README.md").read_text(), re.M))
+    assert STAGES.keys() <= set(re.findall("`(.*?)`", table))
+
+
+def test_the_walk_throughs_name_files_that_exist():
+    text = (ROOT / "CONTRIBUTING.md").read_text()
+    named = re.findall(r"`((?:src|tests|workflow|config)/[\w/]+\.\w+)`", text)
+    assert len(named) > 30
+    assert [name for name in named if not (ROOT / name).exists()] == []
