@@ -4,20 +4,20 @@ import shutil
 from pathlib import Path
 
 from impact_damper.workflow.job import Job
-from impact_damper.machine.hertz import HertzContact, Material
+from impact_damper.machine.hertz import HertzContact
 from impact_damper.machine.machine import Machine
 from impact_damper.stages.machines import design_damper
 
 job = Job(snakemake)
 steps = Path(job.output).with_suffix("") / "steps"
-ball = job["contact"] and dict(job["contact"])
+ball = job["contact"]
 kept = ("band", "frequencies", "candidates", "starts", "share", "tolerances", "displacement_limit")
 job.save(
     design_damper(
         Machine(**job["machine"]),
         **job["damper"],
         **{key: job[key] for key in kept},
-        contact=HertzContact(ball.pop("radius"), Material(**ball)) if ball else None,
+        contact=HertzContact.of_ball(**ball) if ball else None,
         seed=job["seed"],
         settling=job.settling,
         folder=steps,

@@ -98,6 +98,11 @@ class HertzContact:
             if not isinstance(getattr(self, name), Material):
                 raise TypeError(f"{name} = {shown(getattr(self, name))}: must be a Material")
 
+    @classmethod
+    def of_ball(cls, radius, **material):
+        """Return the contact of a ball and walls of the same `Material`, given by its arguments."""
+        return cls(radius, Material(**material))
+
     @property
     def modulus(self) -> float:
         """E*, Pa."""

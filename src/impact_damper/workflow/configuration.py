@@ -39,14 +39,19 @@ def check_configuration(config) -> None:
     try:
         checked = Configuration.model_validate(config)
     except ValidationError as error:
-        details = error.errors(include_url=False)
-        # Paths mix names and positions in lists, which have no order among themselves.
-        lines = [_line(detail) for detail in sorted(details, key=lambda d: [*map(str, d["loc"])])]
+        lines = problems_of(error)
     else:
         lines = [x for path, part in parts(checked) for x in part.contradictions(path, checked)]
         lines = lines or list(workloads(checked))
     if lines:
         raise ConfigurationError("\n".join(dict.fromkeys(lines)))
+
+
+def problems_of(error) -> list:
+    """Return a line for each problem that pydantic found, in the order of the keys."""
+    details = error.errors(include_url=False)
+    # Paths mix names and positions in lists, which have no order among themselves.
+    return [_line(detail) for detail in sorted(details, key=lambda d: [*map(str, d["loc"])])]
 
 
 def without_left_out(config) -> dict:

@@ -1,0 +1,216 @@
+"""The command `impact-damper`: design a damper for the machine of a YAML file, simulate, report."""
+
+import json
+import sys
+import warnings
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    help="Impact dampers for machines in SI units.",
+    epilog="A machine's file has the keys of an entry of `machines` in config/reference.md.",
+)
+MachineFile = Annotated[
+    Path, typer.Argument(exists=True, dir_okay=False, help="YAML file of machine, damper and band.")
+]
+Gap = Annotated[str, typer.Option(help='Full play of the loose mass, such as "3 mm".')]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+Workers = Annotated[int, typer.Option(min=1, help="Threads; the result does not depend on it.")]
+
+
+@app.command()
+def design(
+    machine_file: MachineFile,
+    output: Annotated[Path, typer.Option(help="Folder for data, page and kept steps.")] = "design",
+    workers: Workers = 2,
+    as_json: AsJson = False,
+):
+    """Find the gap to build, and how sure that is. Takes minutes; goes on where it was stopped."""
+    from impact_damper.data.datasets import save
+    from impact_damper.machine.hertz import HertzContact
+    from impact_damper.stages.machines import design_damper
+
+    given = read(machine_file)
+    band, ball = given["band"], given.get("contact")
+    found = design_damper(
+        machine(given),
+        **given["damper"],
+        band=(band["first"], band["last"]),
+        frequencies=band["points"],
+        **{key: given[key] for key in ("candidates", "starts", "share", "tolerances")},
+        displacement_limit=given.get("displacement_limit"),
+        contact=HertzContact.of_ball(**ball) if ball else None,
+        workers=workers,
+        progress=not as_json,
+        folder=output / "steps",
+    )
+    output.mkdir(parents=True, exist_ok=True)
+    save(found, output / "design.nc")
+    page = write_report(found, machine_file.stem, output)
+    words = json.loads(found.attrs["conclusion"])
+    numbers = {"design_gap_mm": float(found["design_gap"]), "conclusion": words}
+    tell(as_json, [*words, f"The page: {page}"], numbers | {"page": str(page)})
+
+
+@app.command()
+def simulate(
+    machine_file: MachineFile,
+    frequency: Annotated[str, typer.Option(help='Forcing frequency, such as "24 Hz".')],
+    gap: Gap = None,
+    state: Annotated[
+        str, typer.Option(help="x, x', z, z' at the start; z: machine relative to the loose mass.")
+    ] = "0, 0, 0, 0",
+    periods: Annotated[float, typer.Option(help="Length in forcing periods.")] = 200,
+    output: Annotated[Path, typer.Option(help="NetCDF file of the motion.")] = None,
+    as_json: AsJson = False,
+):
+    """Integrate one motion, without the damper if no gap is given."""
+    import numpy as np
+
+    import impact_damper as idm
+
+    given = read(machine_file)
+    motion = idm.simulate(
+        machine(given),
+        damper(given, gap),
+        quantity(frequency),
+        tuple(map(quantity, state.split(","))),
+        periods=periods,
+    )
+    last = motion["displacement"].values[-len(motion["time"]) // 10 :]
+    largest = float(np.abs(last).max())
+    contacts = motion.sizes["contact"]
+    words = [
+        f"Largest displacement in the last tenth of {periods:g} periods: {largest:.4g} mm.",
+        f"Contacts: {contacts}.",
+    ]
+    numbers = {"largest_displacement_mm": largest, "contacts": contacts}
+    tell(as_json, words + kept(motion, output), numbers)
+
+
+@app.command()
+def response(
+    machine_file: MachineFile,
+    gap: Gap = None,
+    starts: Annotated[int, typer.Option(min=1, help="Random starts at each frequency.")] = 96,
+    output: Annotated[Path, typer.Option(help="NetCDF file of the response.")] = None,
+    workers: Workers = 2,
+    as_json: AsJson = False,
+):
+    """Find all motions over the band, without the damper if no gap is given."""
+    import numpy as np
+
+    import impact_damper as idm
+    from impact_damper.data.datasets import is_settled
+    from impact_damper.machine.units import si_value
+
+    given = read(machine_file)
+    band = given["band"]
+    ends = (si_value("band", band[end], "frequency") for end in ("first", "last"))
+    found = idm.frequency_response(
+        machine(given),
+        damper(given, gap),
+        np.linspace(*ends, band["points"]),
+        starts=starts,
+        workers=workers,
+        progress=None if as_json else "response",
+    )
+    rows = []
+    for i, hertz in enumerate(found["frequency"].values):
+        each = found.isel(frequency=i)
+        exists = each["outcome"] >= 0
+        sizes = each["maximum_displacement"].values[exists]
+        settled = is_settled(each)[exists]
+        rows.append(
+            {
+                "frequency_hz": float(hertz),
+                "settled_mm": sorted(float(x) for x in sizes[settled]),
+                "other_mm": sorted(float(x) for x in sizes[~settled]),
+            }
+        )
+    words = ["Hz        largest displacement of each motion, mm; in brackets without a period"]
+    for row in rows:
+        sizes = [f"{x:.4g}" for x in row["settled_mm"]] + [f"({x:.4g})" for x in row["other_mm"]]
+        words.append(f"{row['frequency_hz']:<9.4g} {'  '.join(sizes)}")
+    tell(as_json, words + kept(found, output), {"response": rows})
+
+
+@app.command()
+def report(
+    data: Annotated[Path, typer.Argument(exists=True, help="design.nc of `impact-damper design`.")],
+    output: Annotated[Path, typer.Option(help="Folder for the page.")] = None,
+):
+    """Write the page of a finished design again."""
+    from impact_damper.data.datasets import load
+
+    folder = output or data.parent
+    print(f"The page: {write_report(load(data), data.stem, folder)}")
+
+
+def read(path):
+    """Return the content of a machine's file."""
+    from impact_damper.workflow.machine_file import read_machine_file
+
+    return read_machine_file(path)
+
+
+def machine(given):
+    """Return the machine of a file's content."""
+    from impact_damper.machine.machine import Machine
+
+    return Machine(**given["machine"])
+
+
+def damper(given, gap):
+    """Return the damper with a gap, or None without a gap."""
+    if gap is None:
+        return None
+    return machine(given).damper(**given["damper"], gap=quantity(gap))
+
+
+def quantity(text):
+    """Return a plain number, which is in SI units, or the text with its unit."""
+    try:
+        return float(text)
+    except ValueError:
+        return text.strip()
+
+
+def write_report(data, name, folder):
+    """Write the page of a design into a folder, and return the path of the page."""
+    from impact_damper.pages.machine import FIGURES, machine_page
+    from impact_damper.pages.render import write_page
+
+    write_page(machine_page(name, data), FIGURES, data, folder)
+    return folder / "index.html"
+
+
+def kept(data, output):
+    """Save a dataset if a file is named, and return the line that says so."""
+    if output is None:
+        return []
+    from impact_damper.data.datasets import save
+
+    save(data, output)
+    return [f"The data: {output}"]
+
+
+def tell(as_json, words, numbers):
+    """Print lines for people, or one JSON object."""
+    print(json.dumps(numbers) if as_json else "\n".join(words))
+
+
+def run():
+    """Run the command; a wrong argument ends it with its message and without a trace."""
+    warnings.showwarning = lambda message, *rest: print(f"Warning: {message}", file=sys.stderr)
+    try:
+        app()
+    except (TypeError, ValueError, FileNotFoundError) as error:
+        sys.exit(f"Error: {error}")
+    except KeyboardInterrupt:
+        sys.exit("Interrupted. Finished steps of a design are kept; the same command goes on.")

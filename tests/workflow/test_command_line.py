@@ -1,0 +1,80 @@
+"""The command `impact-damper`: its answers hold against the library, wrong files are refused."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import impact_damper as idm
+from impact_damper.data.datasets import load
+from impact_damper.workflow import command_line
+from impact_damper.workflow.configuration import ConfigurationError
+from impact_damper.workflow.machine_file import read_machine_file
+
+FILE = """
+machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 5 %, force: 40 N}
+damper: {mass: 0.6 kg, restitution: 0.7, contact_stiffness: 2e6 N/m}
+band: [20 Hz, 21 Hz]
+"""
+
+
+@pytest.fixture
+def machine_file(tmp_path):
+    """A machine's file with the least keys."""
+    path = tmp_path / "machine.yaml"
+    path.write_text(FILE)
+    return path
+
+
+def run(*arguments):
+    """Run the command, and return what it printed."""
+    result = CliRunner().invoke(command_line.app, [str(each) for each in arguments])
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def test_motion_without_a_damper_has_the_linear_amplitude(machine_file):
+    """F/sqrt((k - m w^2)^2 + (c w)^2), once the start has decayed."""
+    told = run("simulate", machine_file, "--frequency", "24 Hz", "--periods", 300, "--json")
+    w, k, m = 2 * np.pi * 24, 2e5, 12
+    exact = 40 / np.hypot(k - m * w**2, 2 * 0.05 * np.sqrt(k * m) * w)
+    assert json.loads(told)["largest_displacement_mm"] == pytest.approx(1e3 * exact, rel=1e-3)
+
+
+def test_motion_is_kept_in_a_file(machine_file, tmp_path):
+    """The file holds the dataset that `simulate` of the library returns."""
+    kept = tmp_path / "motion.nc"
+    run("simulate", machine_file, "--frequency", 20.5, "--gap", "2 mm", "--periods", 20,
+        "--state", "1 mm, 0, 0, 0.1 m/s", "--output", kept)  # fmt: skip
+    machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.05, force=40)
+    damper = machine.damper(mass=0.6, gap=2e-3, restitution=0.7, contact_stiffness=2e6)
+    motion = idm.simulate(machine, damper, 20.5, (1e-3, 0, 0, 0.1), periods=20)
+    np.testing.assert_array_equal(load(kept)["displacement"], motion["displacement"])
+
+
+def test_response_of_the_bare_machine(machine_file):
+    """One motion at each frequency, of the amplitude of the linear machine."""
+    told = json.loads(run("response", machine_file, "--starts", 2, "--json"))["response"]
+    for row in told:
+        w = 2 * np.pi * row["frequency_hz"]
+        exact = 40 / np.hypot(2e5 - 12 * w**2, 2 * 0.05 * np.sqrt(2e5 * 12) * w)
+        assert row["settled_mm"] == pytest.approx([1e3 * exact], rel=1e-4)
+
+
+def test_wrong_value_names_key_and_range(machine_file):
+    """All problems at once, and the nearest key."""
+    machine_file.write_text(FILE.replace("0.7", "7").replace("force", "froce"))
+    with pytest.raises(ConfigurationError) as raised:
+        read_machine_file(machine_file)
+    assert "damper.restitution = 7" in str(raised.value)
+    assert "did you mean force?" in str(raised.value)
+
+
+def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
+    """No trace of Python; the message of the library, in SI units."""
+    arguments = ["impact-damper", "simulate", str(machine_file), "--frequency", "24 kg"]
+    monkeypatch.setattr(sys, "argv", arguments)
+    with pytest.raises(SystemExit, match="Error: frequency = '24 kg'"):
+        command_line.run()
