@@ -72,10 +72,11 @@ def simulate(
     """Integrate one motion, without the damper if no gap is given."""
     import numpy as np
 
-    import impact_damper as idm
+    from impact_damper.machine.arguments import takes_machine
+    from impact_damper.motions import simulate as motions
 
     given = read(machine_file)
-    motion = idm.simulate(
+    motion = takes_machine(motions.simulate)(
         machine(given),
         damper(given, gap),
         quantity(frequency),
@@ -105,14 +106,15 @@ def response(
     """Find all motions over the band, without the damper if no gap is given."""
     import numpy as np
 
-    import impact_damper as idm
     from impact_damper.data.datasets import is_settled
+    from impact_damper.machine.arguments import takes_machine
     from impact_damper.machine.units import si_value
+    from impact_damper.stages.response import frequency_response
 
     given = read(machine_file)
     band = given["band"]
     ends = (si_value("band", band[end], "frequency") for end in ("first", "last"))
-    found = idm.frequency_response(
+    found = takes_machine(frequency_response)(
         machine(given),
         damper(given, gap),
         np.linspace(*ends, band["points"]),
