@@ -44,8 +44,10 @@ LARGE = {
     "data/variables": "one file for each subject of the datasets; none imports another",
     "design": "one file for each step of a design, and what the steps share",
     "figures": "one file for each kind of figure; they share only drawing and style",
+    "kernel": "one file for each part of the kernel and of its compilation",
     "motions": "one file for each way to start or to run motions",
     "stages": "one file for each stage of the workflow; some stages have a second one",
+    "theory": "one file for each approximation, and the mathematics they share",
     "workflow/models": "one file for each subject of the configuration, and what they share",
 }
 

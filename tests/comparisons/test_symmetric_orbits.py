@@ -9,11 +9,8 @@ from impact_damper.comparisons.symmetric_orbits import (
     orbit_at_clearance,
     orbit_with_speed,
 )
-from impact_damper.literature.masri_caughey import (
-    Boundary,
-    stability_boundaries,
-    two_impact_motions,
-)
+from impact_damper.literature.masri_caughey import two_impact_motions
+from impact_damper.literature.masri_caughey_stability import Boundary, stability_boundaries
 from impact_damper.motions.simulate import simulate
 from impact_damper.system.parameters import Damper, Oscillator
 

@@ -12,7 +12,8 @@ from scipy.optimize import minimize_scalar
 from impact_damper.edges.curves import follow_edge
 from impact_damper.edges.maps import map_edges
 from impact_damper.edges.problem import FOLD, GRAZING, KINDS, SYMMETRY, TORUS, Problem
-from impact_damper.literature.masri_caughey import flight_with_speed, stability_boundaries
+from impact_damper.literature.masri_caughey import flight_with_speed
+from impact_damper.literature.masri_caughey_stability import stability_boundaries
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.quiet_orbits import straight_flight_end
 from impact_damper.orbits.shooting import find_orbit

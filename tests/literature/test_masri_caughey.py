@@ -6,7 +6,8 @@ from helpers.rigid_events import TIGHT, events_of, flight_rate
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from impact_damper.literature.masri_caughey import stability_boundaries, two_impact_motions
+from impact_damper.literature.masri_caughey import two_impact_motions
+from impact_damper.literature.masri_caughey_stability import stability_boundaries
 from impact_damper.system.parameters import Damper, Oscillator
 
 CASES = [

@@ -7,11 +7,8 @@ from helpers.rigid_events import events_of
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq, minimize_scalar
 
-from impact_damper.literature.masri_caughey import (
-    flight_with_speed,
-    stability_boundaries,
-    two_impact_motions,
-)
+from impact_damper.literature.masri_caughey import flight_with_speed, two_impact_motions
+from impact_damper.literature.masri_caughey_stability import stability_boundaries
 from impact_damper.literature.slow_invariant_manifold import VibroImpactAbsorber
 from impact_damper.system.parameters import Damper, Oscillator
 

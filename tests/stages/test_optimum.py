@@ -7,13 +7,8 @@ from scipy.optimize import brentq
 
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.motions.simulate import simulate
-from impact_damper.stages.optimum import (
-    NEAR_MINIMUM,
-    _Branch,
-    _near,
-    _optimum_table,
-    clearance_sweep,
-)
+from impact_damper.stages.branch_minimum import NEAR_MINIMUM, Branch, _near, minimum_table
+from impact_damper.stages.optimum import clearance_sweep
 from impact_damper.system import packed
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.theory.optimum_clearance import FIRST_HARMONIC_RATIO, straight_flight_ratio
@@ -173,7 +168,7 @@ def test_no_quiet_motion(tmp_path):
     assert load(tmp_path / "sweep.nc").identical(sweep)
 
 
-class Line(_Branch):
+class Line(Branch):
     """Branch that ends at d0 = 1.3 and whose displacement equals the clearance."""
 
     def displacement(self, clearance):
@@ -189,7 +184,7 @@ def test_optimum_at_the_end_of_the_branch():
     parameters = np.zeros((3, packed.COUNT))
     parameters[:, packed.CLEARANCE] = 1, 2, 3
     branch = Line(parameters, np.zeros((3, 4)), np.array([np.nan, 2.0, 3.0]))
-    table = _optimum_table(branch)
+    table = minimum_table(branch)
     assert table["optimum_kind"] == flag("optimum_kind", "jump")
     assert_allclose(table["optimum_clearance"], 1.3)
     assert_allclose(table["near_clearance"], [1.3, 1.43])

@@ -8,7 +8,8 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper
 from impact_damper.theory import hill
-from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
+from impact_damper.theory.harmonic_solutions import refine, single_term, solve, state_of
+from impact_damper.theory.many_harmonics import Balance
 
 CASES = {"free": (None, 1.9, 21), "elastic": (DESIGN, 2.0, 255), "inelastic": (INELASTIC, 2.0, 255)}
 

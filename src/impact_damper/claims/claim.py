@@ -101,7 +101,7 @@ class Claim:
         return DIFFERENT if failed else REPRODUCED
 
     def criterion(self) -> str:
-        """The requirements as text: those that decide, and those of full agreement."""
+        """The requirements as text, first the decisive ones."""
         parts = []
         for lead, decisive in (("Decided by", True), ("Full agreement", False)):
             required = [

@@ -1,7 +1,7 @@
 """The suppression band according to exact orbits and simulated chaotic motions.
 
-The band is the range of the forcing frequency W in which no motion with the damper is high: none
-has a max |Z1| above half that of the free resonance branch.
+A motion is high if its max |Z1| is above half the max |Z1| of the free resonance branch. The band
+is the range of the forcing frequency W in which no motion with the damper is high.
 """
 
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from impact_damper.claims import exact_orbits, extract
 
 
 class Band(NamedTuple):
-    """A suppression band according to the motions that exist.
+    """A suppression band according to exact and simulated motions.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Mask of the motions with damper that are larger than half of the free resonance branch.
+    """Mask of the high motions with the damper.
 
     `response` is a dataset of the stage `response`; `free` holds the branches without damper.
     """

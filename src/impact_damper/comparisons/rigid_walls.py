@@ -10,12 +10,13 @@ import numpy as np
 
 from impact_damper.comparisons.comparison import Comparison, observed_order
 from impact_damper.comparisons.symmetric_orbits import boundary_near, orbit_at_clearance
-from impact_damper.literature.masri_caughey import stability_boundaries, two_impact_motions
+from impact_damper.literature.masri_caughey import two_impact_motions
+from impact_damper.literature.masri_caughey_stability import stability_boundaries
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Exponent n of error ~ r1^n if walls are taken as rigid. With it our numbers are extrapolated to
-# rigid walls.
+# Exponent n of the error r1^n made by rigid walls. Our numbers are extrapolated to rigid walls with
+# this exponent.
 ORDER = -0.5
 # Events that end stability and are compared, and the words for them in `Comparison.quantity`.
 EVENTS = {
@@ -44,8 +45,8 @@ def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, sti
     Returns
     -------
     list of Comparison
-        For each combination those of the stable motion or, if none is stable, of the one with the
-        smallest multiplier. If the closed form has no motion there is nothing to compare.
+        For each combination the comparisons of the stable motion or, if no motion is stable, of the
+        motion with the smallest multiplier. None if the closed form has no motion.
 
     Raises
     ------

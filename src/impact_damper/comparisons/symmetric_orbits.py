@@ -119,7 +119,7 @@ def _checked(orbit, clearance):
 
 
 def boundary_near(oscillator, damper, frequency, boundary) -> SymmetricOrbit:
-    """Return the orbit at which stability ends, near a `masri_caughey.Boundary`.
+    """Return the orbit at which stability ends, near a `masri_caughey_stability.Boundary`.
 
     Raises
     ------

@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.comparisons.comparison import Comparison, observed_order
 from impact_damper.comparisons.symmetric_orbits import boundary_near, orbit_with_speed
-from impact_damper.literature.masri_caughey import stability_boundaries
+from impact_damper.literature.masri_caughey_stability import stability_boundaries
 from impact_damper.literature.slow_invariant_manifold import VibroImpactAbsorber
 from impact_damper.motions.simulate import simulate
 from impact_damper.system.checks import check_increasing

@@ -42,8 +42,9 @@ def compiled(function):
 def by_address(function):
     """Compile a kernel, and return the function by which other kernels call its address.
 
-    The cache keeps callers with the name of the kernel, which must be bound to an address before
-    they are loaded: call this when a module is imported that the modules of the callers import.
+    A cached caller refers to the kernel by name, and this name must be bound to an address before
+    the caller is loaded from the cache. Therefore call this function at the import of a module that
+    the modules of all callers import.
 
     Parameters
     ----------

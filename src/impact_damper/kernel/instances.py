@@ -9,7 +9,7 @@ from impact_damper.kernel.by_address import by_address
 from impact_damper.kernel.compiling import CACHE_DIRECTORY
 from impact_damper.kernel.evaluation import Source
 from impact_damper.kernel.series import SERIES, SINGLE
-from impact_damper.kernel.templates import contact, forcing, release, step
+from impact_damper.kernel.templates import contact, forcing, release, root_search, step
 
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
@@ -66,6 +66,5 @@ def _source(writer):
     }
     constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
-    return "\n\n".join(
-        [lines, writer.text(), *map(inspect.getsource, (forcing, contact, release, step))]
-    )
+    templates = forcing, root_search, contact, release, step
+    return "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])

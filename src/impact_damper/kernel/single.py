@@ -63,7 +63,7 @@ def polynomial(c, order, t):
 def write_trajectory(p, y, side, tolerance, a):
     """Write parameters and state of a trajectory into the rows of a workspace.
 
-    These rows do not depend on the orders of the series, so this serves an instance of any orders.
+    These rows are the same for all orders of the series.
     """
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
@@ -136,7 +136,7 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     length : float
         Time by which the state has advanced. It is `longest` once the motion has escaped
         (`equation.no_return`), since steps on the way to infinity would become ever shorter. The
-        state is then that at the escape, after the time `work[LENGTH]`.
+        returned state is then the state at the escape, after the time `work[LENGTH]`.
     side : int
         Wall in contact after the step.
     """
@@ -162,7 +162,7 @@ def side_of(p, y):
 
 @kernel
 def advance(p, y, tangents, side, t, end, tolerance, work):
-    """Integrate from t to end. Returns the side after it, contacts begun and time in contact.
+    """Integrate from t to end; return the side then, contacts begun and time in contact.
 
     A motion that escapes (`equation.no_return`) is left in its state at the escape.
     """

@@ -2,26 +2,24 @@
 
 All values are floats, or pairs of floats, so the LLVM code can be written at once. numba's type
 inference takes a millisecond an operation, and the series of a step have thousands of them.
+`lane_values` has the LLVM code of each operation.
 """
 
 import ast
 import inspect
 import textwrap
 from contextlib import nullcontext
-from functools import partial
 
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from impact_damper.kernel.compiling import CONTRACT
+from impact_damper.kernel.lane_values import Arithmetic
 
 # Lanes in a vector: one register of 512 bits, or several where registers are narrower.
 WIDTH = 8
-FLOAT = ir.DoubleType()
-PAIR = ir.VectorType(FLOAT, 2)
-INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
+OFFSET = ir.IntType(64)
 OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
 
 
@@ -40,8 +38,8 @@ def straight(function):
 
         - The left side is a name, `a[1 + i]`, or, with one lane, `a[1]`.
         - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
-          `(1.0, 2.0)[i]` (a constant a lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`, which
-          is `x if x > y else y`.
+          `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
+          which is `x if x > y else y`.
         - `(x, y)` is a pair. Operators act on both of its values; a float beside a pair counts
           for both. A name can keep a pair, and `x, y = ...` takes it apart. With one lane, a pair
           is one register.
@@ -49,8 +47,8 @@ def straight(function):
     Returns
     -------
     intrinsic
-        To be called in a kernel, which raises NotStraightError when compiled if the function has
-        other lines. The attribute `py_func` is the function.
+        Callable in kernels. If the function has other lines, compiling such a kernel raises
+        NotStraightError. The attribute `py_func` is the function itself.
     """
 
     def generate(context, builder, signature, arguments):
@@ -86,9 +84,9 @@ def write(function, builder, pointers):
     lines.arrays = dict(zip([each.arg for each in tree.args.args], pointers, strict=True))
     lines.counter = loop.target.id
     lines.lanes, lines.width = lanes, min(lanes, WIDTH)
-    lines.type = FLOAT if lanes == 1 else ir.VectorType(FLOAT, lines.width)
+    lines.arithmetic = Arithmetic(builder, lines.width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
-    # LLVM would move stores behind the end of a loop of one round.
+    # In a loop of one round LLVM would move stores behind its end, so there is none then.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         for statement in loop.body:
@@ -101,20 +99,8 @@ def is_product(node):
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)
 
 
-def broadcast(builder, number, count):
-    """Return a vector that holds a number `count` times."""
-    vector = ir.Constant(ir.VectorType(FLOAT, count), ir.Undefined)
-    vector = builder.insert_element(vector, number, ir.Constant(INDEX, 0))
-    zeros = ir.Constant(ir.VectorType(INDEX, count), [0] * count)
-    return builder.shuffle_vector(vector, vector, zeros)
-
-
 class _Lines(ast.NodeVisitor):
-    """Writes the code of assignments for `width` lanes, from lane `first` on.
-
-    With one lane a value is a double, and a pair a vector of two. With more lanes a value is a
-    vector, and a pair a tuple of two vectors.
-    """
+    """Writes the code of assignments for `width` lanes, from lane `first` on."""
 
     def __init__(self, file, builder):
         self.file, self.builder = file, builder
@@ -165,9 +151,9 @@ class _Lines(ast.NodeVisitor):
     def store(self, target, value):
         match target:
             case ast.Tuple(elts=[first, second]):
-                self.require(self.is_pair(value), target, "the value is no pair")
+                self.require(self.arithmetic.is_pair(value), target, "the value is no pair")
                 for number, each in enumerate((first, second)):
-                    self.store(each, self.part(value, number))
+                    self.store(each, self.arithmetic.part(value, number))
             case ast.Name(name):
                 known = name in self.arrays or name == self.counter
                 self.require(not known, target, "an argument or the counter is assigned to")
@@ -177,7 +163,7 @@ class _Lines(ast.NodeVisitor):
                 pointer, array, offset, own = self.element(target)
                 self.require(own or self.lanes == 1, target, "all lanes would write one number")
                 self.stored.add((array, offset))
-                pointer = self.builder.bitcast(pointer, self.type.as_pointer())
+                pointer = self.builder.bitcast(pointer, self.arithmetic.type.as_pointer())
                 self.builder.store(value, pointer, align=8)
             case _:
                 self.refuse(target, "cannot be assigned to")
@@ -208,17 +194,17 @@ class _Lines(ast.NodeVisitor):
         pointer, array, offset, own = self.element(node)
         self.loaded.add((array, offset, self.lanes if own else 1))
         if own:
-            pointer = self.builder.bitcast(pointer, self.type.as_pointer())
+            pointer = self.builder.bitcast(pointer, self.arithmetic.type.as_pointer())
             return self.builder.load(pointer, align=8)
         number = self.builder.load(pointer, align=8)
-        return number if self.width == 1 else broadcast(self.builder, number, self.width)
+        return self.arithmetic.in_all_lanes(number)
 
     def constants(self, node):
-        """Return a constant a lane."""
+        """Return a number made of one constant per lane."""
         counted = isinstance(node.slice, ast.Name) and node.slice.id == self.counter
         fits = counted and 1 < self.lanes == self.width == len(node.value.elts)
-        self.require(fits, node, f"not a constant a lane, at [i], of up to {WIDTH} lanes")
-        return ir.Constant(self.type, [self.literal(each) for each in node.value.elts])
+        self.require(fits, node, f"not one constant per lane, at [i], for up to {WIDTH} lanes")
+        return ir.Constant(self.arithmetic.type, [self.literal(each) for each in node.value.elts])
 
     def literal(self, node):
         """Return the value of a number in the source, with a minus sign or without."""
@@ -234,37 +220,20 @@ class _Lines(ast.NodeVisitor):
         return self.values[node.id]
 
     def visit_Constant(self, node):
-        number = self.literal(node)
-        return ir.Constant(self.type, number if self.width == 1 else [number] * self.width)
+        return self.arithmetic.constant(self.literal(node))
 
     def visit_UnaryOp(self, node):
         self.require(isinstance(node.op, ast.USub), node, "an unknown operator")
-        return self.negative(self.visit(node.operand))
+        return self.arithmetic.negative(self.visit(node.operand))
 
     def visit_Tuple(self, node):
         self.require(len(node.elts) == 2, node, "not a pair")
-        values = tuple(self.number(self.visit(each), each) for each in node.elts)
-        if self.width > 1:
-            return values
-        pair = ir.Constant(PAIR, ir.Undefined)
-        for number, each in enumerate(values):
-            pair = self.builder.insert_element(pair, each, ir.Constant(INDEX, number))
-        return pair
-
-    def is_pair(self, value):
-        """Return whether a value is a pair."""
-        return isinstance(value, tuple) or (self.width == 1 and value.type == PAIR)
+        return self.arithmetic.pair(*(self.number(self.visit(each), each) for each in node.elts))
 
     def number(self, value, node):
         """Return a value, which must not be a pair."""
-        self.require(not self.is_pair(value), node, "a pair where a number is wanted")
+        self.require(not self.arithmetic.is_pair(value), node, "a pair where a number is wanted")
         return value
-
-    def part(self, value, number):
-        """Return the first or the second value of a pair."""
-        if self.width > 1:
-            return value[number]
-        return self.builder.extract_element(value, ir.Constant(INDEX, number))
 
     def visit_BinOp(self, node):
         """Return a sum, difference, product or quotient.
@@ -275,46 +244,13 @@ class _Lines(ast.NodeVisitor):
         self.require(kind in OPERATIONS, node, "an unknown operator")
         if kind in (ast.Add, ast.Sub) and is_product(right):
             first = self.visit(right.left)
-            first = self.negative(first) if kind is ast.Sub else first
-            return self.each(self.fused, first, self.visit(right.right), self.visit(left))
+            first = self.arithmetic.negative(first) if kind is ast.Sub else first
+            return self.arithmetic.fused(first, self.visit(right.right), self.visit(left))
         if kind in (ast.Add, ast.Sub) and is_product(left):
             last = self.visit(right)
-            last = self.negative(last) if kind is ast.Sub else last
-            return self.each(self.fused, self.visit(left.left), self.visit(left.right), last)
-        operation = partial(getattr(self.builder, OPERATIONS[kind]), flags=CONTRACT)
-        return self.each(operation, self.visit(left), self.visit(right))
-
-    def negative(self, value):
-        """Return a number or pair with the opposite sign."""
-        return self.each(partial(self.builder.fneg, flags=CONTRACT), value)
-
-    def fused(self, *values):
-        """Return the first value times the second plus the third, rounded once where possible."""
-        return self.call_llvm("llvm.fmuladd", values)
-
-    def call_llvm(self, name, values):
-        """Return what an LLVM intrinsic returns for values of one type."""
-        kind = values[0].type
-        suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
-        signature = ir.FunctionType(kind, [kind] * len(values))
-        function = cgutils.get_or_insert_function(
-            self.builder.module, signature, f"{name}.{suffix}"
-        )
-        return self.builder.call(function, values)
-
-    def each(self, operation, *values):
-        """Return the result of an operation on numbers, or on both numbers of pairs."""
-        if not any(map(self.is_pair, values)):
-            return operation(*values)
-        if self.width > 1:
-            values = [value if self.is_pair(value) else (value, value) for value in values]
-            return tuple(map(operation, *values))
-        return operation(
-            *(
-                value if self.is_pair(value) else broadcast(self.builder, value, 2)
-                for value in values
-            )
-        )
+            last = self.arithmetic.negative(last) if kind is ast.Sub else last
+            return self.arithmetic.fused(self.visit(left.left), self.visit(left.right), last)
+        return self.arithmetic.combined(OPERATIONS[kind], self.visit(left), self.visit(right))
 
     def visit_Call(self, node):
         counts = {"abs": 1, "max": 2}
@@ -323,6 +259,5 @@ class _Lines(ast.NodeVisitor):
         fits = len(node.args) == counts[name] and not node.keywords
         self.require(fits, node, f"{name} takes {counts[name]} here")
         values = [self.number(self.visit(each), each) for each in node.args]
-        if name == "abs":
-            return self.call_llvm("llvm.fabs", values)
-        return self.builder.select(self.builder.fcmp_ordered(">", *values), *values)
+        called = self.arithmetic.modulus if name == "abs" else self.arithmetic.larger
+        return called(*values)

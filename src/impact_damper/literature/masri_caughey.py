@@ -34,14 +34,6 @@ from impact_damper.system.parameters import check_damper, check_oscillator
 
 # Points in time of a flight, between which turning points (zeros of a velocity) are looked for.
 SAMPLES = 200
-# Ratios pi w/(2 W d0) between which changes of stability are looked for. The ratio is 1 if the
-# primary mass is in its middle position at the impacts. Beyond the last ratio the motion is
-# unstable for any damper.
-RATIOS = np.linspace(0.02, 2.5, 249)
-# Bisections with which a change of stability is located.
-BISECTIONS = 48
-# A multiplier counts as complex if the modulus of its imaginary part exceeds this.
-COMPLEX = 1e-6
 
 
 class TwoImpactMotion(NamedTuple):
@@ -101,22 +93,6 @@ class Flight(NamedTuple):
     state: np.ndarray
 
 
-class Boundary(NamedTuple):
-    """End of a range of clearances in which a motion with two impacts is stable.
-
-    Attributes
-    ----------
-    motion : TwoImpactMotion
-        The motion at this end of the range.
-    event : str
-        What ends stability: "fold", "symmetry_breaking", "neimark_sacker", or "third_contact" if
-        the loose mass begins to touch a wall during a flight.
-    """
-
-    motion: TwoImpactMotion
-    event: str
-
-
 def two_impact_motions(oscillator, damper, frequency) -> list[TwoImpactMotion]:
     """Return all symmetric motions with two impacts a period, by rising speed of the loose mass.
 
@@ -134,7 +110,7 @@ def two_impact_motions(oscillator, damper, frequency) -> list[TwoImpactMotion]:
     TypeError, ValueError
         If an argument is out of range, or the spring is not linear.
     """
-    family = _Family(oscillator, damper, frequency)
+    family = Family(oscillator, damper, frequency)
     square, linear = family.across**2 + family.along**2, family.across
     share = linear**2 - square * (1 - (abs(family.response) / damper.clearance) ** 2)
     ratios = (linear + np.array([-1, 1]) * np.sqrt(share)) / square if share >= 0 else []
@@ -151,51 +127,14 @@ def flight_with_speed(oscillator, damper, frequency, ratio) -> Flight:
     ratio : float
         s = w/d0.
     """
-    family = _Family(oscillator, damper, frequency)
+    family = Family(oscillator, damper, frequency)
     clearance, phase, impact = family.impact(ratio)
     primary, gap = family.motions(ratio, clearance, phase, impact)
     middle = family.half / 2
     return Flight(clearance, phase + np.pi / 2, np.concatenate([primary(middle), gap(middle)]))
 
 
-def stability_boundaries(oscillator, damper, frequency) -> list[Boundary]:
-    """Return the clearances at which symmetric motions with two impacts gain or lose stability.
-
-    Parameters
-    ----------
-    oscillator, damper, frequency
-        As of `two_impact_motions`; the clearance of the damper has no effect.
-
-    Returns
-    -------
-    list of Boundary
-        By rising ratio of the speed of the loose mass to the clearance.
-    """
-    family = _Family(oscillator, damper, frequency)
-    ratios = RATIOS * 2 * family.frequency / np.pi
-    stable = np.array([family.is_stable(ratio) for ratio in ratios])
-    found = []
-    for k in np.flatnonzero(stable[:-1] != stable[1:]):
-        inner, outer = ratios[k : k + 2][:: 1 if stable[k] else -1]
-        for _ in range(BISECTIONS):
-            middle = (inner + outer) / 2
-            inner, outer = (middle, outer) if family.is_stable(middle) else (inner, middle)
-        motion = family.motion(inner)
-        found.append(Boundary(motion, _event(motion)))
-    return found
-
-
-def _event(motion):
-    """Return what ends stability, given the stable motion next to its end."""
-    value = motion.multipliers[0]
-    if motion.room < 1 - abs(value):
-        return "third_contact"
-    if abs(value.imag) > COMPLEX:
-        return "neimark_sacker"
-    return "fold" if value.real > 0 else "symmetry_breaking"
-
-
-class _Family:
+class Family:
     """Half a period of the motions of one oscillator and damper, for any speed of the loose mass.
 
     Attributes

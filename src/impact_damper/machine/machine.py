@@ -121,10 +121,11 @@ class Machine:
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The length is the geometric mean of the static deflection and of what it becomes at
-        resonance, so that quiet motions, violent ones and the gaps between them are neither far
-        below 1 nor far above. In these scales omega_l^2 + |k3| = 1. Without a force the static
-        deflection is that at which both springs are equally strong, or 1 mm.
+        The length is the geometric mean of the static deflection and the displacement at resonance,
+        so that quiet motions, violent motions and useful gaps are all of the order 1. In these
+        scales omega_l^2 + |k3| = 1. Without a force the static deflection is replaced by the
+        deflection at which the linear and the cubic part of the spring's force are equal, or by
+        1 mm if the spring has only one part.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -168,14 +169,14 @@ class Machine:
         Parameters
         ----------
         frequency : float, optional
-            Forcing frequency, Hz. With a moving base the force is that at this frequency alone; if
-            it is not given, k A + (c^2 A/(2 k)) w^2, which is A sqrt(k^2 + c^2 w^2) but for a share
-            of (2 damping_ratio w/w0)^4/8.
+            Forcing frequency, Hz. With a moving base the force of the oscillator holds for this
+            frequency alone. Without a frequency it is k A + (c^2 A/(2 k)) w^2, which differs from
+            A sqrt(k^2 + c^2 w^2) by a share of (2 damping_ratio w/w0)^4/8.
 
         Raises
         ------
         ValueError
-            If the base moves, no frequency is given, and the force is not of this kind.
+            If the base moves, no frequency is given, and this approximation does not hold.
         """
         scales = self.scales
         force, unbalance = self.forcing(frequency)
@@ -248,7 +249,7 @@ class Machine:
 
 
 def check_fit(machine, damper):
-    """Raise TypeError or ValueError unless these are a machine and a damper that it can have."""
+    """Raise TypeError or ValueError unless these are a machine and a damper that fits it."""
     if not isinstance(machine, Machine):
         raise TypeError(f"machine = {shown(machine)}: must be a Machine")
     if not isinstance(damper, MachineDamper):

@@ -9,7 +9,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from impact_damper.data.whole_files import whole
 from impact_damper.figures.style import style
 
-# Dots per inch: a figure is 3.4 inches wide, and shown at most some 600 pixels wide.
+# Dots per inch. A figure is 3.4 inches wide, and a page shows it at most 600 pixels wide.
 DPI = 220
 
 
@@ -40,7 +40,7 @@ def as_png(figure) -> bytes:
 
 
 def as_text(template, page, pictures) -> str:
-    """Return a page as text by one of the templates.
+    """Return a page as the text that one of the templates makes of it.
 
     Parameters
     ----------

@@ -41,7 +41,8 @@ from impact_damper.rivals.taylor_runs import (
 from impact_damper.system.packed import CLEARANCE, DASHPOT, FREQUENCY, pack
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
+from impact_damper.theory.harmonic_solutions import Solution, solve, state_of
+from impact_damper.theory.many_harmonics import Balance
 
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
 # Largest distance of a rigid orbit from the first guess.
@@ -73,10 +74,11 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the run of the rigid-impact model from the state `start` at W T = pi/2, time t.
+    """Return the run of the rigid-impact model from the state `start` at the time t.
 
-    Flights are integrated by the Taylor series. The peaks of the run are the largest |Z1| in each
-    forcing period, and their times the middles of the periods.
+    The phase W T is pi/2 at this time. Flights are integrated by the Taylor series. The peaks of
+    the run are the largest |Z1| in each forcing period, and the times of peaks are the middles of
+    the periods.
     """
     p = p.copy()
     p[DASHPOT] = 0.0
@@ -117,7 +119,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def nearest(models, state):
-    """Return the model whose Z1, Z1' is nearest to that of `state`; None if there are no models."""
+    """Return the model whose Z1 and Z1' are nearest to those in `state`; None without models."""
     return min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
 
 
@@ -169,7 +171,7 @@ def full_balance(oscillator, damper, frequency, state):
 def nearest_term(oscillator, damper, frequency, state):
     """Return the coefficients of the single-term solution nearest to `state`, and the work.
 
-    The coefficients are None if there is no solution. The work is that of the search of all.
+    The coefficients are None if there is no solution. The work includes the search for all of them.
     """
     work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
     if damper is None:
@@ -221,9 +223,8 @@ def _transform(samples):
 def rigid_impacts(oscillator, damper, frequency, start):
     """Return a dictionary of two models: "rigid" walls, and corrected walls ("rigid_mended").
 
-    The correction (`contact.rigid_orbits`) makes the error of order 1/r1.
-
-    Newton's method starts from the model `start`.
+    The correction (`contact.rigid_orbits`) reduces the error to the order 1/r1. Newton's method
+    starts from the model `start`.
     """
     models = {"rigid": without("not_applicable"), "rigid_mended": without("not_applicable")}
     if damper is None:

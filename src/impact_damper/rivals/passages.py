@@ -41,9 +41,9 @@ class Passage(NamedTuple):
 def largest_of_flight(p, y, t, end):
     """Return time, value and |second derivative| of the largest |Z2| of a flight over [t, end].
 
-    An extremum lies in each of the `PIECES` parts of a step of the Taylor series in which Z2'
-    changes its sign; bisection finds it to rounding. If |Z2| is largest at an end of the flight,
-    the second derivative is returned as 0. y, the state at t, is replaced by that at the end.
+    Each step of the Taylor series is divided into PIECES parts. In a part in which Z2' changes its
+    sign, bisection finds the extremum to rounding. If |Z2| is largest at an end of the flight, the
+    second derivative is returned as 0. y, the state at t, is replaced by the state at the end.
     """
     work = workspace()
     none = np.empty((0, 4))

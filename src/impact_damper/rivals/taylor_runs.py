@@ -1,9 +1,10 @@
 """Runs by the event-driven Taylor series, with series of any orders, and their counted work.
 
 There are three kinds of steps: in flight, in flight until a contact begins, and in contact. The
-work of a run is the sum over the kinds of the number of steps times the operations of such a step
-(`operations.operations`), those of the generated code of the series included. Left out are the
-search for an unexpected contact and the loops of searches, since few steps need them.
+work of a run is the number of steps of each kind times the operations of such a step
+(`operations.operations`), summed over the kinds. The operations include the generated code of the
+series. They leave out the search for an unexpected contact and the repetitions in searches, since
+few steps need these.
 """
 
 import math
@@ -48,8 +49,8 @@ PARTS = 8
 def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
     """Fill `rows` with steps from t to `end`; return their number, and time and wall after them.
 
-    `made` is the array that `steps_of` returns; y, the state at t, is replaced by that after the
-    steps. If rows are shorter, coefficients are left out.
+    `made` is the array that `steps_of` returns. y, the state at t, is replaced by the state after
+    the steps. Coefficients for which the rows are too short are left out.
     """
     work = aligned(made[3])
     a, count = pointer(work), 0
@@ -76,8 +77,8 @@ def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order,
 def steps_of(orders):
     """Return the first argument of `take_steps` for series of these orders.
 
-    It is an array: the addresses of three compiled functions (a step in flight, a step in contact,
-    and the one that fills the series that are kept), and the size of a workspace.
+    It is an array with the addresses of three compiled functions and the size of a workspace. The
+    functions take a step in flight, take a step in contact, and fill the stored series.
     """
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.kept_series
@@ -142,7 +143,7 @@ def counted(rows):
 
 
 def steps_work(counts, tangents=0, orders=ORDERS):
-    """Return the operations of steps, given `counts`, the number of steps of each kind."""
+    """Return the operations of a number of steps of each kind, `counts`."""
     return sum(count * step_work(kind, tangents, orders) for kind, count in enumerate(counts))
 
 

@@ -32,8 +32,8 @@ from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, NEAR, balance_cells
 
-# At most this number (CHECKED) of chaotic high motions are run again, to see if the chaos lasts:
-# `Settling.patience` is multiplied by LONG.
+# Up to CHECKED chaotic high motions are run again with LONG times the patience (`Settling`), to see
+# whether the chaos lasts.
 CHECKED = 50
 LONG = 10
 

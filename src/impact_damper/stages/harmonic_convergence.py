@@ -14,7 +14,8 @@ from impact_damper.system.checks import check_counts, check_increasing
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 from impact_damper.theory import convergence, fourier, hill
-from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
+from impact_damper.theory.harmonic_solutions import refine, single_term, solve, state_of
+from impact_damper.theory.many_harmonics import Balance
 
 SAMPLES = 2**14
 SAME = 1e-6

@@ -5,19 +5,14 @@ has two contacts a period. If there are several branches of such motions, the on
 clearance nearest to rule (18) is taken.
 """
 
-from typing import NamedTuple
-
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.optimum_words import optimum_in_words
-from impact_damper.motions.following import RESOLUTION, follow_stable
-from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.motions.sweep import SAME, reached, sweep
+from impact_damper.stages.branch_minimum import Branch, minimum_table
 from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count, shown
 from impact_damper.system.checks import (
@@ -31,7 +26,6 @@ from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import check_settling
 from impact_damper.theory.optimum_clearance import analytical_table, excess_table
 
-NEAR_MINIMUM = 1.1
 SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
 
 
@@ -112,7 +106,7 @@ def clearance_sweep(
     branch = _quiet_branch(data, parameters, forcing / inertia)
     data |= (
         _quiet_table(branch)
-        | _optimum_table(branch)
+        | minimum_table(branch)
         | analytical_table(oscillator, dampers, frequency)
     )
     data |= {
@@ -142,54 +136,6 @@ def _peak_rule(oscillator, mass_ratio):
         return optimum_clearance(oscillator, mass_ratio)
     except ValueError:
         return np.nan
-
-
-class _Branch(NamedTuple):
-    """A branch of motions of period 1 along a sweep of the clearance.
-
-    Attributes
-    ----------
-    parameters : numpy.ndarray, shape (n, packed.COUNT)
-    states : numpy.ndarray, shape (n, 4)
-        State of the motion at W T = pi/2, NaN where the motion is absent.
-    displacements : numpy.ndarray, shape (n,)
-        max |Z1|, NaN where the motion is absent.
-    """
-
-    parameters: np.ndarray
-    states: np.ndarray
-    displacements: np.ndarray
-
-    def follow(self, start, clearance):
-        """Follow the motion from the known point nearest to `start` to a clearance.
-
-        Returns what `follow_stable` returns.
-        """
-        away = np.abs(self.parameters[:, CLEARANCE] - start)
-        k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
-        return follow_stable(self.parameters[k], self.states[k], 1, CLEARANCE, clearance)
-
-    def displacement(self, clearance):
-        """Return max |Z1| at a clearance, infinity beyond the end of the branch."""
-        p, orbit = self.follow(clearance, clearance)
-        if p[CLEARANCE] != clearance:
-            return np.inf
-        return measured(p, orbit.state, 1, POLISH_TOLERANCE)["maximum_displacement"]
-
-    def limit(self, clearance, step):
-        """Return the next clearance of the sweep in the direction `step` (-1 or 1), and "crossed".
-
-        If the branch ends before that clearance: the end of the branch and "branch_ends". If the
-        sweep has no further clearance: the given clearance and "sweep_ends".
-        """
-        grid = self.parameters[:, CLEARANCE]
-        beyond = grid[grid > clearance][:1] if step > 0 else grid[grid < clearance][-1:]
-        if len(beyond) == 0:
-            return clearance, "sweep_ends"
-        reached = self.follow(clearance, beyond[0])[0][CLEARANCE]
-        if reached == beyond[0]:
-            return reached, "crossed"
-        return reached - 10 * step * RESOLUTION, "branch_ends"
 
 
 def _quiet_branch(data, parameters, rule):
@@ -225,7 +171,7 @@ def _quiet_branch(data, parameters, rule):
     column = np.argmax(chosen, axis=1)
     row = np.arange(len(parameters))
     found = chosen.any(axis=1)
-    return _Branch(
+    return Branch(
         parameters,
         np.where(found[:, None], table["state"][row, column], np.nan),
         np.where(found, size[row, column], np.nan),
@@ -246,64 +192,3 @@ def _largest(data):
     """Return, for each clearance, the largest max |Z1| of the motions that starts reach."""
     sizes = np.where(reached(data), data["maximum_displacement"][1], -np.inf)
     return np.max(sizes, axis=1)
-
-
-def _optimum_table(branch):
-    """Return the minimum of max |Z1|, its kind, and the range of clearance near the minimum."""
-    if not np.isfinite(branch.displacements).any():
-        return {
-            "optimum_clearance": np.nan,
-            "optimum_displacement": np.nan,
-            "optimum_kind": flag("optimum_kind", "not_found"),
-            "near_clearance": np.full(2, np.nan),
-            "near_status": np.full(2, flag("near_status", "not_found")),
-        }
-    middle = branch.parameters[np.nanargmin(branch.displacements), CLEARANCE]
-    limits = [branch.limit(middle, step) for step in (-1, 1)]
-    bounds = [value for value, _ in limits]
-    inner = minimize_scalar(
-        branch.displacement, bounds=bounds, method="bounded", options={"xatol": 1e-9}
-    )
-    candidates = {value: branch.displacement(value) for value in bounds} | {inner.x: inner.fun}
-    best = min(candidates, key=candidates.get)
-    room = [abs(best - value) for value, event in limits if event == "branch_ends"]
-    kind = _kind(branch, best, candidates[best], min([1e-3 * best, *room]))
-    for value, event in limits:
-        if abs(best - value) < 1e-6 and event != "crossed":
-            kind = "jump" if event == "branch_ends" else "edge"
-    near = [_near(branch, best, NEAR_MINIMUM * candidates[best], step) for step in (-1, 1)]
-    return {
-        "optimum_clearance": best,
-        "optimum_displacement": candidates[best],
-        "optimum_kind": flag("optimum_kind", kind),
-        "near_clearance": np.array([value for value, _ in near]),
-        "near_status": np.array([flag("near_status", event) for _, event in near]),
-    }
-
-
-def _kind(branch, best, least, longest):
-    """Return "smooth" or "kink" for a minimum.
-
-    When a step away from the minimum is halved, the rise of max |Z1| falls to a quarter at a smooth
-    minimum and to half at a kink. No step exceeds `longest`, because the branch may end beyond.
-    """
-    rises = [
-        branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
-        for step in (longest, longest / 2)
-    ]
-    return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
-
-
-def _near(branch, best, level, step):
-    """Return the clearance where max |Z1| reaches a level on one side of the optimum.
-
-    The second value is "crossed". If the branch or the sweep ends before the level is reached, the
-    end and its event are returned, as from `_Branch.limit`.
-    """
-    outside, event = best, "crossed"
-    while event == "crossed":
-        inside = outside
-        outside, event = branch.limit(inside, step)
-        if branch.displacement(outside) > level:
-            return brentq(lambda x: branch.displacement(x) - level, inside, outside), "crossed"
-    return outside, event

@@ -22,7 +22,7 @@ import numpy as np
 from scipy.linalg import eigvals, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-from impact_damper.theory.many_harmonics import factorised
+from impact_damper.theory.harmonic_solutions import factorised
 
 # With at most DENSE unknowns all eigenvalues are computed, with more only those nearest to zero, as
 # many as make COPIES copies of each exponent.
@@ -59,7 +59,7 @@ def exponents(solution) -> Exponents:
 
     Parameters
     ----------
-    solution : many_harmonics.Solution
+    solution : harmonic_solutions.Solution
 
     Returns
     -------

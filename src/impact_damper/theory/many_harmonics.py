@@ -1,37 +1,30 @@
-"""Harmonic balance with any number of harmonics; truncation is its only error beside rounding.
+"""The equations of harmonic balance with any number of harmonics; `harmonic_solutions` solves them.
 
-Z1 (displacement of the primary mass) and Z2 (that relative to the loose mass) are Fourier series
-with the base frequency nu = 2 pi/(period of the motion). The contact force of equations (22) to
-(24) is r1 f(Z2) + c d/dT f(Z2) with c = 2 zc sqrt(r1 rm): contact ends at zero penetration, so the
-dashpot term M(Z2) Z2' is the time derivative of f(Z2). The Fourier coefficient k of the force is
-therefore (r1 + i k nu c) times that of f. f is continuous even where the force jumps.
+Apart from rounding their only error is the truncation of the series.
 
-f(Z2) = M (Z2 -+ d0) is the penetration, with M = 1 in contact and 0 elsewhere. The ends of the
-contacts are the roots of |Z2| = d0, located to rounding. They give the coefficients of M in closed
-form, and a convolution gives those of f. The derivative of f with respect to Z2 is M, since f
-vanishes at the ends. The contact force is not sampled, so it has no aliasing error; the cubic force
-is sampled at enough points to be exact.
+Z1, the displacement of the primary mass, and Z2, its displacement relative to the loose mass, are
+Fourier series with the base frequency nu = 2 pi/(period of the motion). The penetration of a wall
+is f(Z2) = M (Z2 -+ d0), with M = 1 in contact and 0 elsewhere. The contact force of equations (22)
+to (24) is r1 f + c df/dT with c = 2 zc sqrt(r1 rm): contact ends at zero penetration, so that the
+dashpot term M Z2' is the time derivative of f. Hence Fourier coefficient k of the contact force is
+(r1 + i k nu c) times coefficient k of f. f is continuous even where the force jumps.
+
+The contacts begin and end at the roots of |Z2| = d0, which are located to rounding. These roots
+give the coefficients of M in closed form, and a convolution with M gives the coefficients of f. The
+derivative of f with respect to Z2 is M, since f vanishes at both ends of a contact. The contact
+force is not sampled, so that it has no aliasing error. The cubic force is sampled at enough points
+to be exact.
 
 Compare the alternating frequency-time method: Cameron and Griffin, J. Appl. Mech. 56, 149 (1989).
 """
 
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
 
 from impact_damper.system.bounds import HARMONIC_RANGE, check_count
 from impact_damper.system.packed import pack
-from impact_damper.theory import fourier, single_harmonic
-from impact_damper.theory.free_oscillator import main_solutions
-
-# Newton's method: largest change of a coefficient on convergence, relative to the largest
-# coefficient; most steps; smallest factor by which a step is shortened.
-TOLERANCE = 1e-11
-ITERATIONS = 40
-LEAST_DAMPING = 1e-4
+from impact_damper.theory import fourier
 
 
 @dataclass(frozen=True)
@@ -177,91 +170,6 @@ class Balance:
         return fourier.indicator(rows, np.arange(2 * self.highest + 1))
 
 
-class Solution(NamedTuple):
-    """Last iterate of Newton's method for a balance: a solution if the status is "converged".
-
-    Attributes
-    ----------
-    balance : Balance
-    coefficients : numpy.ndarray of complex, shape (2, m)
-        Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper of Z1
-        only, shape (1, m).
-    status : str
-        "converged"; "stalled" if no shortened step makes the following step shorter; or
-        "iteration_limit".
-    iterations : int
-        Steps of Newton's method taken.
-    residual : float
-        Largest absolute entry of the real residual.
-    """
-
-    balance: Balance
-    coefficients: np.ndarray
-    status: str
-    iterations: int
-    residual: float
-
-
-def solve(balance, start, iterations=ITERATIONS) -> Solution:
-    """Solve a balance by damped Newton's method, from an approximation with any harmonics.
-
-    A step is halved until the following step, computed with the same Jacobian, is shorter: the
-    natural monotonicity test of Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3. The residual would be a poor measure, since the stiff contact dominates it. The method
-    has converged when a step changes no coefficient by more than 1e-11 of the largest one.
-
-    Parameters
-    ----------
-    balance : Balance
-    start : array, shape (1 or 2, any)
-        Coefficients of the lowest retained harmonics; all higher ones start at zero.
-    iterations : int
-        Number of steps allowed.
-
-    Returns
-    -------
-    Solution
-    """
-    count = len(balance.harmonics)
-    now = np.zeros((len(start), count), complex)
-    now[:, : start.shape[1]] = start[:, :count]
-    rows = balance.contacts(now)
-    defect = balance.to_real(balance.residual(now, rows))
-    status, taken = "iteration_limit", 0
-    while taken < iterations and status == "iteration_limit":
-        factors = factorised(balance.operator(now, rows))
-        step = -lu_solve(factors, defect, check_finite=False)
-        small = np.max(np.abs(step)) <= TOLERANCE * np.max(np.abs(now))
-        taken += 1
-        damping = 1.0
-        while damping >= LEAST_DAMPING:
-            trial = now + damping * balance.to_complex(step)
-            rows = balance.contacts(trial)
-            left = balance.to_real(balance.residual(trial, rows))
-            following = lu_solve(factors, left, check_finite=False)
-            if small or np.linalg.norm(following) <= (1 - damping / 4) * np.linalg.norm(step):
-                now, defect = trial, left
-                status = "converged" if small else status
-                break
-            damping /= 2
-        else:
-            status = "stalled"
-    return Solution(balance, now, status, taken, float(np.max(np.abs(defect))))
-
-
-def factorised(matrix):
-    """Return the LU factors of a matrix for `scipy.linalg.lu_solve`.
-
-    They are computed in another thread, so that Ctrl-C is heard at once: with a thousand harmonics
-    the computation takes seconds.
-    """
-    pool = ThreadPoolExecutor(1)
-    try:
-        return pool.submit(lu_factor, matrix, check_finite=False).result()
-    finally:
-        pool.shutdown(wait=False)
-
-
 def _convolution(coefficients, harmonics):
     """Matrices A, B such that A z + B conj(z) are the retained coefficients of a product g z.
 
@@ -280,73 +188,3 @@ def _real(by_value, by_conjugate):
     """Real matrix of dz -> by_value dz + by_conjugate conj(dz), with real parts first."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
-
-
-def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return the coefficients of a single-term solution, the first guess for more harmonics.
-
-    With a damper, taken as elastic, this is the solution of equation (7) with the least |a|;
-    without a damper the solution with the greatest |a| on the curve through the peak.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float
-        W, dimensionless.
-
-    Returns
-    -------
-    numpy.ndarray, shape (2, 1) with a damper, else (1, 1)
-        Complex Fourier coefficients of the first harmonic of Z1 and Z2.
-
-    Raises
-    ------
-    ArithmeticError
-        If (7) has no solution with contacts.
-    ValueError
-        Without a damper, as in `free_oscillator.main_solutions`.
-    """
-    if damper is None:
-        found = main_solutions(oscillator, frequency)
-        sizes = found.amplitude[-1:]
-        phase = found.phase[-1]
-    else:
-        found = single_harmonic.impacting_solutions(
-            oscillator, replace(damper, restitution=1.0), frequency
-        )
-        if not len(found.amplitude):
-            raise ArithmeticError(f"frequency = {frequency:g}: (7) has no solution with contacts")
-        least = np.argmin(np.abs(found.amplitude))
-        sizes = np.array([found.amplitude[least], found.relative_amplitude[least]])
-        phase = found.phase[least]
-    return sizes[:, None] * np.exp(1j * phase) / 2
-
-
-def refine(balances, start) -> list:
-    """Return a `Solution` of each balance; its first guess is the last solution that converged.
-
-    Parameters
-    ----------
-    balances : list of Balance
-        In the order of increasing numbers of harmonics.
-    start : numpy.ndarray
-        Coefficients that are the first guess for the first balance, as from `single_term`.
-    """
-    solutions = []
-    for balance in balances:
-        solutions.append(solve(balance, start))
-        if solutions[-1].status == "converged":
-            start = solutions[-1].coefficients
-    return solutions
-
-
-def state_of(solution) -> np.ndarray:
-    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2; without a damper Z2 = Z1."""
-    balance = solution.balance
-    state = [
-        fourier.value(each, balance.harmonics, np.pi / 2, order) * balance.frequency**order
-        for each in solution.coefficients
-        for order in (0, 1)
-    ]
-    return np.array(state if len(state) == 4 else 2 * state)

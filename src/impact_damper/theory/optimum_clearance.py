@@ -24,8 +24,7 @@ from impact_damper.theory.straight_flight import (
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # A solution of (7) with a smaller |a|, as a share of the clearance, counts as a = 0.
 ZERO_AMPLITUDE = 1e-6
-# CRITERIA: quantities of Z1, of which one is smallest at an optimum. RULES: rules for the
-# clearance.
+# CRITERIA: quantities of Z1; an optimum makes one of them smallest. RULES: rules for the clearance.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
@@ -93,7 +92,7 @@ def analytical_table(oscillator, dampers, frequency):
 
     for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
         clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
-        # The sign also changes where the smallest solution becomes another one, with a jump.
+        # The sign also changes at a jump, where another solution becomes the smallest.
         if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
             best, kind = clearance, "kink"
     return {

@@ -32,8 +32,8 @@ def sources(*paths) -> set:
 def _imports(path):
     """Return the files of the package that a Python file imports directly.
 
-    A package's `__init__` counts only if a name is taken from it: it is always executed, but
-    decides nothing.
+    The `__init__.py` of a subpackage counts only if a name is imported from it. Python executes it
+    in any case, but then it changes no result.
     """
     statements = ast.parse("\n".join(IMPORT.findall(path.read_text()))).body
     names = []

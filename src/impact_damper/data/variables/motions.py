@@ -62,10 +62,12 @@ VARIABLES = {
         quantity="mixed",
     ),
     "phase_relative": Variable(
-        ("frequency", "motion"), "phase of Z1 to Z2, first harmonics", units="radian"
+        ("frequency", "motion"), "phase of Z1 minus phase of Z2, first harmonics", units="radian"
     ),
     "phase_loose": Variable(
-        ("frequency", "motion"), "phase of Z1 to Z1 - Z2, first harmonics", units="radian"
+        ("frequency", "motion"),
+        "phase of Z1 minus phase of Z1 - Z2, first harmonics",
+        units="radian",
     ),
     "multiplier_real": Variable(("frequency", "motion"), "dominant Floquet multiplier, real part"),
     "multiplier_imaginary": Variable(
@@ -139,7 +141,7 @@ VARIABLES = {
         quantity="velocity",
     ),
     "missed_share": Variable(
-        (), "upper bound, at 95 % confidence, of the share of starts of a motion that none reached"
+        (), "share of starts that may lead to a motion that none found; 95 % upper bound"
     ),
     # first collisions
     "ball": Variable(("ball",), "ball of states from which random starts are drawn"),

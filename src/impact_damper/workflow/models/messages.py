@@ -20,12 +20,12 @@ def dotted(path) -> str:
 
 
 def one_of(name, known) -> str:
-    """Return as text that a name must be one of those known, and the nearest of these."""
+    """Return the text "must be one of ..." with all known names, and the one nearest to `name`."""
     return f"must be one of {', '.join(known)}{nearest(name, known)}"
 
 
 def nearest(name, known) -> str:
-    """Return a question that proposes the known name nearest to `name`, or nothing."""
+    """Return the question "did you mean ...?" with the known name nearest to `name`, or ""."""
     found = difflib.get_close_matches(name, known, 1) if isinstance(name, str) else []
     return f"; did you mean {found[0]}?" if found else ""
 

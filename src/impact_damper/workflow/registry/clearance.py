@@ -40,7 +40,7 @@ def studies(config, name):
 
 
 def study_chunk(config, name, chunk):
-    """As `studies`, with the cells of a chunk, which is numbered as "2-of-4"."""
+    """Return the parameters of `studies` and the cells of a chunk, such as "2-of-4"."""
     given = studies(config, name)
     number, count = map(int, chunk.split("-of-"))
     _, cells = given["cells"]
