@@ -34,6 +34,7 @@ state = st.sampled_from(
     + [(0, 0, 0, math.inf), np.zeros((2, 2)), (1e9, 0, 0, 0), (0, 1e9, 0, 0), (True, 0, 0, 0), {}]
 )
 no_si = no_numbers.filter(lambda value: value is not None)
+no_start = no_si | not_finite | huge
 si = no_si | not_finite | negative
 STEEL = idm.Material(2.1e11, 0.3)
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
@@ -145,9 +146,12 @@ FUNCTIONS = {
         MOVING,
         motion
         | {"state": state, "periods": positive, "samples": count}
-        | {"start": no_numbers | not_finite | huge, "tolerance": positive},
+        | {"start": no_start, "tolerance": positive},
     ),
-    "steady_motion": (MOVING, motion | {"state": state, "settling": no_settling}),
+    "steady_motion": (
+        MOVING,
+        motion | {"state": state, "settling": no_settling, "start": no_start},
+    ),
     "frequency_response": (
         GOOD | {"frequencies": [2.0], "starts": 1},
         search | {"damper": no_damper, "frequencies": increasing},
@@ -183,9 +187,13 @@ FUNCTIONS = {
         | {"damper": no_damper | st.none(), "seed": seed, "settling": no_settling}
         | {name: count for name in ("longest_hold", "periods", "switchings")},
     ),
+    "decode": (
+        {"values": None},
+        {"values": no_numbers | st.sampled_from([1, 2.0, [1, 2], OSCILLATOR, np.arange(3)])},
+    ),
     "periodic_orbit": (
         MOVING,
-        motion | {"state": state, "period": count, "phase": no_numbers | not_finite | huge},
+        motion | {"state": state, "period": count, "phase": no_start},
     ),
     "orbit_branch": (
         MOVING | {"span": (1.9, 2.1)},

@@ -1,11 +1,43 @@
 """Impact dampers for a harmonically forced hard Duffing oscillator.
 
 After S. Chatterjee, A. K. Mallik and A. Ghosh, "On impact dampers for non-linear vibrating
-systems", Journal of Sound and Vibration 187(3), 403-420, 1995. The names below are loaded
-when they are first used.
+systems", Journal of Sound and Vibration 187(3), 403-420, 1995. Results are labelled datasets of
+xarray. The public names are loaded when they are first used:
+
+What is studied, dimensionless
+    Oscillator, Damper
+    Settling                    how long and how accurately motions are run
+
+What is studied, in SI units: all functions below take a machine in place of the oscillator
+    Machine                     its method `damper` makes a damper for it
+    HertzContact, Material, hertz_stiffness
+    TunedAbsorber
+
+Motions
+    simulate                    one motion from a given state
+    steady_motion               the motion that a state settles to
+    frequency_response          all motions at each frequency
+    subharmonic_suppression     the one-third subharmonic without and with a damper
+    migrate                     from the resonance to the small motion, by switching the damper
+
+Periodic orbits, stable or not
+    periodic_orbit, orbit_branch, complete_branches
+
+Harmonic balance
+    harmonic_balance_response, suppression_band, optimum_clearance, harmonic_convergence
+
+Design
+    clearance_sweep             the clearance with the smallest quiet motion
+    design_damper               a damper for a machine and a band of frequencies
+    absorber_responses          tuned absorbers of the same mass, for comparison
+
+Reading results
+    decode                      words for the numbers of a flag, such as an outcome
 """
 
 from importlib import import_module
+
+__version__ = "0.1.0"
 
 _HOMES = {
     "Oscillator": "system.parameters",
@@ -14,23 +46,24 @@ _HOMES = {
     "Machine": "machine.machine",
     "HertzContact": "machine.hertz",
     "Material": "machine.hertz",
-    "TunedAbsorber": "absorbers.absorber",
-    "absorber_responses": "absorbers.responses",
     "hertz_stiffness": "performance.contact_stiffness",
-    "design_damper": "stages.machines",
+    "TunedAbsorber": "absorbers.absorber",
     "simulate": "motions.simulate",
     "steady_motion": "motions.steady",
     "frequency_response": "stages.response",
-    "harmonic_balance_response": "stages.harmonic_balance",
-    "suppression_band": "stages.suppression_band",
-    "optimum_clearance": "stages.harmonic_balance",
-    "clearance_sweep": "stages.optimum",
     "subharmonic_suppression": "stages.subharmonic",
     "migrate": "stages.migration",
     "periodic_orbit": "stages.branches",
     "orbit_branch": "stages.branches",
     "complete_branches": "stages.branches",
+    "harmonic_balance_response": "stages.harmonic_balance",
+    "suppression_band": "stages.suppression_band",
+    "optimum_clearance": "stages.harmonic_balance",
     "harmonic_convergence": "stages.harmonic_convergence",
+    "clearance_sweep": "stages.optimum",
+    "design_damper": "stages.machines",
+    "absorber_responses": "absorbers.responses",
+    "decode": "data.datasets",
 }
 
 # Functions that take a machine in place of the oscillator too, with all else in SI units.
@@ -55,14 +88,19 @@ __all__ = list(_HOMES)
 
 def __getattr__(name):
     if name not in _HOMES:
-        raise AttributeError(f"module 'impact_damper' has no attribute {name!r}")
+        from impact_damper.system.names import nearest
+
+        words = nearest(name, _HOMES)
+        raise AttributeError(f"module 'impact_damper' has no attribute {name!r}{words}")
     found = getattr(import_module(f"impact_damper.{_HOMES[name]}"), name)
     if name in _OF_MACHINES:
         found = import_module("impact_damper.machine.arguments").takes_machine(found)
+    if not isinstance(found, type):
+        found = import_module("impact_damper.system.names").names_arguments(found)
     # Once loaded, a name is found without this function.
     globals()[name] = found
     return found
 
 
 def __dir__():
-    return __all__
+    return [*__all__, "__version__"]

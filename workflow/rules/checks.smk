@@ -3,7 +3,7 @@
 import time
 from contextlib import suppress
 
-from impact_damper.data.whole_files import check_length
+from impact_damper.data.whole_files import DELETE, BrokenFileError, check_length
 
 # Seconds by which clocks of machines that share a disk may differ.
 SKEW = 10
@@ -27,6 +27,8 @@ def check_results(folder):
                 if path.is_file() and path.stat().st_mtime > time.time() + SKEW:
                     os.utime(path, (OLDEST, OLDEST))
                     ahead.append(path)
+    except BrokenFileError as error:
+        raise WorkflowError(f"{error}: {DELETE}.") from None
     except OSError as error:
         raise WorkflowError(str(error)) from None
     if ahead:

@@ -5,8 +5,10 @@ from dataclasses import dataclass, replace
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import check_si, convert, physical, with_unit
 from impact_damper.system.bounds import MASS_RATIO_RANGE, check_number, shown
+from impact_damper.system.names import names_arguments
 
 
+@names_arguments
 @dataclass(frozen=True, kw_only=True)
 class TunedAbsorber:
     """A mass that hangs on a machine by a spring and a dashpot; all in SI units.

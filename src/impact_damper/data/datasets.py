@@ -8,11 +8,14 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.variables import VARIABLES
-from impact_damper.data.whole_files import DELETE, BrokenFileError, check_length, whole_netcdf
+from impact_damper.data.whole_files import BrokenFileError, check_length, whole_netcdf
+from impact_damper.system.bounds import shown
 from impact_damper.system.parameters import Damper, Oscillator, pick
 
 SOURCE = "impact-damper"
 
+# Coordinates that hold the phase W T of states, so that a state carries it along.
+PHASES = ("state_phase", "orbit_phase")
 # Most numbers read at once from an open file.
 PIECE = 2**14
 
@@ -68,7 +71,7 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
             for name, value in items.items()
         }
 
-    return xr.Dataset(
+    found = xr.Dataset(
         labelled(data),
         labelled(coordinates),
         {
@@ -79,11 +82,58 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
             "parameters": json.dumps(parameters, sort_keys=True),
         },
     )
+    return found.set_coords([name for name in PHASES if name in found])
 
 
 def flag(name, meaning) -> int:
     """Stored number of a named value of a variable: `flag("outcome", "settled")` is 1."""
     return VARIABLES[name].flags[meaning]
+
+
+def decode(values) -> xr.DataArray:
+    """Return the words that the numbers of a flag variable stand for.
+
+    Any variable with the attributes `flag_values` and `flag_meanings` of the CF conventions can be
+    decoded, such as `outcome`, `stability` or `event_kind`.
+
+    Parameters
+    ----------
+    values : xarray.DataArray
+
+    Returns
+    -------
+    xarray.DataArray
+        Text, with the dimensions and coordinates of `values`.
+
+    Raises
+    ------
+    TypeError
+        If `values` is not a labelled array of flags.
+    ValueError
+        If a number is not among the flags.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> steady = idm.steady_motion(idm.Oscillator(0.215), None, 2.0)
+    >>> idm.decode(steady.outcome).item()
+    'settled'
+    """
+    attributes = getattr(values, "attrs", {})
+    if not {"flag_values", "flag_meanings"} <= attributes.keys():
+        raise TypeError(
+            f"values = {shown(values)}: must be a variable of a dataset with named values, such as "
+            "outcome"
+        )
+    words = attributes["flag_meanings"].split()
+    known = dict(zip(np.ravel(attributes["flag_values"]).tolist(), words, strict=True))
+    unknown = sorted(set(np.unique(values.values).tolist()) - set(known))
+    if unknown:
+        raise ValueError(f"values = {shown(unknown)}: must be among {shown(known)}")
+    found = np.array([known[each] for each in np.ravel(values.values).tolist()], object)
+    decoded = values.copy(data=found.reshape(values.shape))
+    decoded.attrs = {name: attributes[name] for name in ("long_name",) if name in attributes}
+    return decoded
 
 
 def is_settled(motions):
@@ -148,14 +198,15 @@ def load(path) -> xr.Dataset:
     try:
         data = xr.load_dataset(path, engine="netcdf4")
     except (OSError, RuntimeError, ValueError) as error:
-        raise BrokenFileError(f"{path} cannot be read ({error}): {DELETE}.") from error
+        raise BrokenFileError(f"{path} cannot be read ({error})") from error
     if data.attrs.get("source") != SOURCE:
-        raise BrokenFileError(f"{path} was not made by this project: {DELETE}.")
+        raise BrokenFileError(f"{path} was not made by this project")
     sealed = seal(data.variables, path)
     if data.attrs.get("id") != sealed["id"]:
-        raise BrokenFileError(f"{path} holds {data.attrs.get('id')}: {DELETE}.")
+        held = data.attrs.get("id", "a dataset that `save` did not write")
+        raise BrokenFileError(f"{path} holds {held}")
     if data.attrs.get("sha256") != sealed["sha256"]:
-        raise BrokenFileError(f"{path} holds other numbers than were written: {DELETE}.")
+        raise BrokenFileError(f"{path} holds other numbers than were written")
     # The seal belongs to this file; a dataset derived from it gets another seal when it is saved.
     data.attrs = {name: value for name, value in data.attrs.items() if name not in sealed}
     return data

@@ -5,6 +5,7 @@ import os
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+# What the workflow adds to a BrokenFileError about one of its results.
 DELETE = "delete it and run the same command again"
 
 # A NetCDF-4 file is an HDF5 file, which begins with SIGNATURE. If one of VERSIONS follows, the
@@ -15,7 +16,7 @@ LENGTH = slice(28, 36)
 
 
 class BrokenFileError(OSError):
-    """A results file is damaged or was not written by this project; the message says what to do."""
+    """A file is damaged or was not written by this project; the message names it and says why."""
 
 
 @contextmanager
@@ -83,12 +84,12 @@ def check_length(path) -> None:
     Raises
     ------
     BrokenFileError
-        Names the file and says what to do.
+        Names the file.
     """
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):
-        raise BrokenFileError(f"{path} is not a NetCDF file of this project: {DELETE}.")
+        raise BrokenFileError(f"{path} is not a NetCDF file of this project")
     stated, actual = int.from_bytes(start[LENGTH], "little"), os.path.getsize(path)
     if actual != stated and start[len(SIGNATURE) :].startswith(VERSIONS):
-        raise BrokenFileError(f"{path} has {actual} bytes instead of {stated}: {DELETE}.")
+        raise BrokenFileError(f"{path} has {actual} bytes instead of {stated}")

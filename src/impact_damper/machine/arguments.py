@@ -10,9 +10,10 @@ import xarray as xr
 
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
-from impact_damper.machine.results import FOLLOWED, STATE, from_si, in_si
+from impact_damper.machine.results import FOLLOWED, STATE, STATE_UNITS, from_si, in_si
 from impact_damper.machine.units import NUMBER, QUANTITIES, check_si, si_value
 from impact_damper.system.bounds import CLEARANCE_RANGE, RADIUS_RANGE, shown
+from impact_damper.system.names import nearest
 
 NOTE = """
 
@@ -28,6 +29,7 @@ TOLD |= {
     "radius": ("radius", "displacement"),
     "displacement": ("displacement", "displacement"),
     "speed": ("speed", "velocity"),
+    "start": ("start", "time"),
     "linear_frequency": ("natural_frequency", "frequency"),
 }
 TOLD_NUMBER = re.compile(rf"\b({'|'.join(TOLD)})((?:\[\d+\])?) = (\[[^\]]*\]|{NUMBER})")
@@ -120,7 +122,8 @@ def _damper(machine, damper, swept):
 def _span(machine, parameter, span):
     """Return the arguments `parameter` and `span` of a branch."""
     if not isinstance(parameter, str) or parameter not in FOLLOWED:
-        raise ValueError(f"parameter = {shown(parameter)}: must be one of {', '.join(FOLLOWED)}")
+        allowed = ", ".join(FOLLOWED) + nearest(parameter, FOLLOWED)
+        raise ValueError(f"parameter = {shown(parameter)}: must be one of {allowed}")
     name, quantity = FOLLOWED[parameter]
     if np.ndim(span) != 1:
         raise TypeError(f"span = {shown(span)}: must be least and greatest value")
@@ -153,16 +156,27 @@ def _clearances(machine, name, values):
 
 
 def _state(machine, name, values):
+    """Return a state in the scales of a machine; one of a dataset keeps its phase."""
+    labelled, values = values, getattr(values, "values", values)
+    if isinstance(labelled, xr.DataArray):
+        units = labelled.attrs.get("units")
+        if units != STATE_UNITS:
+            raise ValueError(f"{name} = {shown(values)}: must be in {STATE_UNITS}, not in {units}")
+        values = values.squeeze()
     if np.ndim(values) != 1 or len(values) not in (2, 4):
         raise ValueError(
             f"{name} = {shown(values)}: must be four numbers, displacement (m) and velocity (m/s) "
             "of the machine and of the machine relative to the loose mass, or the first two "
             "without a damper"
         )
-    return [
+    scaled = [
         machine.scales.from_si(si_value(f"{name}[{place}]", value, quantity), quantity)
         for place, (value, quantity) in enumerate(zip(values, STATE, strict=False))
     ]
+    if not isinstance(labelled, xr.DataArray):
+        return scaled
+    found = labelled.copy(data=np.reshape(scaled, labelled.shape))
+    return found.assign_attrs(units="1")
 
 
 def _radius(machine, name, value):

@@ -11,9 +11,11 @@ from impact_damper.system.bounds import (
     STIFFNESS_RANGE,
     shown,
 )
+from impact_damper.system.names import names_arguments
 from impact_damper.system.parameters import Damper
 
 
+@names_arguments
 @dataclass(frozen=True, kw_only=True)
 class MachineDamper:
     """A loose mass in a gap of a machine, in SI units; `Machine.damper` makes and checks it.

@@ -10,8 +10,10 @@ from typing import NamedTuple
 
 from impact_damper.machine.units import convert, physical
 from impact_damper.system.bounds import shown
+from impact_damper.system.names import names_arguments
 
 
+@names_arguments
 @dataclass(frozen=True)
 class Material:
     """An elastic material.
@@ -68,6 +70,7 @@ DURATION = 2.9432752
 YIELD = 1.6
 
 
+@names_arguments
 @dataclass(frozen=True)
 class HertzContact:
     """Contact of a loose mass that is a ball, or has a rounded face, with the walls of its gap.

@@ -8,6 +8,7 @@ from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.scales import Scales, static_deflection
 from impact_damper.machine.units import check_si, convert, physical, with_unit
 from impact_damper.system.bounds import DAMPING_RANGE, FREQUENCY_RANGE, shown
+from impact_damper.system.names import names_arguments
 from impact_damper.system.parameters import Oscillator
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
@@ -15,6 +16,7 @@ EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 LIGHT = 0.02
 
 
+@names_arguments
 @dataclass(frozen=True, kw_only=True)
 class Machine:
     """A mass on a spring and a dashpot, and what excites it; all in SI units.
@@ -239,6 +241,11 @@ class Machine:
             raise ValueError(
                 "gap: must be given, the full play, or clearance_each_side in its place, and not "
                 "both"
+            )
+        if "each side" in getattr(gap, "attrs", {}).get("long_name", ""):
+            raise ValueError(
+                f"gap = {gap.item():g} {gap.units}: must be the full play; for a clearance of a "
+                "dataset, which is that on each side, use clearance_each_side"
             )
         if gap is None:
             name = "clearance_each_side"

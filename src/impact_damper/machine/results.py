@@ -16,6 +16,7 @@ from impact_damper.machine.units import QUANTITIES
 
 # Quantities of the components of a state.
 STATE = ("displacement", "velocity", "displacement", "velocity")
+STATE_UNITS = "m, m/s, m, m/s"
 # Parameters in which branches of orbits are followed: the name of each for a machine, its name in
 # the equations, and its quantity.
 FOLLOWED = {
@@ -111,7 +112,7 @@ def _quantity(name, data):
 def _name_unit(variable, quantity):
     """Set the attributes of a converted variable in place."""
     if quantity == "state":
-        variable.attrs["units"] = "m, m/s, m, m/s"
+        variable.attrs["units"] = STATE_UNITS
     elif quantity == "mixed":
         variable.attrs["long_name"] += ", in the scales of the machine"
     elif quantity != "number":

@@ -83,8 +83,9 @@ def si_value(name, value, quantity) -> float:
     ----------
     name : str
         Name of the argument, for messages.
-    value : float, str or pint.Quantity
-        A number in the SI unit; or a text with units; or a quantity of any registry of pint.
+    value : float, str, pint.Quantity or xarray.DataArray
+        A number in the SI unit; or a text with units; or a quantity of any registry of pint; or a
+        single value of a dataset, in the unit of its attributes.
     quantity : str
         A key of QUANTITIES.
 
@@ -93,6 +94,7 @@ def si_value(name, value, quantity) -> float:
     TypeError, ValueError
         If the value is none of these, not finite, or of another dimension.
     """
+    value = _from_dataset(value)
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return check_number(name, value)
     unit = QUANTITIES[quantity].unit
@@ -114,6 +116,16 @@ def si_value(name, value, quantity) -> float:
     if factor is None:
         raise ValueError(f"{name} = {shown(str(value))}: {allowed}")
     return check_number(name, float(number) * factor)
+
+
+def _from_dataset(value):
+    """Return a single value of a dataset as text with its units, other values as they are."""
+    if getattr(value, "ndim", None) != 0 or hasattr(value, "magnitude"):
+        return value
+    units = getattr(value, "attrs", {}).get("units")
+    if units is None:
+        return value.item()
+    return f"{value.item()!r} {units}".removesuffix(" 1")
 
 
 @cache

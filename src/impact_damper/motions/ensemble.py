@@ -50,7 +50,15 @@ def run_chunks(work, count, workers, progress, stop, size=CHUNK):
 
 
 def settle(
-    parameters, states, settling=None, *, from_strobe=False, workers=1, progress=None, stop=None
+    parameters,
+    states,
+    settling=None,
+    *,
+    start=0.0,
+    from_strobe=False,
+    workers=1,
+    progress=None,
+    stop=None,
 ):
     """Run motions until each has settled, and measure them.
 
@@ -59,11 +67,13 @@ def settle(
     parameters : array, shape (m, packed.COUNT)
         Packed parameters of each motion.
     states : array, shape (m, 4)
-        First states Z1, Z1', Z2, Z2', at the time T = 0 or, with `from_strobe`, at the strobe, the
-        phase W T = pi/2 of the forcing with frequency W.
+        First states Z1, Z1', Z2, Z2'.
     settling : Settling, optional
+    start : float
+        Time T of all states, at most one forcing period before the strobe, the phase W T = pi/2 of
+        the forcing with frequency W, and not after it.
     from_strobe : bool
-        Whether the states are given at the strobe.
+        Whether the states are given at the strobe instead.
     workers : int
         Threads.
     progress : str, optional
@@ -93,13 +103,13 @@ def settle(
 
     def work(part):
         if from_strobe:
-            start = 0.5 * np.pi / parameters[part, FREQUENCY]
+            begins = 0.5 * np.pi / parameters[part, FREQUENCY]
         else:
-            start = np.zeros(len(found[part]))
+            begins = np.full(len(found[part]), start)
         settle_many(
             parameters[part],
             states[part],
-            start,
+            begins,
             settling.tolerance,
             settling.patience,
             settling.limit,

@@ -1,12 +1,15 @@
 """Simulate one motion, from a given state or a random one.
 
 A state is Z1, Z1', Z2, Z2': the displacement Z1 of the primary mass, its displacement Z2 relative
-to the loose mass, and the velocities of both.
+to the loose mass, and the velocities of both. A state taken from a dataset carries its phase W T as
+a coordinate, and motions begin there.
 """
+
+import math
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset
+from impact_damper.data.datasets import PHASES, dataset
 from impact_damper.motions import records
 from impact_damper.system.bounds import (
     FARTHEST,
@@ -37,6 +40,11 @@ def check_state(state, damper):
     TypeError, ValueError
         If the state is not four numbers, or two without a damper, or out of range.
     """
+    units = getattr(state, "attrs", {}).get("units", "1")
+    if units != "1":
+        raise ValueError(f"state = {shown(state.values)}: must be dimensionless, not in {units}")
+    if hasattr(state, "coords"):
+        state = np.squeeze(state.values)  # the only point of a dataset
     values = check_numbers("state", state)
     allowed = "four finite numbers Z1, Z1', Z2, Z2'"
     if damper is None:
@@ -51,6 +59,34 @@ def check_state(state, damper):
     for i, (value, most) in enumerate(zip(values, [FARTHEST, FASTEST] * 2, strict=True)):
         check_number(f"state[{i}]", value, least=-most, most=most)
     return values
+
+
+def carried_phase(state):
+    """Return the phase W T that a state of a dataset carries as a coordinate, or None."""
+    coordinates = getattr(state, "coords", {})
+    phases = [coordinates[name].item() for name in PHASES if name in coordinates]
+    return check_number("state phase", phases[0]) if phases else None
+
+
+def start_of(state, start, frequency) -> float:
+    """Return the time T of a state: `start`, or the phase of a dataset's state, or 0.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `start` is out of range, or at another phase than the state.
+    """
+    phase = carried_phase(state)
+    if start is None:
+        return 0.0 if phase is None else phase / frequency
+    farthest = 1e6 * 2 * np.pi / frequency
+    start = check_number("start", start, least=-farthest, most=farthest)
+    if phase is not None and abs(math.remainder(frequency * start - phase, 2 * np.pi)) > 1e-6:
+        raise ValueError(
+            f"start = {start:.9g}: must be at the phase W T = {phase:.6g} that the state carries, "
+            "or be left out; state.values carries none"
+        )
+    return start
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
@@ -106,7 +142,7 @@ def simulate(
     *,
     periods=20,
     samples=200,
-    start=0.0,
+    start=None,
     tolerance=1e-12,
 ):
     """Integrate one motion.
@@ -118,14 +154,15 @@ def simulate(
         None switches the damper off.
     frequency : float
         Forcing frequency W, dimensionless.
-    state : sequence of 4 floats, or 2 without a damper
-        Z1, Z1', Z2, Z2' at time `start`.
+    state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
+        Z1, Z1', Z2, Z2' at time `start`, or the state of a dataset, which carries its phase.
     periods : float
         Length in forcing periods.
     samples : int
         Samples per forcing period.
-    start : float
-        Time of the first state, dimensionless; the forcing is cos(W T).
+    start : float, optional
+        Time of the first state, dimensionless; the forcing is cos(W T). By default that of the
+        phase which the state carries, 0 if it carries none.
     tolerance : float
         Local error allowed.
 
@@ -148,8 +185,7 @@ def simulate(
     most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
     check_count("samples", samples, least=2, most=most, why=f"{MOST_SAMPLES} in all")
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)
-    farthest = 1e6 * 2 * np.pi / p[FREQUENCY]
-    start = check_number("start", start, least=-farthest, most=farthest)
+    start = start_of(state, start, float(p[FREQUENCY]))
     length = periods * 2 * np.pi / p[FREQUENCY]
     times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
     states = np.empty((len(times), 4))
@@ -171,5 +207,12 @@ def simulate(
     if oscillator.cubic < 0:
         escaped = np.isnan(states[:, 0])
         data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
-    made = describe(oscillator, damper) | {"frequency": float(frequency), "tolerance": tolerance}
+    made = describe(oscillator, damper) | {
+        "frequency": float(frequency),
+        "state": first.tolist(),
+        "start": start,
+        "periods": float(periods),
+        "samples": int(samples),
+        "tolerance": float(tolerance),
+    }
     return dataset(data, {"time": times}, made, "Motion of the oscillator")

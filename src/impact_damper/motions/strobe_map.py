@@ -13,6 +13,8 @@ from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
+# Phase W T of the strobe.
+STROBE = math.pi / 2
 # Newton's method: number of corrections, the largest correction of a converged orbit, and the
 # smallest determinant of a regular matrix.
 ITERATIONS = 10

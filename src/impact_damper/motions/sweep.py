@@ -15,6 +15,7 @@ from impact_damper.data.datasets import flag, is_settled
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit, follow_stable
 from impact_damper.motions.records import MOTION, measured, tabulate
+from impact_damper.motions.strobe_map import STROBE
 
 # Motions whose max |Z1| differs relatively by less are the same, if periods and contacts agree.
 # The same limit tells a symmetric motion by its asymmetry.
@@ -198,7 +199,8 @@ def _tables(catalogues, branches, dimension):
     data = tabulate(records) | extra
     dims = (dimension, "motion")
     return {name: (dims, values) for name, values in data.items()} | {
-        "state": ((*dims, "component"), records["state"])
+        "state": ((*dims, "component"), records["state"]),
+        "state_phase": ((), STROBE),
     }
 
 

@@ -15,7 +15,7 @@ from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.records import phase_of
-from impact_damper.motions.simulate import COMPONENTS, check_state
+from impact_damper.motions.simulate import COMPONENTS, carried_phase, check_state
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import STROBE, find_orbit
 from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown
@@ -29,7 +29,7 @@ from impact_damper.system.parameters import describe
 SLOW = 0.01
 
 
-def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STROBE):
+def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None):
     """Find the periodic orbit near a state by Newton's method.
 
     Parameters
@@ -38,12 +38,13 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
     damper : Damper or None
     frequency : float
         Forcing frequency W, dimensionless.
-    state : sequence of 4 floats, or 2 without a damper
+    state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
         Z1, Z1', Z2, Z2' near the orbit.
     period : int
         Period n of the orbit in forcing periods.
-    phase : float
-        Phase W T of the state, radian.
+    phase : float, optional
+        Phase W T of the state, radian. By default that which the state of a dataset carries, pi/2
+        for other states.
 
     Returns
     -------
@@ -78,7 +79,11 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=STRO
         "approach_velocity": log[:, 3],
         "departure_velocity": log[:, 4],
     }
-    made = describe(oscillator, damper) | {"frequency": float(frequency), "period": period}
+    made = describe(oscillator, damper) | {
+        "frequency": float(frequency),
+        "period": int(period),
+        "state": check_state(state, damper).tolist(),
+    }
     return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit")
 
 
@@ -88,7 +93,7 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     Parameters
     ----------
     oscillator, damper, frequency, state, period
-        As in `periodic_orbit`, with the state at W T = pi/2.
+        As in `periodic_orbit`.
     span : tuple of float
         Least and greatest value of the parameter.
     parameter : str
@@ -113,8 +118,9 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
         If Newton's method finds no orbit near the state, or one that repeats after a divisor of the
         period.
     """
+    given_span = span
     family, value, span = family_of(oscillator, damper, frequency, parameter, span)
-    orbit = _checked_orbit(oscillator, damper, frequency, state, period, STROBE)
+    orbit = _checked_orbit(oscillator, damper, frequency, state, period, None)
     if orbit.repeats_sooner():
         raise ArithmeticError(
             f"period = {period}: the orbit near the state repeats after a divisor of {period}; "
@@ -123,8 +129,10 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     branch = follow_branch(family, orbit, value, span)
     made = describe(oscillator, damper) | {
         "frequency": float(frequency),
-        "period": period,
+        "period": int(period),
         "parameter": parameter,
+        "state": check_state(state, damper).tolist(),
+        "span": [float(end) for end in given_span],
     }
     back = float if parameter in LINEAR else np.exp
     return branches_dataset([branch], back, made, "Branch of periodic orbits")
@@ -204,6 +212,9 @@ def _summary(branches, seeds, lost):
 def _checked_orbit(oscillator, damper, frequency, state, period, phase):
     """Check arguments and return the orbit near a state; raises as `periodic_orbit` does."""
     check_count("period", period, most=1000)
+    if phase is None:
+        carried = carried_phase(state)
+        phase = STROBE if carried is None else carried
     check_number("phase", phase, least=-1e6, most=1e6)
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, check_state(state, damper), period, phase)

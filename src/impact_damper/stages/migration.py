@@ -114,6 +114,8 @@ def migrate(
     data = {"displacement": displacement}
     data |= {name: ("switching", values) for name, values in switching_data(log, case).items()}
     data |= {name: ((), value) for name, value in totals.items()}
+    drawn = seed.entropy if isinstance(seed, np.random.SeedSequence) else seed
+    made |= {"seed": int(drawn), "spawn_key": list(getattr(seed, "spawn_key", ()))}
     return dataset(data, {"time": times}, made, "Migration control, one run")
 
 

@@ -117,7 +117,7 @@ def clearance_sweep(
     data |= excess_table(inertia * data["optimum_clearance"] / forcing, dampers[0])
     made = (
         describe(oscillator, settling)
-        | damper
+        | {name: getattr(dampers[0], name) for name in sorted(SWEPT_WITH)}
         | {"frequency": frequency}
         | describe_search(starts, radius, seed)
     )

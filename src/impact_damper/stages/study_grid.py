@@ -12,7 +12,7 @@ import xarray as xr
 
 from impact_damper.data.datasets import dataset, load, oscillator_of, seal, variable, write
 from impact_damper.data.variables.studies import AXES
-from impact_damper.data.whole_files import DELETE, BrokenFileError, whole_netcdf
+from impact_damper.data.whole_files import BrokenFileError, whole_netcdf
 
 
 def gather_chunks(paths, path) -> None:
@@ -53,7 +53,7 @@ def gather_chunks(paths, path) -> None:
                 done += _place(file, chunk, done, shape)
             if done != math.prod(shape):
                 found = f"ends at cell {done} of {math.prod(shape)}"
-                raise BrokenFileError(f"{paths[-1]} {found}: {DELETE}.")
+                raise BrokenFileError(f"{paths[-1]} {found}")
             _write_clearances(file, axes, oscillator_of(head))
         with xr.open_dataset(part, engine="netcdf4", cache=False) as data:
             sealed = seal(data.variables, path)
@@ -85,7 +85,7 @@ def _check_next(chunk, path, first, head):
         np.array_equal(chunk[name], head[name]) for name in (*AXES, "counted_outcome")
     )
     if not same or chunk["cell"].values[0] != first:
-        raise BrokenFileError(f"{path} must begin at cell {first} of the same study: {DELETE}.")
+        raise BrokenFileError(f"{path} must begin at cell {first} of the same study")
 
 
 def blocks(first, last, shape):

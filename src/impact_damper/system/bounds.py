@@ -74,9 +74,31 @@ def parameter(bounds, symbol, meaning, **default):
 
 
 def check_parameters(part):
-    """Raise the error of `check_number` if a field of the dataclass `part` is out of range."""
+    """Raise the error of `check_number` if a field of the frozen dataclass `part` is out of range.
+
+    A number given as an array without dimensions is replaced by a float.
+    """
     for each in fields(part):
-        check_number(each.name, getattr(part, each.name), **each.metadata["bounds"])
+        value = getattr(part, each.name)
+        number = check_number(each.name, value, **each.metadata["bounds"])
+        if hasattr(value, "ndim"):  # a number of NumPy or xarray
+            object.__setattr__(part, each.name, number)
+
+
+def unlabelled(name, value):
+    """Return the number in an array without dimensions, as xarray gives it; else the value itself.
+
+    Raises
+    ------
+    ValueError
+        If its attributes name a unit: the number is not dimensionless.
+    """
+    if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
+        return value
+    units = getattr(value, "attrs", {}).get("units", "1")
+    if units not in ("1", "radian"):
+        raise ValueError(f"{name} = {value.item()!r} {units}: must be dimensionless, without units")
+    return value.item()
 
 
 def shown(value) -> str:
@@ -93,6 +115,8 @@ def plain(value) -> str:
 def check_number(name, value, *, above=None, least=None, most=None, why=""):
     """Return `value` as a float, or raise an error that names what is allowed.
 
+    An array without dimensions counts as a number, if it is not labelled with a unit.
+
     Raises
     ------
     TypeError
@@ -100,6 +124,7 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
     ValueError
         If it is not finite or outside the bounds.
     """
+    value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} = {shown(value)}: must be a number")
     try:
@@ -123,6 +148,7 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
 
 def check_count(name, value, *, least=1, most=10**9, why=""):
     """Return `value` as an int, or raise TypeError or ValueError naming what is allowed."""
+    value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} = {shown(value)}: must be a whole number")
     if not least <= value <= most:

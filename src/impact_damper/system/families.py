@@ -6,6 +6,7 @@ import numpy as np
 
 from impact_damper.system.bounds import shown
 from impact_damper.system.checks import check_span
+from impact_damper.system.names import nearest
 from impact_damper.system.packed import DASHPOT, FORCE, UNBALANCE, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
@@ -58,7 +59,7 @@ def family_of(oscillator, damper, frequency, parameter, span):
     """
     pack(oscillator, damper, frequency)
     if not isinstance(parameter, str) or parameter not in PARAMETERS:
-        allowed = ", ".join(PARAMETERS)
+        allowed = ", ".join(PARAMETERS) + nearest(parameter, PARAMETERS)
         raise ValueError(f"parameter = {shown(parameter)}: must be one of {allowed}")
     owner = PARAMETERS[parameter]
     if owner is Damper and damper is None:

@@ -24,6 +24,7 @@ from impact_damper.system.bounds import (
     parameter,
     shown,
 )
+from impact_damper.system.names import names_arguments
 
 
 def check_oscillator(oscillator):
@@ -38,6 +39,7 @@ def check_damper(damper):
         raise TypeError(f"damper = {shown(damper)}: must be a Damper")
 
 
+@names_arguments
 @dataclass(frozen=True)
 class Oscillator:
     """Harmonically forced Duffing oscillator, equation (3) without the damper.
@@ -89,6 +91,7 @@ class Oscillator:
         return self.force + self.unbalance * frequency**2
 
 
+@names_arguments
 @dataclass(frozen=True)
 class Damper:
     """Loose mass in a gap, with spring and dashpot at its walls (figures 1 and 9).

@@ -11,8 +11,10 @@ from impact_damper.system.bounds import (
     check_number,
     shown,
 )
+from impact_damper.system.names import names_arguments
 
 
+@names_arguments
 @dataclass(frozen=True)
 class Settling:
     """How long motions are run to find out whether they settle on an orbit, and how accurately.

@@ -149,9 +149,12 @@ def _report_file_errors():
     def report(kind, error, trace):
         if not issubclass(kind, OSError):
             return show(kind, error, trace)
+        from impact_damper.data.whole_files import DELETE, BrokenFileError
+
+        advice = f": {DELETE}." if issubclass(kind, BrokenFileError) else ""
         for place in (terminal, sys.stderr):
             with suppress(OSError):
-                print(f"Error: {error}", file=place)
+                print(f"Error: {error}{advice}", file=place)
 
     sys.excepthook = report
 

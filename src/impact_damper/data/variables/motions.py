@@ -35,6 +35,7 @@ VARIABLES = {
     "state": Variable(
         ("component",), "state of the motion at the phase Omega T = pi/2", quantity="state"
     ),
+    "state_phase": Variable((), "phase Omega T at which states are given", units="radian"),
     "contact_wall": Variable(("contact",), "wall of a contact, -1 or 1"),
     "contact_begin": Variable(("contact",), "beginning of a contact", quantity="time"),
     "contact_end": Variable(("contact",), "end of a contact", quantity="time"),

@@ -1,7 +1,8 @@
 """Lines that report a problem of the configuration: the key, its value, and what it must be."""
 
-import difflib
 import reprlib
+
+from impact_damper.system.names import nearest
 
 
 def problem(path, value, reason) -> str:
@@ -22,12 +23,6 @@ def dotted(path) -> str:
 def one_of(name, known) -> str:
     """Return the text "must be one of ..." with all known names, and the one nearest to `name`."""
     return f"must be one of {', '.join(known)}{nearest(name, known)}"
-
-
-def nearest(name, known) -> str:
-    """Return the question "did you mean ...?" with the known name nearest to `name`, or ""."""
-    found = difflib.get_close_matches(name, known, 1) if isinstance(name, str) else []
-    return f"; did you mean {found[0]}?" if found else ""
 
 
 def _word(key):

@@ -3,7 +3,8 @@
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
-from impact_damper.workflow.models.messages import nearest, problem
+from impact_damper.system.names import nearest
+from impact_damper.workflow.models.messages import problem
 
 
 class Section(BaseModel):
