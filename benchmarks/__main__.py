@@ -7,6 +7,7 @@ from pathlib import Path
 from benchmarks import (
     chart,
     costs,
+    design,
     machine,
     overhead,
     ratios,
@@ -22,9 +23,11 @@ from impact_damper.figures.style import save_figure
 
 # How much of everything: in full, and to see that all of it runs.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
-        "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 10}  # fmt: skip
+        "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 10,
+        "design": {"frequencies": 41, "candidates": 12, "starts": 96}}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
-         "sizes": (1, 16), "shared": 256, "wide": 20, "random": 1}  # fmt: skip
+         "sizes": (1, 16), "shared": 256, "wide": 20, "random": 1,
+         "design": {"frequencies": 3, "candidates": 4, "starts": 16, "share": 0.8}}  # fmt: skip
 RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
 
 
@@ -74,6 +77,11 @@ def search(write, amount):
     write("searches", searches.table(systems, amount["wide"]))
 
 
+def time_designs(write, amount):
+    """Steps of designs."""
+    write("design", design.table(amount["design"]), how=design.HOW)
+
+
 PARTS = {
     "ratios": compare,
     "chart": draw_chart,
@@ -81,6 +89,7 @@ PARTS = {
     "scaling": scale,
     "start_up": start,
     "searches": search,
+    "design": time_designs,
 }
 
 

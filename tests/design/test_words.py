@@ -46,6 +46,13 @@ def test_a_large_motion_is_told_with_the_starts_that_lead_to_it():
     assert "the machine escapes over its barrier" in escaped
 
 
+def test_a_loose_mass_that_floats_is_told_with_the_room_that_it_has():
+    words = said(untouched_displacement=[np.nan, 3.1, 2.5, np.nan, np.nan])
+    assert "up to 3.1 mm to each side" in words
+    assert "within 0.4 mm of the middle of the gap touches no stop" in words
+    assert "floats" not in said()
+
+
 def test_without_a_quiet_gap_the_words_say_what_there_is_and_what_would_help():
     words = said("least_worst")
     assert "No gap is quiet over the whole band." in words

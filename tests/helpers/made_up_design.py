@@ -98,6 +98,7 @@ def _comparison(choice):
         "reached_quiet_share": np.ones(5),
         "reached_quiet_interval": np.tile([0.95, 1.0], (5, 1)),
         "reached_displacement": np.linspace(0.8, 0.4, 5),
+        "untouched_displacement": np.full(5, np.nan),
         "motion_rms": np.linspace(0.4, 0.2, 5),
         "motion_peak_mean": np.linspace(0.5, 0.3, 5),
         "motion_peak_high": np.linspace(0.7, 0.3, 5),

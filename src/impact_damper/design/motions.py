@@ -31,6 +31,9 @@ COSTS = {
 def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     """Return, for each frequency of the band, the largest motion that starts reach, and its costs.
 
+    Motions of the machine alone, in which the loose mass touches no wall, are kept apart unless
+    random starts lead to them: they need a loose mass that does not drift at all.
+
     Parameters
     ----------
     task : Task
@@ -47,7 +50,10 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     counts = np.where(quiet, response["share"].values, 0).sum(axis=1)
     total = response.sizes["start"]
     placed = response["origin"].values == flag("origin", "placed_start")
-    reached = (response["share"].values > 0) | placed
+    alone = response["outcome"].values == flag("outcome", "non_colliding")
+    by_chance = response["share"].values > 0
+    reached = by_chance | (placed & ~alone)
+    untouched = np.where(placed & alone & ~by_chance, sizes, -np.inf).max(axis=1)
     columns = np.argmax(np.where(reached, sizes, -np.inf), axis=1)
     states = from_si(response, task.machine)["state"].values
     rows = []
@@ -60,6 +66,7 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     values |= {
         "reached_quiet_share": counts / total,
         "reached_quiet_interval": wilson_intervals(counts, total),
+        "untouched_displacement": np.where(untouched > 0, untouched, np.nan),
     }
     return labelled(values, frequency=task.grid, side=SIDES)
 

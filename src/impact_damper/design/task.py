@@ -125,7 +125,7 @@ class Task:
         check_count("seed", self.seed, **SEED_RANGE)
         check_number("share", self.share, least=0.5, most=0.999)
         least = starts_needed(self.share)
-        why = f"a share of {self.share:g} at 95 % confidence needs so many, all quiet"
+        why = f"a share of {self.share:g} at 95 % confidence needs {least}, all quiet"
         check_count("starts", self.starts, least=least, most=10**5, why=why)
         check_count("frequencies", self.frequencies, least=3, most=10**4)
         check_count("candidates", self.candidates, least=4, most=1000)

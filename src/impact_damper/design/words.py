@@ -56,7 +56,7 @@ def conclusion(task, kind, data) -> list[str]:
     if kind == "least_worst":
         found.append(_help(task, data))
     else:
-        found += [_margins(data, gap), _lives(data), _amplitudes(data)]
+        found += [_untouched(data, gap), _margins(data, gap), _lives(data), _amplitudes(data)]
     found.append(_competition(data))
     return [sentence for sentence in found if sentence]
 
@@ -84,6 +84,20 @@ def _worst(kind, data):
         "All random starts ended quiet, but there is a larger motion, which slow changes of the "
         f"frequency or the force lead to, or starts on motions without the damper: in it the "
         f"machine {_moves(size)}."
+    )
+
+
+def _untouched(data, gap):
+    """Return the motion of the machine alone inside the gap, if there is one."""
+    sizes = data["untouched_displacement"].values
+    if not np.isfinite(sizes).any():
+        return ""
+    size = float(np.nanmax(sizes))
+    return (
+        f"The gap is wider than the vibration without the damper at some frequencies, up to "
+        f"{size:.3g} mm to each side: a loose mass that floats without any drift within "
+        f"{gap / 2 - size:.2g} mm of the middle of the gap touches no stop, and the machine then "
+        "moves as without the damper. No random start led there, and any drift ends it."
     )
 
 

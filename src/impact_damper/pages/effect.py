@@ -35,6 +35,7 @@ def section(data) -> Section:
             shown(data["motion_rms"].values[worst], "mm"),
             "motion_rms",
         ),
+        *_untouched(data, frequency),
         (
             "reduction: largest without over largest with it",
             f"{shown(bare[peak] / reached[worst])} times",
@@ -53,6 +54,18 @@ def section(data) -> Section:
         Picture("transients", transients.CAPTION),
     ]
     return Section("What it will do", [Numbers(rows), *pictures])
+
+
+def _untouched(data, frequency):
+    """Yield the largest motion of the machine in which the loose mass touches no wall, if any."""
+    sizes = data["untouched_displacement"].values
+    if np.isfinite(sizes).any():
+        k = int(np.nanargmax(sizes))
+        yield (
+            "not counted: largest displacement while the loose mass floats and touches no stop",
+            f"{shown(sizes[k], 'mm')} at {shown(frequency[k], 'Hz', 4)}",
+            "untouched_displacement",
+        )
 
 
 def _swept(data):

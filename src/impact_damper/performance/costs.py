@@ -67,7 +67,11 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
     Returns
     -------
     xarray.Dataset
-        In SI units, with the variables of `measured_costs` and of `pressure_costs`.
+        In SI units, with the variables of `measured_costs` and of `pressure_costs`. If the base
+        moves, `force_power` is the power of the force k y + c y' that spring and dashpot pass on
+        for the displacement y of the base, and `dashpot_power` the one of c on the machine's speed
+        in space. Their difference is right, the power that impacts lose; neither is by itself
+        that of the base's drive or of the dashpot, whose ends both move.
 
     Raises
     ------

@@ -239,6 +239,12 @@ VARIABLES = {
     "reached_displacement": Variable(
         ("frequency",), "largest displacement of a motion reached", quantity="displacement"
     ),
+    "untouched_displacement": Variable(
+        ("frequency",),
+        "largest displacement of a motion in which the loose mass floats and touches no wall and "
+        "that no random start reached",
+        quantity="displacement",
+    ),
     "reached_quiet_share": Variable(("frequency",), "share of random starts that end quiet"),
     "reached_quiet_interval": Variable(("frequency", "side"), "95 % interval of this share"),
     "impact_rate_by_frequency": Variable(("frequency",), "impacts per time", quantity="rate"),

@@ -1,0 +1,75 @@
+"""Seconds of the steps of a design, and the share of each, in one run."""
+
+import resource
+import tempfile
+import time
+from pathlib import Path
+
+import pandas as pd
+
+import impact_damper as idm
+
+SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005, "force": 40}
+# Machine, band (Hz) and loose mass (kg) of each design.
+DESIGNS = {
+    "linear": (SPRING, (20.3, 20.8), 0.6),
+    "hardening": (SPRING | {"cubic_stiffness": 4e9}, (26, 34), 0.6),
+}
+HOW = (
+    "Each step keeps its result in a file; its seconds are those between this file and the one "
+    "before. Other processes on the machine lengthen all steps alike, so that shares and the CPU "
+    "seconds of a whole design, also told below, depend less on them."
+)
+
+
+def cpu_seconds():
+    """Return the CPU seconds of this process so far."""
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    return used.ru_utime + used.ru_stime
+
+
+def steps_of(name, size, workers):
+    """Return the seconds of each step of a design, keyed by step, and the CPU seconds of all."""
+    machine, band, mass = DESIGNS[name]
+    with tempfile.TemporaryDirectory() as folder:
+        begin, used = time.time(), cpu_seconds()
+        idm.design_damper(
+            idm.Machine(**machine),
+            mass=mass,
+            band=band,
+            restitution=0.7,
+            contact_stiffness=2e7,
+            workers=workers,
+            folder=folder,
+            **size,
+        )
+        used = cpu_seconds() - used
+        ends = sorted((path.stat().st_mtime, path.stem) for path in Path(folder).glob("*.nc"))
+    seconds = {}
+    for end, step in ends:
+        seconds[step], begin = end - begin, end
+    return seconds, used
+
+
+def table(size, workers=2):
+    """Return the seconds and the share of each step of all designs.
+
+    Parameters
+    ----------
+    size : dict
+        `frequencies`, `candidates`, `starts` and `share` of `design_damper`.
+    workers : int
+        Threads.
+    """
+    steps_of("linear", {"frequencies": 3, "candidates": 4, "starts": 16, "share": 0.8}, 1)  # loads
+    rows = []
+    for name in DESIGNS:
+        seconds, used = steps_of(name, size, workers)
+        whole = sum(seconds.values())
+        print(f"  {name}: {whole:.1f} s, {used:.1f} CPU s", flush=True)
+        for step, value in seconds.items():
+            print(f"    {step}: {value:.2f} s, {value / whole:.0%}", flush=True)
+            rows.append({"design": name, "step": step, "seconds": value, "share": value / whole})
+        rows.append({"design": name, "step": "all", "seconds": whole, "share": 1.0})
+        rows.append({"design": name, "step": "all, CPU", "seconds": used, "share": used / whole})
+    return pd.DataFrame(rows)

@@ -1,0 +1,101 @@
+"""Samples and corners of tolerances, and whether starts agree with a claim."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+import impact_damper as idm
+from impact_damper.design.deviations import (
+    CORNERS,
+    FALSE_ALARM,
+    SAMPLES,
+    Cloud,
+    corner_factors,
+    promise,
+    sampled_factors,
+)
+from impact_damper.design.task import VARIED, Task
+
+TOLERANCES = {"gap": 0.2, "restitution": 0.1, "stiffness": 0.05, "damping": 0.5, "force": 0.3}
+TASK = Task(
+    machine=idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40),
+    mass=0.6,
+    band=(20.3, 20.8),
+    restitution=0.7,
+    contact_stiffness=2e7,
+    tolerances=TOLERANCES,
+)
+
+
+def test_samples_lie_within_the_tolerances_one_in_each_part_of_every_one():
+    factors = sampled_factors(TASK)
+    assert (factors[0] == 1).all() and len(factors) == SAMPLES + 1
+    for name, column in zip(VARIED, factors[1:].T, strict=True):
+        width = TOLERANCES.get(name, 0.0)
+        assert (abs(column - 1) <= width).all()
+        if width:
+            part = np.floor((column - 1 + width) / (2 * width) * SAMPLES)
+            assert sorted(part) == list(range(SAMPLES))
+
+
+def test_samples_are_those_of_the_seed():
+    assert (sampled_factors(TASK) == sampled_factors(TASK)).all()
+    assert (sampled_factors(TASK) != sampled_factors(replace(TASK, seed=7))).any()
+
+
+@pytest.mark.parametrize("count", [1, 2, 4, 5])
+def test_corners_are_distinct_and_off_by_the_whole_tolerance(count):
+    tolerances = dict(list(TOLERANCES.items())[:count])
+    factors = corner_factors(replace(TASK, tolerances=tolerances))
+    assert (factors[0] == 1).all()
+    assert len(np.unique(factors, axis=0)) == len(factors) == 1 + min(2**count, CORNERS)
+    for name, column in zip(VARIED, factors[1:].T, strict=True):
+        assert abs(column - 1) == pytest.approx(tolerances.get(name, 0.0))
+
+
+def test_a_restitution_stays_at_most_1():
+    task = replace(TASK, restitution=0.95)
+    for factors in (sampled_factors(task), corner_factors(task)):
+        assert factors[:, VARIED.index("restitution")].max() == pytest.approx(1 / 0.95)
+
+
+def test_without_tolerances_only_the_nominal_values_are_run():
+    task = replace(TASK, tolerances={})
+    assert sampled_factors(task).shape == corner_factors(task).shape == (1, len(VARIED))
+
+
+def cloud(least, starts=112, frequencies=9):
+    least = np.asarray(least, float)
+    share = np.stack([least, least, least], axis=-1)
+    return Cloud(np.ones((len(least), len(VARIED))), least, share, least, starts, frequencies)
+
+
+def test_a_claim_that_holds_is_rarely_taken_for_broken():
+    """With exactly the share claimed at every frequency, by the binomial distribution."""
+    made, claimed = cloud(np.ones(21)), 0.95
+    level = FALSE_ALARM / (made.frequencies * len(made.least))
+    refused = [k for k in range(made.starts + 1) if binom.cdf(k, made.starts, claimed) < level]
+    chance = binom.cdf(max(refused), made.starts, claimed)
+    assert 1 - (1 - chance) ** (made.frequencies * 21) <= FALSE_ALARM
+    worst = cloud(np.r_[np.ones(20), max(refused) / made.starts])
+    high = worst._replace(share=made.share)  # elsewhere in the band all starts are quiet
+    assert list(high.keeps(claimed)) == [True] * 20 + [False]
+    next_one = high._replace(least=np.r_[np.ones(20), (max(refused) + 1) / made.starts])
+    assert next_one.keeps(claimed).all()
+
+
+@pytest.mark.parametrize(
+    ("kind", "samples", "unseen", "told"),
+    [
+        ("robust", [1, 1], [1, 1], "robust_kept"),
+        ("robust", [1, 1], [1, 0.5], "broken"),
+        ("robust", [1, 0.5], [1, 0.5], "nominal_kept"),
+        ("robust", [1, 0.5], [0.5, 1], "broken"),
+        ("needs_tolerance", [1, 0.5], [1, 0.5], "nominal_kept"),
+        ("least_worst", [0.1, 0.1], [0.1, 0.1], "none_made"),
+    ],
+)
+def test_what_is_promised(kind, samples, unseen, told):
+    assert promise(TASK, kind, cloud(samples), cloud(unseen)) == told

@@ -1,0 +1,32 @@
+"""Pareto front of several dampers, against brute force."""
+
+import numpy as np
+import pytest
+
+from impact_damper.design.masses import is_best
+
+
+def brute_force(masses, costs):
+    """A damper is on the front unless another one is no worse in anything and better in one."""
+    rows = [(mass, *cost) for mass, cost in zip(masses, costs.tolist(), strict=True)]
+    rows = [[float("inf") if each != each else each for each in row] for row in rows]
+    return [
+        not any(
+            all(b <= a for a, b in zip(row, other, strict=True)) and other != row for other in rows
+        )
+        for row in rows
+    ]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_front_is_that_of_brute_force(seed):
+    generator = np.random.default_rng(seed)
+    masses = np.sort(generator.integers(1, 6, 9)) / 10  # with ties
+    costs = generator.integers(1, 5, (9, 2)).astype(float)
+    costs[generator.random((9, 2)) < 0.1] = np.nan
+    assert is_best(masses, costs).tolist() == brute_force(masses, costs)
+
+
+def test_an_escape_is_worse_than_any_number():
+    assert list(is_best([0.1, 0.2], np.array([[np.nan, np.nan], [1.0, 1.0]]))) == [True, True]
+    assert list(is_best([0.2, 0.1], np.array([[np.nan, np.nan], [1.0, 1.0]]))) == [False, True]

@@ -1,0 +1,76 @@
+"""Design tasks: bad ones are told in words before anything runs, and derived values."""
+
+import math
+
+import numpy as np
+import pytest
+
+import impact_damper as idm
+from impact_damper.design.task import Task
+
+SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
+LINEAR = idm.Machine(**SPRING, force=40)
+NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
+
+
+def task(**changed):
+    given = {"machine": LINEAR, "mass": 0.6, "band": (20.3, 20.8), "restitution": 0.7}
+    return Task(**given | {"contact_stiffness": 2e7} | changed)
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"band": (25, 30)}, r"band = 25 Hz to 30 Hz: .* resonance of the machine, at 20.55 Hz"),
+        ({"band": (21, 20)}, r"band = 21 Hz to 20 Hz: must ascend"),
+        ({"band": (20,)}, r"band = .*: must be least and greatest frequency"),
+        ({"mass": 0}, r"mass = 0 kg: must be at least"),
+        ({"mass": "13 kg"}, r"mass = '13 kg': .* at most 12 kg \(mass of the machine"),
+        ({"mass": "1 m"}, r"mass = '1 m': must be a number in kg"),
+        ({"tolerances": {"gap": 1.2}}, r"tolerances\['gap'\] = 1.2: .* at most 0.9"),
+        ({"tolerances": {"gap": "120 %"}}, r"tolerances\['gap'\] = '120 %': .* at most 0.9"),
+        ({"tolerances": {"play": 0.1}}, r"tolerances = 'play': must be of gap"),
+        (
+            {"tolerances": {"restitution": 0.855}, "restitution": 0.3},
+            r"restitution 0.3 may fall to 0.0435",
+        ),
+        ({"starts": 72}, r"starts = 72: must be from 73 .*share of 0.95 at 95 % confidence"),
+        ({"starts": 73, "share": 0.99}, r"starts = 73: must be from 381"),
+        ({"frequencies": 2}, r"frequencies = 2: must be from 3"),
+        ({"candidates": 3}, r"candidates = 3: must be from 4"),
+        ({"displacement_limit": 0}, r"displacement_limit = 0 m: must be greater than 0 m"),
+        ({"machine": idm.Machine(**SPRING, force=0)}, r"without excitation nothing is to"),
+    ],
+)
+def test_a_bad_task_is_told_in_words(changed, told):
+    with pytest.raises(ValueError, match=told):
+        task(**changed)
+
+
+def test_the_number_of_starts_is_the_least_for_the_confidence():
+    """By Wilson's formula: n successes in n trials have the lower end n/(n + 1.96^2)."""
+    for share in (0.8, 0.9, 0.95, 0.99):
+        least = next(n for n in range(1, 10**4) if n / (n + 1.959964**2) >= share)
+        assert task(share=share, starts=least).starts == least
+        with pytest.raises(ValueError, match="starts"):
+            task(share=share, starts=least - 1)
+
+
+def test_resonances_in_the_band_are_frequencies_of_the_grid():
+    grid = task(band=(19, 22), frequencies=9).grid
+    for mass in (12, 12.6):
+        frequency = math.sqrt(2e5 / mass) / (2 * math.pi)
+        assert np.abs(grid - frequency).min() < 1e-9
+    assert grid[0] == 19 and grid[-1] == 22 and len(grid) == 9
+
+
+def test_the_bare_machine_moves_as_its_closed_form_says():
+    made = task(frequencies=9)
+    r = made.grid / NATURAL
+    exact = 40 / 2e5 / np.hypot(1 - r**2, 2 * 0.005 * r)
+    assert made.bare == pytest.approx(1e3 * exact, rel=1e-6)
+    assert made.worst_frequency == pytest.approx(NATURAL)
+
+
+def test_at_the_gap_of_the_rule_the_force_moves_the_loose_mass_by_half_of_it():
+    assert task().rule_gap(20.5) == pytest.approx(2 * 40 / (0.6 * (2 * math.pi * 20.5) ** 2))

@@ -1,0 +1,109 @@
+"""Designs of a damper: the number of threads, interruptions, and what goes on from there."""
+
+import json
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+
+import impact_damper as idm
+from impact_damper.stages import machines
+
+MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
+SMALL = {
+    "mass": 1.2,
+    "band": (20.4, 20.7),
+    "restitution": 0.6,
+    "contact_stiffness": 2e7,
+    "tolerances": {"gap": 0.05},
+    "frequencies": 3,
+    "candidates": 4,
+    "starts": 16,
+    "share": 0.8,
+}
+STEPS = {
+    "screening",
+    "comparison",
+    "cliff",
+    "orbits",
+    "response",
+    "motions",
+    "tolerances",
+    "maps",
+    "masses",
+    "transients",
+    "competitors",
+}
+
+
+def design(**others):
+    return machines.design_damper(MACHINE, **SMALL | others)
+
+
+def kept(folder):
+    return {path.stem for path in folder.glob("*.nc")}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A design and the folder of its steps."""
+    folder = tmp_path_factory.mktemp("steps")
+    return design(folder=folder), folder
+
+
+def test_the_design_does_not_depend_on_the_number_of_threads(finished):
+    assert design(workers=2).identical(finished[0])
+
+
+def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
+    data, folder = finished
+    assert kept(folder) == STEPS
+
+    def computes(*_, **__):
+        raise AssertionError("a step was computed again")
+
+    for name in ("screen", "reached_motions", "alternatives", "absorber_responses", "ring_down"):
+        monkeypatch.setattr(machines, name, computes)
+    assert design(folder=folder).identical(data)
+
+
+def test_an_interrupted_design_goes_on_where_it_was(finished, tmp_path, monkeypatch):
+    def interrupt(*_, **__):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(machines, "alternatives", interrupt)
+        design(folder=tmp_path)
+    done = kept(tmp_path)
+    assert done == STEPS - {"masses", "transients", "competitors"}
+    times = {name: (tmp_path / f"{name}.nc").stat().st_mtime_ns for name in done}
+    assert design(folder=tmp_path).identical(finished[0])
+    assert times == {name: (tmp_path / f"{name}.nc").stat().st_mtime_ns for name in done}
+
+
+def test_ctrl_c_is_heard_while_motions_run(tmp_path):
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    presses = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    presses.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            # takes far longer than until the key is pressed
+            design(folder=tmp_path, frequencies=41, candidates=40, starts=500, workers=2)
+    finally:
+        presses.join()
+        signal.signal(signal.SIGINT, before)
+    assert kept(tmp_path) < STEPS
+
+
+def test_the_dataset_agrees_with_itself(finished):
+    """What is derived follows from what is stored beside it."""
+    data, _ = finished
+    gap, asked = float(data["design_gap"]), json.loads(data.attrs["parameters"])
+    assert data["candidate_gap"].min() <= gap <= data["candidate_gap"].max()
+    factors = data["corner_factor"].values
+    assert np.allclose(factors[1:, 0], [0.95, 1.05]) and (factors[0] == 1).all()
+    assert asked["mass"] == 1.2 and asked["band"] == [20.4, 20.7]
+    assert json.loads(data.attrs["machine"])["gap"] == pytest.approx(1e-3 * gap)
+    assert f"{gap:.3g} mm" in json.loads(data.attrs["conclusion"])[0]
