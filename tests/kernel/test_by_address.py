@@ -76,6 +76,8 @@ class Interrupt(event.Listener):
     def on_end(self, ended):
         pass
 
+# A shell that starts the tests in the background makes its processes ignore Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 event.register("numba:compile", Interrupt())
 try:
     import module_of_kernels

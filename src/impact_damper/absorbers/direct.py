@@ -1,9 +1,9 @@
 """The best absorber for a machine with a cubic spring at its own force, by direct search.
 
-No closed form is exact there, and without linear stiffness there is none. The search takes
-stiffness, damping and cubic stiffness with which the largest displacement over a band is least. The
-displacements are those of the balance of one harmonic, of all its solutions, stable or not: that is
-quick, and misses motions without a period, so that the absorber has to be judged by its exact
+For a cubic spring the closed forms are approximations, and without linear stiffness there is none.
+The search minimises the largest displacement over a band, by choice of stiffness, damping and cubic
+stiffness. It takes displacements from the balance of one harmonic, of all solutions, stable or not.
+This is quick but misses motions without a period, so that the absorber must be judged by its exact
 motions afterwards.
 """
 
@@ -24,19 +24,19 @@ from impact_damper.motions.smooth_runs import (
     LINK_STIFFNESS,
 )
 
-# Grid of the search: natural frequency of the absorber, from LOWEST of the lowest frequency of the
-# band to the highest; damping over 2 m w at the middle of the band; cubic stiffness over that of
-# `tuned_cubic`. A second grid has the exact absorber with each cubic stiffness. COARSE forcing
-# frequencies are tried there, FINE where the best are refined.
+# Grid of the search: natural frequency of the absorber, from LOWEST times the lowest frequency of
+# the band to its highest; ratio of the damping to 2 m w at the middle of the band; ratio of the
+# cubic stiffness to `tuned_cubic`. A second grid combines the exact absorber with each cubic
+# stiffness. Numbers of forcing frequencies: COARSE on the grids, FINE where their best are refined.
 TUNINGS, LOWEST = 16, 0.3
 DAMPINGS = np.geomspace(0.03, 0.5, 5)
 CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
 COARSE, FINE = 25, 45
 # With MARGIN times the machine's force the largest displacement may be up to MOST_RISE times as
-# large. If it is larger, a detached resonance lies so near that the balance of one harmonic, which
-# places it some per cent wrong, may miss it; then the larger displacement counts.
+# large. If it is larger, a detached resonance is near. The balance of one harmonic predicts the
+# force of its onset with an error of some per cent, so that then the larger displacement counts.
 MARGIN, MOST_RISE = 1.1, 1.3
-# Points of each grid that are refined, and tolerance of the logarithms.
+# Number of points of each grid that are refined, and tolerance of the logarithms of the unknowns.
 REFINED = 2
 TOLERANCE = 2e-3
 
@@ -98,7 +98,7 @@ def best_absorber(machine, mass, band) -> TunedAbsorber:
 
 
 def _unit(machine, mass, frequency):
-    """Return stiffness, damping and cubic stiffness in which the search counts, in SI units."""
+    """Return the units of stiffness, damping and cubic stiffness in the search, in SI units."""
     w = 2 * np.pi * frequency
     cubic = tuned_cubic(mass / machine.mass, machine.cubic_stiffness)
     return np.array([mass * w**2, 2 * mass * w, cubic])

@@ -135,14 +135,13 @@ def maxima(linear, tuning, band):
     linear : LinearMachine
     tuning : Tuning
     band : tuple of 2 floats
-        Lowest and highest r, the highest may be infinite. Its finite ends are among the places
-        returned.
+        Lowest and highest r; the highest may be infinite.
 
     Returns
     -------
     tuple of numpy.ndarray, shape (count,)
-        All stationary points within the band and its ends, by rising frequency; the largest of
-        them is the maximum.
+        All stationary points within the band and the finite ends of the band, by rising frequency.
+        The largest of these values is the maximum.
     """
     (mass, f, z), z1 = tuning, linear.damping_ratio
     width = min(math.sqrt(mass) + z1, 1.0)

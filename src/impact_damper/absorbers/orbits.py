@@ -7,14 +7,14 @@ import numpy as np
 from impact_damper.absorbers.problems import COARSE, FINE, active_size, steps_for
 from impact_damper.motions.smooth_runs import SIZE, run
 
-# Newton's method with coarse and then with fine steps: correction, relative to the largest state of
-# the orbit, that is the last; most corrections. A larger correction than FARTHEST ends it.
+# Newton's method, with coarse and then with fine steps. It stops after a correction below the share
+# LAST of the largest state of the orbit; it fails after a correction above the share FARTHEST.
 LAST = {COARSE: 1e-3, FINE: 1e-6}
 CORRECTIONS = {COARSE: 10, FINE: 4}
 FARTHEST = 10.0
 # Largest relative distance between the state and the state a period later.
 CLOSED = 1e-9
-# Two orbits are one if their states differ less, relative to the largest on the orbit.
+# Two orbits count as one if their states differ by less than this share of the largest state.
 SAME = 1e-5
 
 
@@ -32,8 +32,8 @@ class Orbits(NamedTuple):
     converged : numpy.ndarray of bool, shape (n,)
         Whether the orbit closes after its period.
     multipliers : numpy.ndarray of complex, shape (n, SIZE)
-        Floquet multipliers over the period, 0 in place of those of an absorber that is not there;
-        NaN where not converged, as the following.
+        Floquet multipliers over the period; without an absorber two of them are 0. NaN if Newton's
+        method has not converged, as `largest`.
     largest : numpy.ndarray, shape (n, SIZE)
         Largest modulus of each component of the state: exact for displacements, of samples for
         velocities.
@@ -104,7 +104,7 @@ def find_orbits(problems, index, guesses, period=1) -> Orbits:
 
 
 def _corrected(problems, state, active, steps, period, longest):
-    """Apply Newton's method to some states in place; return the indices of those with an end."""
+    """Apply Newton's method to states in place; return the indices of those that converged."""
     ended, size = [], active_size(problems)
     for _ in range(CORRECTIONS[longest]):
         miss, slopes, largest = _period_map(problems[active], state[active], steps[active], period)

@@ -9,9 +9,9 @@ from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.seeds import harmonic_seeds
 from impact_damper.motions.smooth_runs import FORCE
 
-# Frequencies between the neighbours of a peak of the grid, and times that they are drawn closer. At
-# a fold the peak is the last stable orbit before it. Peaks of the grid below LOWER of the highest
-# are left out.
+# Frequencies tried between the two neighbours of a peak of the grid, and how often the interval is
+# narrowed. At a fold the peak is the last stable orbit before it. Peaks of the grid below LOWER
+# times the highest peak are left out.
 POINTS = 9
 ROUNDS = 4
 LOWER = 0.7
@@ -74,20 +74,20 @@ def orbit_peaks(machine, absorber, frequencies, shares, orbits):
 
 
 def _grid_peaks(heights):
-    """Return rows and columns of the high local maxima of columns."""
+    """Return the rows and columns of local maxima along columns that are high enough (LOWER)."""
     around = np.pad(heights, ((1, 1), (0, 0)), constant_values=-np.inf)
     top = (heights >= around[:-2]) & (heights >= around[2:])
     return np.nonzero(top & np.isfinite(heights) & (heights >= LOWER * heights.max(axis=0)))
 
 
 def _beside(frequencies, places):
-    """Return the neighbours of frequencies in a grid, or themselves at the ends."""
+    """Return the neighbours of grid frequencies; the ends of the grid are their own neighbours."""
     last = len(frequencies) - 1
     return frequencies[np.maximum(places - 1, 0)], frequencies[np.minimum(places + 1, last)]
 
 
 def _refined(machine, absorber, frequencies, places, shares, orbits):
-    """Return frequencies and heights of the highest orbits beside some on a grid."""
+    """Return frequencies and heights of the highest orbits near given orbits of a grid."""
     first, last = low, high = _beside(frequencies, places)
     frequency, height, state = frequencies[places], orbits.largest[:, 0].copy(), orbits.state.copy()
     for _ in range(ROUNDS if len(places) else 0):

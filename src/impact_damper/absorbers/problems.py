@@ -1,7 +1,7 @@
 """Machines with and without an absorber at many frequencies and forces, as an array of parameters.
 
-A problem is a row of parameters of `smooth_runs`, whose equations count lengths in the scale of the
-machine and time in radian of the forcing.
+A problem is a row of parameters of `smooth_runs`. Lengths are in the scale of the machine, time is
+the phase of the forcing in radian.
 """
 
 import numpy as np
@@ -18,8 +18,8 @@ from impact_damper.motions.smooth_runs import (
     STIFFNESS,
 )
 
-# Longest step in radian of the fastest vibration: COARSE on the way to an orbit, FINE on it. Least
-# number of steps in a forcing period.
+# Longest step, as a phase (radian) of the fastest vibration: COARSE while an orbit is searched,
+# FINE for its last corrections. Least number of steps in a forcing period.
 COARSE, FINE = 0.7, 0.35
 LEAST_STEPS = 8
 
@@ -39,7 +39,7 @@ def problems_of(machine, absorber, frequencies, shares):
     Returns
     -------
     numpy.ndarray, shape (len(frequencies) len(shares), COUNT)
-        Those of frequency i and share j have the index i len(shares) + j.
+        The problem of frequency i and share j has the index i len(shares) + j.
     """
     scales = machine.scales
     w = np.repeat(scales.from_si(np.asarray(frequencies, float), "frequency"), len(shares))
@@ -62,17 +62,19 @@ def problems_of(machine, absorber, frequencies, shares):
 
 
 def active_size(problems) -> int:
-    """Return the number of components of a state that matter: 4, or 2 without an absorber."""
+    """Return the number of components of a state in use: 4, or 2 without an absorber."""
     return 4 if problems[:1, INVERSE_MASS].any() else 2
 
 
 def springs(problems):
-    """Return stiffness and cubic stiffness over moving mass, of the machine's spring and the link.
+    """Return stiffness and cubic stiffness of the machine's spring and of the absorber's spring.
+
+    Both are divided by the moving mass: the mass of the machine, or for the absorber's spring the
+    effective mass with which absorber and machine vibrate against each other.
 
     Returns
     -------
     tuple of pairs of numpy.ndarray, shape (n,)
-        Of the link as it vibrates against the machine.
     """
     share = 1 + problems[:, INVERSE_MASS]
     return (
@@ -84,8 +86,8 @@ def springs(problems):
 def steps_for(problems, states, longest):
     """Return the number of steps in a forcing period for each problem.
 
-    The fastest vibration is estimated from the stiffness of both springs at the displacements to
-    which the states swing without force and damping.
+    The fastest vibration is estimated from the stiffness of both springs at the displacements that
+    free vibrations from the states reach.
 
     Parameters
     ----------
@@ -99,7 +101,7 @@ def steps_for(problems, states, longest):
         x, v = states[:, place], states[:, place + 1]
         energy = v**2 / 2 + (stiffness / 2 + cubic / 4 * x**2) * x**2
         root = np.sqrt(np.maximum(stiffness**2 + 4 * cubic * energy, 0.0))
-        # with the swing X, X^2 = 4 energy/(stiffness + root)
+        # the displacement X reached is X^2 = 4 energy/(stiffness + root)
         fastest = fastest + stiffness + 3 * np.maximum(root - stiffness, 0.0)
     least = 2 * np.pi * np.sqrt(fastest) / longest
     return np.ceil(np.maximum(least, LEAST_STEPS)).astype(int)

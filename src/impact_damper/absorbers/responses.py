@@ -5,8 +5,8 @@ forcing amplitudes, each with its stiffness as designed and detuned:
 
     bare        the machine alone
     tuned       the absorber tuned exactly to the machine, with a linear spring
-    nonlinear   the same with the cubic spring that keeps the peaks equal
-    best        the absorber with the least largest displacement at the machine's own force
+    nonlinear   the tuned absorber with a cubic spring added that keeps the peaks equal
+    best        the absorber that minimises the largest displacement at the machine's own force
 """
 
 import json

@@ -1,9 +1,10 @@
 """All stable motions found over a grid of frequencies and forces, and where random starts end.
 
 Orbits come first from the balance of one harmonic (`seeds`), then from random starts that end near
-none of them (`settling`). An orbit that only a start led to is looked for at the neighbouring
-frequencies and forces too. Motions without a period come from random starts, from beside orbits
-that are unstable but for a fold, and from such motions at neighbouring frequencies and forces.
+none of these orbits (`settling`). An orbit that was found by a random start is looked for at the
+neighbouring frequencies and forces too. Motions without a period are found in runs from random
+starts, from states beside unstable orbits (`_without_period`), and from motions without a period
+that were found at neighbouring frequencies and forces.
 """
 
 from typing import NamedTuple
@@ -16,11 +17,11 @@ from impact_damper.absorbers.settling import ESCAPED, UNSETTLED, WANDERING, rand
 from impact_damper.data.datasets import flag
 from impact_damper.motions.smooth_runs import SIZE
 
-# Times that neighbours of new motions are searched.
+# Most rounds in which the neighbours of the motions that the last round found are searched.
 ROUNDS = 50
-# Factor by which a start lies beside an unstable orbit.
+# A start beside an unstable orbit is the state of the orbit times this factor.
 BESIDE = 1.01
-# Ratio of two displacements above which they count as that of one motion.
+# Two motions without a period count as one if the ratio of their displacements is above this.
 ALIKE = 0.95
 NEIGHBOURS = ((-1, 0), (1, 0), (0, -1), (0, 1))
 
@@ -62,7 +63,7 @@ def search(problems, shape, starts, seed, sizes=None):
     starts, seed : int
         Random starts of each problem, and their seed.
     sizes : numpy.ndarray, shape (number of shares, SIZE), optional
-        Components of motions that the starts shall exceed, for each force share.
+        Largest components of known motions for each force share; starts extend beyond them.
 
     Returns
     -------
@@ -70,14 +71,14 @@ def search(problems, shape, starts, seed, sizes=None):
     orbits : Orbits
         The stable orbits, as in `settling.Settled`.
     sizes : numpy.ndarray, shape (number of shares, SIZE)
-        Largest components of the orbits for each force share, and of `sizes`.
+        For each force share the largest components of the orbits and of the given `sizes`.
     """
     found = find_orbits(problems, *harmonic_seeds(problems))
     known = _stable(found)
     most = np.zeros((shape[1], SIZE)) if sizes is None else sizes.copy()
     np.maximum.at(most, known.problem % shape[1], known.largest)
     wide = most.copy()
-    # an absorber may be as far from the machine as this is from its rest
+    # the absorber may be as far from the machine as the machine is from its rest
     wide[:, 2:] = np.maximum(wide[:, 2:], wide[:, :2])
     wide = np.tile(wide, (shape[0], 1))
     problem = np.repeat(np.arange(len(problems)), starts)
@@ -91,9 +92,9 @@ def search(problems, shape, starts, seed, sizes=None):
 
 
 def _without_period(orbits) -> Orbits:
-    """Return orbits beside which a motion may wander: a torus, or of twice the period.
+    """Return the unstable orbits beside which motions without a period are looked for.
 
-    The largest multiplier is complex or negative.
+    Their largest multiplier is complex (a torus lies beside) or negative (a doubled period).
     """
     orbits = orbits.take(orbits.converged & ~orbits.stable).distinct()
     place = np.abs(orbits.multipliers).argmax(axis=1)
@@ -106,7 +107,7 @@ def _stable(orbits) -> Orbits:
 
 
 def _neighbours(index, shape):
-    """Return the neighbours of problems in the grid, and the place in `index` each belongs to."""
+    """Return the grid neighbours of problems, and for each the place in `index` of its problem."""
     frequency, force = np.unravel_index(index, shape)
     there = [(frequency + i, force + j) for i, j in NEIGHBOURS]
     frequency, force = np.concatenate(there, axis=1)
@@ -116,7 +117,7 @@ def _neighbours(index, shape):
 
 
 def _with_neighbours(problems, orbits, first, shape):
-    """Return orbits with those found from orbits from index `first` on at neighbouring problems."""
+    """Return orbits, extended by following those from index `first` on to neighbouring problems."""
     for _ in range(ROUNDS):
         new = orbits.take(slice(first, None))
         first = len(orbits.problem)
@@ -131,7 +132,7 @@ def _with_neighbours(problems, orbits, first, shape):
 
 
 def _with_wandering(problems, ends, shape, sizes):
-    """Return ends of runs with those of runs from motions without a period at neighbours."""
+    """Return ends of runs, extended by runs from motions without a period at neighbours."""
     tried = np.zeros(len(problems), bool)
     first = 0
     for _ in range(ROUNDS):
@@ -150,7 +151,7 @@ def _with_wandering(problems, ends, shape, sizes):
 
 
 def _summary(ends, count, starts) -> Search:
-    """Return the values of each problem; shares are those of the first `starts` of each."""
+    """Return the values of each problem; shares count the first `starts` runs of each problem."""
     orbits = ends.orbits
     displacement = orbits.largest[:, 0]
     settled, wandering = ends.orbit >= 0, ends.orbit == WANDERING
@@ -163,7 +164,7 @@ def _summary(ends, count, starts) -> Search:
         np.minimum.at(least, problem, sizes)
     reached = ends.displacement.copy()
     reached[settled] = displacement[ends.orbit[settled]]
-    # runs on one motion without a period differ in what they reach
+    # several runs on one motion without a period reach somewhat different displacements
     worst = reached >= ALIKE * most[ends.problem]
 
     def share(mask):

@@ -1,13 +1,14 @@
 """Approximate periodic motions, as starts of Newton's method: balance of one harmonic.
 
-With u = U cos(T + phase) the force in the absorber's spring and dashpot is known, from it the
-motion x of the machine, and from it the force f that the motion needs: an explicit function of U,
-however many motions there are at a force. In q = U^2 it is
+A given motion u = U cos(T + phase) of the machine relative to the absorber determines the force in
+the absorber's spring and dashpot, this the motion x of the machine, and this the external force f
+that the motion needs. So f is an explicit function of U, even if several motions belong to one f.
+With q = U^2 it is
 
     f^2 = q |P(q)|^2,    P = A (c0 + c1 q) + h0 + h1 q,    A = k - 1 + i h + (3/4) k3 |x|^2
     x = U (c0 + c1 q),   c0 = 1 - h0/m,   c1 = -h1/m,   h0 = kappa + i eta,   h1 = (3/4) kappa3
 
-so that all motions of one harmonic, detached resonances too, are roots of a polynomial of degree 9.
+Hence all motions of one harmonic, detached resonances too, are roots of a polynomial of degree 9.
 Without an absorber x takes the place of u, with c0 = 1 and c1 = h0 = h1 = 0.
 """
 
@@ -25,9 +26,9 @@ from impact_damper.motions.smooth_runs import (
     STIFFNESS,
 )
 
-# Largest imaginary part of a root 1/q, relative to its real part: REAL allows for rounding. Near a
-# fold the roots of one harmonic may just have left the real axis where the exact motions still
-# exist, so that seeds come from NEARLY_REAL ones too.
+# Largest imaginary part of a root 1/q, relative to its real part. REAL allows for rounding. Near a
+# fold the exact motions may exist where two roots of the balance have just become complex; seeds
+# therefore come from all roots within NEARLY_REAL.
 REAL, NEARLY_REAL = 1e-5, 0.1
 
 

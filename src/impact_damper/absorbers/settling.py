@@ -9,27 +9,28 @@ from impact_damper.absorbers.orbits import Orbits, find_orbits
 from impact_damper.absorbers.problems import COARSE, FINE, active_size, springs, steps_for
 from impact_damper.motions.smooth_runs import DAMPING, SIZE, run
 
-# Random starts: ratio of the largest to the largest known motion, and of the smallest to the
-# largest.
+# Random starts: size of the largest start over the largest known motion, and of the smallest start
+# over the largest.
 SPREAD, SMALLEST = 3.0, 0.01
-# Forcing periods between two looks at where the runs are: a multiple of PERIODS, the periods in
-# which Newton's method looks for orbits. It does so after the share SEARCHED of all looks, from the
-# runs that are near no known orbit.
+# The runs are inspected every STRETCH forcing periods, a multiple of each of PERIODS. At the share
+# SEARCHED of all inspections Newton's method looks for orbits of the periods PERIODS, from the
+# states of the runs that are near no known orbit.
 STRETCH = 12
 PERIODS = (1, 2, 3)
 SEARCHED = 0.75
-# A run has reached an orbit when it is nearer, relative to the orbit. Orbits smaller than SMALL,
-# relative to the largest known motion under the same force, count as large as that.
+# A run has reached an orbit when its distance, divided by the size of the orbit, is below this.
+# This size is taken at least as SMALL times the largest known motion under the same force.
 NEAR, SMALL = 0.02, 0.1
-# A run is near no orbit for long when a linear vibration of the machine alone would have decayed by
-# exp(-DECAY), and at most after LONGEST looks. Then it is watched for further looks. It approaches
-# an orbit if its mean distance falls from each quarter of them to the next, in all below FALLEN;
-# and it is not settled if its largest displacement does.
+# A run that is still near no orbit after a linear vibration of the machine alone would have decayed
+# by exp(-DECAY), or after LONGEST inspections, is watched for WATCHED further ones. If its mean
+# distance from an orbit falls from each quarter of these to the next, in all below the share
+# FALLEN, it approaches this orbit. Otherwise, if its largest displacement falls in this way, it is
+# unsettled.
 DECAY, LONGEST = 9.0, 40
 WATCHED, FALLEN = 20, 0.95
-# Beyond this number of times the largest motions a run has escaped.
+# A run has escaped when it exceeds the largest known motion by this factor.
 OUTSIDE = 100.0
-# Ends of runs that are no indices of orbits. A run that is wandering keeps its size.
+# Ends of runs on no orbit, in place of the index of an orbit. WANDERING: a motion without a period.
 WANDERING, ESCAPED, UNSETTLED = -1, -2, -3
 
 
@@ -39,16 +40,16 @@ class Settled(NamedTuple):
     Attributes
     ----------
     orbits : Orbits
-        The known orbits and those that starts led to; one with a period of n forcing periods occurs
-        n times, with each of its n states at T = 0.
+        The known orbits and those that starts led to. An orbit with a period of n forcing periods
+        occurs n times, once for each of its states at the beginning of a forcing period.
     problem : numpy.ndarray of int, shape (n,)
         Problem of each start.
     orbit : numpy.ndarray of int, shape (n,)
         Index of the orbit on which it ends, or one of WANDERING, ESCAPED and UNSETTLED.
     displacement : numpy.ndarray, shape (n,)
-        Largest |x| of a run that is wandering, while it is watched; else NaN.
+        Largest |x| of a WANDERING run while it was watched; NaN for other runs.
     state : numpy.ndarray, shape (n, SIZE)
-        State at T = 0 when the run was last looked at.
+        Last state of the run at the beginning of a forcing period.
     """
 
     orbits: Orbits
@@ -128,13 +129,16 @@ def settle(problems, orbits, problem, starts, sizes) -> Settled:
         problems, orbits, problem[active], state[active], sizes
     )
     if active_size(problems) < SIZE and needed > looks:
-        # beats of a free vibration that has not yet decayed look like a motion of their own
+        # beats of a free vibration that has not yet decayed look like a motion without a period
         end[end == WANDERING] = UNSETTLED
     return Settled(orbits, problem, end, displacement, state)
 
 
 def _watch(problems, orbits, problem, state, sizes):
-    """Return ends of runs that were long near no orbit, largest |x| of those wandering, states."""
+    """Watch runs that were long near no orbit.
+
+    Return their ends, the largest |x| of the wandering ones, and their last states.
+    """
     distances, displacements = [], []
     for _ in range(WATCHED):
         state, largest = _run(problems[problem], state, COARSE, STRETCH)
@@ -164,7 +168,7 @@ def _run(problems, state, longest, periods):
 
 
 def _candidates(orbits, problem):
-    """Return the indices of the orbits of each problem, shape (count, n); -1 fills up."""
+    """Return the indices of the orbits of each problem, shape (count, n), padded with -1."""
     counts = np.bincount(orbits.problem, minlength=problem.max(initial=-1) + 1)
     order = np.argsort(orbits.problem, kind="stable")
     table = np.full((max(counts.max(initial=0), 1), len(counts)), -1)
@@ -192,9 +196,9 @@ def _nearest(orbits, problem, state, sizes):
 
 
 def _with_new(problems, orbits, problem, state, sizes):
-    """Return orbits with the stable ones to which Newton's method leads from states of runs.
+    """Return orbits, extended by the stable ones that Newton's method finds from states of runs.
 
-    A run from which an orbit of a short period is found is not asked for longer ones.
+    If an orbit of a short period is found from a run, longer periods are not tried from it.
     """
     for period in PERIODS:
         far = np.flatnonzero(_nearest(orbits, problem, state, sizes) == UNSETTLED)
@@ -209,7 +213,7 @@ def _with_new(problems, orbits, problem, state, sizes):
 
 
 def _all_phases(problems, orbits):
-    """Return orbits together with those from their states a forcing period later, and so on."""
+    """Return each orbit once for each of its states at the beginning of a forcing period."""
     found, state = orbits, orbits.state
     for _ in range(1, orbits.period.max(initial=1)):
         state, _ = _run(problems[orbits.problem], state, FINE, 1)

@@ -1,7 +1,7 @@
 """Ways to tune an absorber of given mass to a machine.
 
-`exact_absorber` is the H-infinity optimum for the machine as it is: with its own damping, its own
-kind of excitation, and if wanted in a band of frequencies alone. `den_hartog_absorber` and
+`exact_absorber` is the H-infinity optimum for the given machine, with its damping and its kind of
+excitation, over all frequencies or a band. `den_hartog_absorber` and
 `undamped_optimum` are closed forms for an undamped machine under a force. `nonlinear_absorber` adds
 the cubic spring that keeps the peaks of a machine with a cubic spring equal. All need a linear
 stiffness of the machine: without one it has no natural frequency to tune to.
@@ -19,10 +19,10 @@ from impact_damper.literature.nonlinear_absorber import tuned_cubic
 from impact_damper.literature.tuned_mass_damper import Tuning, den_hartog, exact_optimum
 from impact_damper.system.bounds import shown
 
-# Grid on which the optimum is looked for before it is refined. Tunings are those of the closed form
-# changed by factors, of which the smallest is NARROW of the width of the resonance, and in a band
-# also places in it; damping ratios are those of the closed form changed by DAMPINGS, in a band also
-# BAND_DAMPINGS.
+# Grid on which the optimum is looked for before it is refined. Tunings: the tuning of the closed
+# form and STEPS tunings on either side, the nearest at NARROW times the width of the resonance, the
+# last at WIDE; with a band also PLACES frequencies in it. Damping ratios: the closed form's times
+# DAMPINGS, and with a band also BAND_DAMPINGS.
 STEPS, NARROW, WIDE = 10, 0.1, 0.4
 DAMPINGS = np.geomspace(0.3, 10, 12)
 PLACES = 9

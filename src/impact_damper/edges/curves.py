@@ -14,13 +14,14 @@ from impact_damper.edges.problem import KINDS, ROUNDING, Problem, concerned
 from impact_damper.orbits.shooting import Orbit
 from impact_damper.system.bounds import shown
 
-# Steps, and by how much they grow. At the shortest step the cause of failure ends the edge. Lengths
-# are those of the unknowns (`problem.Problem`).
+# First, shortest and longest step, and growth. If the shortest step fails, the edge ends, and the
+# cause of the failure is stored. Lengths are distances of the unknowns (`problem.Problem`).
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GROWTH = 0.01, 0.05, 1e-5, 1.4
-# Least cosine between tangents, and largest correction as a share of the step.
+# A step is accepted if the cosine between the tangents at its ends is at least STRAIGHT, and the
+# correction of its end at most the share ASIDE of its length.
 STRAIGHT, ASIDE = 0.95, 0.3
 MOST_POINTS = 400
-# Distance from a point, as a share of the spans, at which an edge is taken to hold the point.
+# An edge counts as passing through a point at this distance, as a share of the spans.
 NEAR = 2e-3
 
 
@@ -71,7 +72,7 @@ class Edge:
         return bool(np.any((along >= 0) & (along <= 1)))
 
     def holds(self, point) -> bool:
-        """Return whether the edge passes a pair of scaled parameters, within NEAR."""
+        """Return whether the edge passes a pair of scaled parameters at a distance below NEAR."""
         begins, steps = self.shares[:-1], np.diff(self.shares, axis=0)
         sizes = np.sum(steps**2, axis=1)
         along = np.sum((point - begins) * steps, axis=1) / np.where(sizes > 0, sizes, 1.0)
@@ -135,8 +136,8 @@ def check_start(orbit, values, spans):
 def point_near(family, kind, orbit, values, spans, border=None):
     """Return the problem of an edge and a point of it near an orbit, or None for the point.
 
-    Arguments as of `follow_edge`, and `border` as of `Problem.correct`: without it the point is the
-    nearest. The point may have a `Problem.fault`.
+    Arguments as in `follow_edge`; `border` as in `Problem.correct`, without it the nearest point of
+    the edge is taken. The point may have a `Problem.fault`.
     """
     scale, contacts = np.max(np.abs(orbit.state)), len(orbit.contacts) // 2
     problem = Problem(family, kind, spans, scale, contacts, orbit.phase)
@@ -168,7 +169,7 @@ def edge_through(problem, first) -> Edge:
 
 
 def _walk(problem, first):
-    """Return the points of an edge from the first along its tangent, and why it ends."""
+    """Return the points of an edge from the first along its tangent, and why it ends there."""
     points, length, last = [first], FIRST_STEP, first
     while len(points) < MOST_POINTS:
         ahead, fault = _step(problem, last, length)
@@ -194,7 +195,7 @@ def _walk(problem, first):
 
 
 def _step(problem, point, length):
-    """Return the point a step ahead, and why it fails or ends the edge, or ""."""
+    """Return the point one step ahead, and why the step fails or ends the edge, or ""."""
     x, border = point.x + length * point.tangent, point.tangent
     ahead = problem.correct(x, border) if _inside(x) else None
     reason = ""
@@ -214,7 +215,7 @@ def _step(problem, point, length):
 
 
 def _to_border(inner, outer):
-    """Return where the way between unknowns leaves the range, and the unit vector normal to it."""
+    """Return where the line between two points leaves the range, and the normal of the border."""
     change = outer - inner
     bounds = np.where(change[4:] > 0, 1.0, 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -32,14 +32,14 @@ from impact_damper.system.packed import CLEARANCE
 # Newton's method: number of corrections, and largest distance from the prediction as a share of the
 # largest number of the state.
 ITERATIONS, REACH = 8, 0.1
-# Cells near the first orbit to which it is followed in turn, until one is reached.
+# Number of cells near the first orbit that are tried, until it can be followed to one of them.
 STARTS = 4
 # Shortest step between cells, as a share of their distance.
 SHORTEST = 1 / 64
 # Bisections between two cells with a change of sign, until Newton's method finds the edge.
 BISECTIONS = 6
-# An orbit ends by a new contact if, where it ends, the loose mass turns so close to a wall, as a
-# share of the clearance: there the branch turns too sharply to be followed.
+# If in the last orbit that was reached the loose mass turns closer to a wall than this share of the
+# clearance, the orbit ends by a new contact: there the branch turns too sharply to be followed.
 TOUCHING = 0.05
 
 
@@ -96,7 +96,7 @@ class Place(NamedTuple):
 def map_edges(family, orbit, values, axes) -> EdgeMap:
     """Find the edges of a symmetric orbit of period 1 in a rectangle of two parameters.
 
-    Edges are found where the grid shows them; one that passes unseen between its cells is left out.
+    An edge is missed if no two neighbouring cells of the grid lie on different sides of it.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def map_edges(family, orbit, values, axes) -> EdgeMap:
 
 
 class _Grid(Grid):
-    """A grid of which each cell holds a `Place`, and neighbours are reached by tangents.
+    """A grid with a `Place` in each cell; from cell to cell orbits are followed by tangents.
 
     Attributes
     ----------
@@ -157,8 +157,8 @@ class _Grid(Grid):
     contacts : int
         Contacts in half a period.
     failed : list
-        Where the orbit ends on the way from a cell to its neighbour: kind of edge that must lie
-        beyond, cell, neighbour, and last place.
+        One entry for each orbit that ends on the way from a cell to its neighbour: kind of the edge
+        that must lie there, cell, neighbour, and last place.
     """
 
     def __init__(self, family, spans, axes, contacts):
@@ -219,7 +219,7 @@ class _Grid(Grid):
         ]
 
     def locate(self, kind, first, beyond):
-        """Find a point of an edge between a place and the scaled parameters of the one beyond.
+        """Find a point of an edge between a place and the scaled parameters of the next place.
 
         Returns problem and point, or None, and whether the edge was missed. A torus test that
         changes its sign by two real multipliers is no edge and not missed.
@@ -261,7 +261,7 @@ class _Grid(Grid):
         return Followed((0.0, share), (start, here), end, share == 1)
 
     def _step(self, here, shares):
-        """Return the place at scaled parameters close to those of another, or the end met."""
+        """Return the place at scaled parameters near those of `here`, or the kind of edge met."""
         p = self.family(*self.values(shares))
         guess = here.orbit.state + here.slopes @ (shares - here.shares)
         orbit = _corrected(p, guess, here.orbit.phase)

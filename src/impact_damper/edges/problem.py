@@ -7,12 +7,12 @@ with a change of sign, and its multipliers mu, the test functions are
     symmetry_breaking    det(R + 1), zero for mu = -1
     neimark_sacker       the product of mu_i mu_j - 1 over pairs, zero for a conjugate pair of
                          modulus 1; it is det(C - 1) with the matrix C of the 2-by-2 minors of R
-    grazing              distance by which the loose mass reaches over a wall at the turn of its
-                         motion that comes next to a contact, zero where a contact begins to exist
+    grazing              distance of the loose mass beyond a wall at the turn of its motion that is
+                         next to become a contact; zero where this contact begins to exist
 
 All are smooth, also where multipliers meet. The unknowns are the state and both parameters. The
-derivatives of map and test function are exact (`variations`), except for that of the packed
-parameters by the two parameters.
+derivatives of map and test function are exact (`variations`), except for the derivative of the
+packed parameters with respect to the two parameters, which is a difference.
 """
 
 from collections.abc import Callable
@@ -30,15 +30,16 @@ from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 FOLD, SYMMETRY, TORUS, GRAZING = "fold", "symmetry_breaking", "neimark_sacker", "grazing"
 KINDS = (FOLD, SYMMETRY, TORUS, GRAZING)
 PAIRS = np.array(list(combinations(range(4), 2))).T
-# Change of a scaled parameter in the difference of packed parameters.
+# Change of a scaled parameter for this difference.
 NUDGE = 1e-5
-# Newton's method: most corrections, and the largest of them. It has converged once a correction is
-# below CLOSE, or below ROUNDING and not much smaller than the one before. A correction is slow if
-# it is larger than the share SLOW of the one before.
+# Newton's method: largest number of corrections, and largest size of one. It has converged once a
+# correction is below CLOSE, or below ROUNDING and slow. A correction is slow if it is larger than
+# the share SLOW of the correction before.
 NEWTON, LARGEST, CLOSE, ROUNDING, SLOW = 14, 0.2, 1e-12, 1e-9, 0.1
 # A multiplier is complex if its imaginary part exceeds this.
 COMPLEX = 1e-6
-# An edge is left where another multiplier of the root is larger: it bounds no stable orbit there.
+# An edge ends where a multiplier that its kind does not concern exceeds this: the orbits on both
+# sides are unstable there.
 UNSTABLE = 3.0
 
 
@@ -91,10 +92,11 @@ def _shifted(kind, root):
 
 
 def _reach(path, contacts):
-    """Return by how much Z2 passes a wall at the turn that comes next to the `contacts` deepest.
+    """Return the distance of the loose mass beyond a wall at the first turn that is no contact.
 
-    Also the weights, shape (N,), of the values at the points of the path for those at this turn,
-    and the wall. Without such a turn the distance is that of no motion, minus the clearance.
+    Turns are sorted by this distance, and the deepest `contacts` turns are contacts. Also returned
+    are the weights, shape (N,), with which values at the points of the path give the value at this
+    turn, and the wall. Without such a turn the distance is minus the clearance.
     """
     steps, sizes, weights = path.turns(1)
     at_points = np.zeros((len(path.sides), weights.shape[1]))
@@ -214,8 +216,8 @@ class Problem:
     def correct(self, x, border=None):
         """Return the point that Newton's method reaches, at right angles to `border`, or None.
 
-        Without a border corrections are the shortest ones. The derivative is computed again only
-        where corrections shrink slowly.
+        Without a border the shortest corrections are taken. The derivative is computed again only
+        if corrections shrink slowly.
         """
         rows, last, slow = None, np.inf, False
         for _ in range(NEWTON):
@@ -242,7 +244,7 @@ class Problem:
         return None
 
     def fault(self, point):
-        """Return why a point is not one of the edge, a reason of `Edge.ends`, or ""."""
+        """Return why a point does not belong to the edge, a reason of `Edge.ends`, or ""."""
         begun = np.count_nonzero(point.path.events[2] > 0)
         if begun != self.contacts and not (self.kind == GRAZING and begun == self.contacts + 1):
             return "contacts_change"

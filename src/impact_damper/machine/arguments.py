@@ -20,8 +20,8 @@ NOTE = """
 With a `Machine` in place of the oscillator, and a `MachineDamper` in place of the damper, all
 arguments and the result are in SI units: see `Machine`.
 """
-# Numbers in errors and warnings of the dimensionless functions: for each name that for a machine
-# and its quantity. Mass ratios stay ratios.
+# Names of numbers in errors and warnings of the dimensionless functions, each with its name for a
+# machine and its quantity. Mass ratios stay ratios.
 TOLD = {inner: (name, kind) for name, (inner, kind) in FOLLOWED.items() if inner != "mass_ratio"}
 TOLD |= {
     "frequencies": ("frequencies", "frequency"),
@@ -69,7 +69,7 @@ def _called(function, machine, given):
     arguments = dict(given)
     damper = arguments.get("damper")
     parameter = arguments.get("parameter", "frequency")
-    # Where the frequency varies, the force is needed at all of them.
+    # If several frequencies are given, the force must hold for all of them.
     fixed = "frequency" in arguments and not ("span" in arguments and parameter == "frequency")
     single = machine.check_frequency("frequency", arguments["frequency"]) if fixed else None
     arguments["oscillator"] = machine.oscillator(single)
@@ -132,7 +132,7 @@ def _span(machine, parameter, span):
 
 
 def _each(name, values, convert):
-    """Return a converted number, or a list of those in a sequence, each named by its place."""
+    """Return a converted number, or those of a sequence; errors name the place in the sequence."""
     if np.ndim(getattr(values, "magnitude", values)) == 0:
         return convert(name, values)
     return [convert(f"{name}[{place}]", value) for place, value in enumerate(values)]

@@ -66,8 +66,8 @@ class MachineDamper:
     def check_for(self, machine):
         """Raise ValueError, with what is allowed in SI units, if a machine cannot have the damper.
 
-        The gap must be larger than the static play: what the contact gives way on both sides under
-        the force with which the loose mass follows the machine at its static deflection.
+        The gap must be larger than the static play: the compression of the contacts on both sides
+        by the force that accelerates the loose mass with the machine at its static deflection.
         """
         scales = machine.scales
         clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")
@@ -79,7 +79,7 @@ class MachineDamper:
             check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
             share = self.mass / (machine.mass + self.mass)
             play = 2 * share * machine.static_force / self.contact_stiffness
-            why = "static play: what the contact gives way on both sides"
+            why = "static play: compression of the contacts on both sides"
             check_si("gap", self.gap, "clearance", above=play, why=why)
 
     def scaled(self, scales) -> Damper:

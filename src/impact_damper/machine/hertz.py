@@ -1,7 +1,7 @@
 """Contact of curved elastic bodies after Hertz: F = (4/3) E* sqrt(R) q^(3/2).
 
-Here q is the approach of the bodies, 1/E* the sum of (1 - nu^2)/E of both and 1/R that of their
-curvatures (K. L. Johnson, Contact Mechanics, 1985, sections 4.2 and 11.4).
+Here q is the approach of the bodies, 1/E* the sum of (1 - nu^2)/E over both bodies, and 1/R the sum
+of their curvatures (K. L. Johnson, Contact Mechanics, 1985, sections 4.2 and 11.4).
 """
 
 import math
@@ -132,8 +132,8 @@ class HertzContact:
         Returns
         -------
         str
-            "yes" if p0 is at least YIELD times the yield strength of a material, "unknown" if not
-            and the yield strength of a material is not given, "no" otherwise.
+            "yes" if p0 is at least YIELD times the yield strength of one material; else "unknown"
+            if a yield strength is not given; else "no".
         """
         strengths = [each.yield_strength for each in (self.loose, self.wall)]
         if any(each is not None and pressure >= YIELD * each for each in strengths):

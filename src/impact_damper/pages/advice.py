@@ -12,16 +12,14 @@ ADVICE = {
 VERDICTS = {
     "none_made": "Nothing is promised.",
     "nominal_kept": (
-        "Starts that the design had not seen kept to what is promised at the nominal values. "
+        "In a check with new random starts the promise held at the nominal values. "
         "Nothing is promised for other values."
     ),
     "robust_kept": (
-        "Starts that the design had not seen kept to what is promised, at the nominal values and "
-        "at the corners of the tolerances."
+        "In a check with new random starts the promise held, at the nominal values and at the "
+        "corners of the tolerances."
     ),
-    "broken": (
-        "Starts that the design had not seen did NOT keep to what is promised: do not rely on it."
-    ),
+    "broken": ("In a check with new random starts the promise did NOT hold: do not rely on it."),
 }
 
 
@@ -37,6 +35,6 @@ def advice(data) -> str:
 
 
 def reasons(data) -> list[str]:
-    """Return the conclusion of the design in sentences, and what the check of its promise said."""
+    """Return the conclusion of the design, and the outcome of the check of its promise."""
     first, *others = json.loads(data.attrs["conclusion"])
     return [first, VERDICTS[named(data, "promise")], *others]

@@ -20,7 +20,7 @@ ABSORBERS = ("tuned", "nonlinear", "best")
 HEAD = (
     "Everything here has the same added mass. The tuned absorber has the stiffness and damping "
     "that make the largest displacement of a linear machine least; the nonlinear one has a cubic "
-    "spring beside; the optimised one has all three found by a search for this machine. "
+    "spring in addition; the optimised one has all three from a search for this machine. "
     "Displacements are the largest of any motion found: the absorbers' by exact "
     "periodic motions and checked by random starts, this damper's by random starts and ramps of "
     "frequency."

@@ -56,7 +56,7 @@ def section(data) -> Section:
 
 
 def _meaning(data, asked):
-    """Return what a share of quiet starts is."""
+    """Return the paragraph that defines a share of quiet starts."""
     limit = float(data["displacement_limit"])
     return MEANING.format(
         share=percent(asked["share"]),
@@ -66,7 +66,7 @@ def _meaning(data, asked):
 
 
 def _time(data, asked):
-    """Return after how long the shares were taken."""
+    """Return the paragraph on the times after which the shares were counted."""
     hurried, full = asked["compared_settling"], asked["settling"]
     seconds = hurried["limit"] / data["frequency"].values.mean()
     return TIME.format(
@@ -79,7 +79,7 @@ def _time(data, asked):
 
 
 def _shares(data, asked):
-    """Yield the shares of quiet starts, from those that chose the gap to those it had not seen."""
+    """Yield the shares of quiet starts: first of starts that chose the gap, then of unseen ones."""
     row = int(np.argmin(np.abs(data["candidate_gap"].values - float(data["design_gap"]))))
     shares = data["start_quiet_share"].values[row]
     k = int(np.argmin(shares))
@@ -128,7 +128,7 @@ def _shares(data, asked):
 
 
 def _edges(data):
-    """Yield the ends of the quiet gaps, and those of the stability of the quiet orbit."""
+    """Yield the ends of the ranges of quiet gaps and of stability of the quiet orbit."""
     gap = float(data["design_gap"])
     for k, side in enumerate(("below", "above")):
         edge, beyond, frequency = (

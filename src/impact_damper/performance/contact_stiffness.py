@@ -44,8 +44,8 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
 
     The linear spring has the same largest compression as Hertz's contact. Its stiffness grows with
     the speed of impact, and this speed depends on the stiffness: stiffness and motion are computed
-    in turn until they agree. The first speed is that at which the loose mass crosses the gap in
-    half a forcing period; each motion starts from the state of the one before.
+    in turn until they agree. The first speed is the one at which the loose mass crosses the gap in
+    half a forcing period. Each motion starts from the state of the motion before.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
 def _fastest_impact(machine, damper, frequency, steady):
     """Return the largest speed of impact of a steady motion, m/s, and its state at time 0.
 
-    The state in `steady` is that at a quarter of a forcing period.
+    `steady` holds the state at a quarter of a forcing period.
     """
     run = _simulate(
         machine,

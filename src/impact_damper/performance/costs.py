@@ -9,9 +9,9 @@ A contact loses the work of D. Over a time in which a motion repeats,
 and otherwise the difference is stored; the variable `power_error` says how well this holds.
 
 As a measure of noise, impulses J at the rate n give the sum of J^2 per time, n <J^2>. By Campbell's
-theorem this is the two-sided spectral density of the force of impacts at random times, from
-frequencies above their rate to the inverse of their duration: with which they excite the panels of
-a machine. (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
+theorem this is the two-sided spectral density of the force of impacts at random times, at
+frequencies between the rate of impacts and the inverse of their duration. With this density they
+excite the panels of a machine. (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
 """
 
 import numpy as np
@@ -56,8 +56,8 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
     state : sequence of 4 floats
         A state of the motion, m and m/s.
     periods : int
-        Forcing periods over which it is measured: its period, or for a chaotic motion as many as
-        its means need.
+        Forcing periods over which the costs are measured: the period of the motion, or, for a
+        chaotic motion, enough for the accuracy wanted of its means.
     start : float, optional
         Time of the state, s; a quarter of a forcing period if it is not given, the phase at which
         `steady_motion` returns states.

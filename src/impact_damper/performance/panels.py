@@ -22,13 +22,13 @@ NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 _INTEGRALS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))]
 WEIGHTS = _INTEGRALS @ COEFFICIENTS
-# Values at so many points find the panels that may hold the largest value: within a panel it can
-# exceed the largest of them by less than the share MISSED.
+# Matrix from values at the nodes to values at 33 points. The largest value within a panel exceeds
+# the largest of these by less than the share MISSED.
 FINE = chebyshev.chebvander(np.linspace(-1, 1, 33), len(NODES) - 1) @ COEFFICIENTS
 MISSED = 0.01
 # Longest panel, as angle (radian) of the fastest oscillation.
 LONGEST_ANGLE = 2.0
-# Samples in a forcing period that tell how far the motion goes, and contacts in the first log.
+# Samples in a forcing period from which the size of the motion is estimated; room of the first log.
 SAMPLES = 32
 FIRST_LOG = 256
 
@@ -102,7 +102,10 @@ def sampled(p, state, begin, end) -> Panels:
 
 
 def logged(p, state, begin, times, room=FIRST_LOG):
-    """Return the states of a motion at given times, and its log of contacts, with room for some."""
+    """Return the states of a motion at given times, and the log of its contacts.
+
+    `room` is the number of contacts that the first attempt can log.
+    """
     states = np.empty((len(times), 4))
     while True:
         log = np.empty((room, 5))

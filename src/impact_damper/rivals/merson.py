@@ -21,7 +21,7 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # takes more than MOST_STEPS steps.
 SHORTEST = 1e-12
 MOST_STEPS = 10**6
-# Most ends of steps that are kept in a forcing period, and in a flight.
+# Largest numbers of steps whose ends are stored, in a forcing period and in a flight.
 MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
 # Length of the first step, in forcing periods.
 FIRST = 1e-3
@@ -33,8 +33,8 @@ PERIODS_AT_ONCE = 10
 def estimated_step(p, side, by_position, t, h, y, tolerance):
     """Return the state after one step, and the ratio of its estimated error to the error allowed.
 
-    `side` is the wall in contact (-1, 1, or 0 for none). With `by_position` each evaluation of the
-    rate instead chooses the wall by its position Z2.
+    `side` is the wall in contact (-1, 1, or 0 for none). With `by_position` it is ignored, and each
+    evaluation of the rate determines the wall in contact from Z2.
     """
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
@@ -55,7 +55,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def ahead(p, side, y):
-    """Return what is zero when a contact begins or ends: gap in flight, penetration in contact."""
+    """Return the gap in flight or the penetration in contact, 0 when a contact begins or ends."""
     if side == 0:
         return p[CLEARANCE] - abs(y[2])
     return side * y[2] - p[CLEARANCE]
@@ -106,7 +106,7 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     Parameters
     ----------
     p, y : array
-        Packed parameters, and the state at t, which is replaced by that at the end.
+        Packed parameters, and the state at t, which is replaced by the state at the end.
     side : int
         Wall in contact, -1 or 1, or 0 for none; unused without `locate`.
     t, end, h, tolerance : float
@@ -176,7 +176,8 @@ def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
     strobes[:] = np.nan
     largest[:] = np.nan
     for k in range(len(strobes)):
-        # every period begins at the same time, so that rounding of the phase stays small
+        # each period is integrated from the time t: in a long run a growing time would be rounded
+        # more
         side, h, steps, _, most, _ = advance_merson(
             p, y, side, t, t + period, h, tolerance, locate, none
         )

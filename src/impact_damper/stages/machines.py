@@ -36,12 +36,13 @@ _complete_branches, _response = map(takes_machine, (complete_branches, frequency
 # A sweep changes the frequency at SWEEP (damping ratio x natural frequency)^2 Hz/s, or so fast that
 # it lasts MOST_SWEPT forcing periods.
 SWEEP, MOST_SWEPT = 4.0, 6000
-# Absorbers are tuned for the largest displacement over all frequencies: from a share of the least
-# to a multiple of the greatest of band and resonance.
+# Absorbers are tuned for the largest displacement from ABSORBED[0] times the lowest frequency of
+# band and resonance to ABSORBED[1] times their highest frequency.
 ABSORBED = 0.5, 2.0
 # Contact stiffness of a typical damper, dimensionless.
 TYPICAL = 2000.0
-# New names in the response without the damper, and in transients.
+# BARE: variables of the response without the damper, and their names in the dataset of a design.
+# TRANSIENT: variables and dimensions of transients, which get a prefix there.
 BARE = {
     "followed_value": "bare_frequency",
     "orbit_displacement": "bare_displacement",
@@ -79,9 +80,9 @@ def design_damper(
     mass, band, restitution, contact_stiffness, frequencies, candidates, starts
         As of `design.task.Task`, in SI units.
     contact : HertzContact, optional
-        In place of the contact stiffness, which is then that of an impact at the speed that crosses
-        the gap of the flight rule in half a forcing period; with a contact stiffness, only for the
-        pressure in the contact.
+        Radius and materials of the contact, for its pressure. If no contact stiffness is given, it
+        also determines the stiffness: that of an impact at the speed with which the loose mass
+        crosses the gap of the flight rule in half a forcing period.
     tolerances : dict, optional
         Largest relative deviations of gap, restitution, contact_stiffness, stiffness, damping and
         force; by default 20 % of the gap.
@@ -92,7 +93,7 @@ def design_damper(
     progress : bool, optional
         Whether progress bars are shown.
     folder : str or pathlib.Path, optional
-        Where finished steps are kept; an interrupted design goes on from there.
+        Folder for the results of finished steps, from which an interrupted design continues.
 
     Returns
     -------
@@ -136,7 +137,7 @@ def design_damper(
 
 
 def _stiffness(stiffness, contact, asked):
-    """Return the contact stiffness given, or that of a contact after Hertz at a first speed."""
+    """Return the contact stiffness given, or the stiffness of a contact after Hertz."""
     if contact is not None and not isinstance(contact, HertzContact):
         raise TypeError(f"contact = {contact!r}: must be a HertzContact")
     if stiffness is not None or contact is None:
@@ -272,7 +273,8 @@ class _Design(NamedTuple):
     def transients(self, gap):
         task, machine = self.task, self.task.machine
         damper = task.damper(1e-3 * gap)
-        # a nonlinear machine climbs to its large motions only from its natural frequency on
+        # the sweep of a nonlinear machine leads to its large motions only past the natural
+        # frequency
         low = min(task.band[0], task.resonance[0])
         high = max(task.band[1], task.resonance[1])
         span = (high**2 - low**2) / 2
@@ -292,12 +294,12 @@ class _Design(NamedTuple):
 
 
 def _critical(edges, first):
-    """Return the frequency (Hz) at which quiet gaps end first, or that of the largest response."""
+    """Return the frequency (Hz) at which quiet gaps end first, else that of the worst response."""
     known = edges["cliff_frequency"].values[np.isfinite(edges["cliff_frequency"].values)]
     return float(known[-1]) if len(known) else float(first["worst_frequency"])
 
 
 def _prefixed(data, prefix):
-    """Return a dataset of a transient under names of its own."""
+    """Return the dataset of a transient with a prefix before the names of its variables."""
     names = {name: f"{prefix}_{name}" for name in TRANSIENT}
     return data.rename({old: new for old, new in names.items() if old in {*data, *data.dims}})
