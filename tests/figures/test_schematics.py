@@ -43,14 +43,13 @@ def elsewhere(tmp_path_factory):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
+    """Saved again, and drawn and saved in a process with another hash seed and time zone."""
     drawn = getattr(schematics, name)()
     save_figure(drawn, tmp_path / "first")
     save_figure(drawn, tmp_path / "second")
-    save_figure(getattr(schematics, name)(), tmp_path / "drawn again")
     assert read(tmp_path / "first") == read(tmp_path / "second")
-    assert read(tmp_path / "first") == read(tmp_path / "drawn again")
     assert read(tmp_path / "first") == read(elsewhere / name)
-    assert len(list(tmp_path.iterdir())) == 6, "parts left behind"
+    assert len(list(tmp_path.iterdir())) == 4, "parts left behind"
 
 
 @cache
