@@ -1,8 +1,8 @@
 """Contacts of simulated motions: their load, and their realised restitution.
 
-The load and the realised restitution of a contact are those of `contact_law`. Contacts are logged,
-that is recorded one by one, of two motions among those with contacts that random starts reach: the
-smallest settled motion, and the largest motion, settled or not.
+`contact_law` defines the load and the realised restitution of a contact. Contacts are logged, that
+is recorded one by one, for two of the motions with contacts that random starts reach: the smallest
+settled motion, and the largest motion, settled or not.
 """
 
 from dataclasses import replace
@@ -46,8 +46,8 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     -------
     dict of numpy.ndarray
         Arrays with one entry for each contact. `load`: g/(wn v0) at its beginning. `restitution`:
-        speed of departure divided by speed of approach. `duration`: divided by that of an elastic
-        contact without load, pi/wn.
+        speed of departure divided by speed of approach. `duration`: duration divided by pi/wn, the
+        duration of an elastic contact without load.
 
     Raises
     ------

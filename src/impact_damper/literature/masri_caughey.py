@@ -3,8 +3,8 @@
 The closed form of Masri and Caughey, "On the stability of the impact damper", J. Appl. Mech. 33(3),
 586-592, 1966. Walls are rigid, and an impact takes no time. Half a forcing period after an impact
 at one wall the mirror image of this impact follows at the other wall; in between the loose mass
-flies at constant velocity, in turn w and -w. Z1 is the displacement of the primary mass, Z2 that of
-the primary mass relative to the loose mass, W the forcing frequency.
+flies at constant velocity, in turn w and -w. Z1 is the displacement of the primary mass, Z2 the
+displacement of the primary mass relative to the loose mass, W the forcing frequency.
 
 The loose mass meets the wall Z2 = -d0 with the velocity w and leaves it with -w. Momentum and
 restitution give the velocity of the primary mass before this impact, -k w with

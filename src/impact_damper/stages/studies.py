@@ -115,7 +115,7 @@ def study_chunk(
         for k, of_cell in enumerate(np.split(runs, ends[:-1]), part.start):
             found[k] = _condensed(of_cell, starts)
 
-    # so many cells at a time that their random starts number about `ensemble.CHUNK`
+    # cells computed at a time: together they have about `ensemble.CHUNK` random starts
     together = max(1, ensemble.CHUNK // starts)
     ensemble.run_chunks(work, last - first, workers, progress, stop, size=together)
     data = {

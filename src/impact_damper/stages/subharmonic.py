@@ -25,7 +25,7 @@ from impact_damper.system.settling import check_settling
 
 # Margin of the frequencies beyond each end of the free subharmonic, as a share of its width.
 BEYOND = 0.1
-# A subharmonic counts as reduced if max |Z1| is below this share of that without the damper.
+# A subharmonic counts as reduced if its max |Z1| is below this share of the free subharmonic's.
 REDUCED = 0.95
 # Motions, or outcomes, to which switching the damper on leads.
 SWITCHED_MOTIONS = (
@@ -63,10 +63,11 @@ def subharmonic_suppression(
         the range of the free subharmonic and a tenth of its width beyond each end; without a free
         subharmonic, at the given frequencies.
     starts : int
-        Number of starts at each frequency. Where the free subharmonic exists, one half of them is
-        random as in `response.frequency_response`; the other half starts on the free subharmonic,
-        where the damper is switched on at a random time. The loose mass is then placed as in a
-        random start, every second time at rest relative to the primary. Elsewhere all are random.
+        Number of starts at each frequency. All are random, as in `response.frequency_response`,
+        except at frequencies at which the free subharmonic exists. There one half of the starts has
+        the primary mass on the free subharmonic and switches the damper on at a random time. The
+        loose mass then has a random place, and a random velocity or, in every second of these
+        starts, the velocity of the primary mass.
     radius, seed, settling, workers, progress
         As in `response.frequency_response`.
 

@@ -1,7 +1,7 @@
 """Tables of methods and models on each test case (scene), and of errors of design models.
 
-Work is counted in floating-point operations. The accuracy that a scene asks for is a quantity and
-the largest error within which it is wanted.
+Work is counted in floating-point operations. The accuracy that a scene asks for consists of a
+quantity and its largest allowed error.
 """
 
 import numpy as np

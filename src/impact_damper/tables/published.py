@@ -19,12 +19,12 @@ SOURCES = {
 }
 # Why the two numbers differ, which of them is right, and how that is known.
 REASONS = {
-    "contact stiffness": "Both are right: walls are rigid there, of r1 = {stiffness:g} here. The "
+    "contact stiffness": "Both are right: their walls are rigid, ours have r1 = {stiffness:g}. The "
     "difference falls as r1^{order:.2f}; ours extrapolated to rigid walls differs by {limit:.0e}.",
     "mass ratio": "The exact motion is right: the closed form is of first order in rm, and the "
     "difference falls as rm^{order:.2f}.",
-    "first mass ratio": "The exact motion is right: the closed form is of first order in rm. The "
-    "largest rm of its series.",
+    "first mass ratio": "The exact motion is right: the closed form is of first order in rm. This "
+    "row has the largest rm of the comparison.",
     "fixed points": "The computed peak is right: the closed form is the height of the two points "
     "that the response passes for any damping, and peaks are higher.",
     "direct search": "The closed form is right: a direct search comes as close to it as its "

@@ -16,7 +16,8 @@ from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 
-# Garbage is searched for less often: what a job imports stays to its end, and a job makes little.
+# Collect garbage less often: the objects that imports make stay to the end, and a job makes few
+# more.
 gc.set_threshold(10_000)
 
 # Seconds between checks that Snakemake is alive: less than a new run takes to start a job.

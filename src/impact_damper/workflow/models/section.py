@@ -48,7 +48,7 @@ class Section(BaseModel):
         if not path:
             words = "must be keys with values"
         elif kind in ("extra_forbidden", "invalid_key"):
-            if kind == "invalid_key":  # no text; pydantic gives the key in place of its value
+            if kind == "invalid_key":  # a key that is no text; pydantic reports it, not its value
                 given = value[given]
             kind = "unknown"
             words = f"unknown key; known: {', '.join(known)}{nearest(path[-1], known)}"

@@ -19,11 +19,12 @@ class Stage(NamedTuple):
     reads : tuple of str
         Stages whose datasets of the same entry the job reads.
     paper : bool
-        Whether the command `snakemake` without a target makes its data. Otherwise the target
-        `all_<name>` does, with the figures and tables of its chapter, whose stages are all of this
-        kind.
+        Whether the command `snakemake` without a target makes its data. Otherwise only the target
+        `all_<name>` makes them, together with the figures and tables of its chapter. The stages of
+        one chapter must agree in this.
     page : tuple of str
-        Figures of the page that each entry has, in the folder of its name; none without a page.
+        Figures of the page of each entry, stored in a folder with the name of the entry; empty if
+        the stage makes no pages.
     """
 
     name: str
