@@ -13,7 +13,8 @@ from impact_damper.design.cliff import find_edges
 from impact_damper.design.outcomes import Case, are_quiet, run
 from impact_damper.design.screen import screen
 from impact_damper.design.task import Task
-from impact_damper.literature.masri_caughey import stability_boundaries, two_impact_motions
+from impact_damper.literature.masri_caughey import two_impact_motions
+from impact_damper.literature.masri_caughey_stability import stability_boundaries
 
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
 TASK = Task(

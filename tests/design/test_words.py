@@ -48,9 +48,10 @@ def test_a_large_motion_is_told_with_the_starts_that_lead_to_it():
 
 def test_a_loose_mass_that_floats_is_told_with_the_room_that_it_has():
     words = said(untouched_displacement=[np.nan, 3.1, 2.5, np.nan, np.nan])
-    assert "up to 3.1 mm to each side" in words
-    assert "within 0.4 mm of the middle of the gap touches no stop" in words
-    assert "floats" not in said()
+    assert "moves less than half the gap, up to 3.1 mm" in words
+    assert "within 0.4 mm of the middle of the gap (11 % of it)" in words
+    assert "not touched" not in said()
+    assert "not touched" not in said(untouched_displacement=[np.nan, 1.9, 1.9, 1.9, 1.9])  # quiet
 
 
 def test_without_a_quiet_gap_the_words_say_what_there_is_and_what_would_help():
@@ -71,8 +72,14 @@ def test_distances_to_the_cliff_and_to_the_end_of_stability_are_apart():
 @pytest.mark.parametrize(
     ("rates", "told"),
     [
-        ([[0.01, 0.005, 0.02]] * 2, "another 100 at 8 mm, 100 at 9 mm."),
-        ([[np.nan] * 3, [0.001, 0, 0.004]], "another more than 250, or never, at 9 mm."),
+        (
+            [[0.01, 0.005, 0.02]] * 2,
+            "become so, on average, after another 100 at 8 mm, 100 at 9 mm.",
+        ),
+        (
+            [[np.nan] * 3, [0.001, 0, 0.004]],
+            "do not become quiet at 9 mm: none did within 3000 periods; this chaos",
+        ),
     ],
 )
 def test_transients_and_attractors_are_told_apart(rates, told):

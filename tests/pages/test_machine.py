@@ -108,6 +108,13 @@ def test_who_wins_is_said_plainly():
     assert "the impact damper is the right choice here" in as_text("page.md", better, NO_PICTURES)
 
 
+def test_a_lighter_mass_that_does_as_well_is_told():
+    for sizes, told in (([0.8, 0.9, 0.8], True), ([5.0, 0.9, 0.8], False)):
+        changed = {"other_displacement": sizes, "other_share": [1, 1, 1]}
+        words = "A lighter loose mass does as well: 0.3 kg with a gap of 14 mm."
+        assert all((words in text) == told for text in texts(**changed))
+
+
 class Links(HTMLParser):
     """Collects the tags that are open, and what a page refers to."""
 

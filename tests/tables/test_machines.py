@@ -21,7 +21,10 @@ def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
         "advice": "build it",
         "largest without damper, mm": 10.0,
         "largest with it, mm": 0.8,
-        "least share of quiet starts (unseen)": 0.98,
+        "quiet share of 1000 unseen starts": 1.0,
+        "corners of the tolerances": 2,
+        "least quiet share at a corner": 0.98,
+        "promise": "kept within all tolerances",
         "best tuned absorber, mm": 0.5,
     }
 
@@ -32,6 +35,14 @@ def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
 )
 def test_the_advice_follows_the_choice(choice, advice):
     assert row(choice=choice)["advice"] == advice
+
+
+@pytest.mark.parametrize(
+    ("promise", "words"),
+    [("nominal_kept", "kept at nominal values"), ("broken", "BROKEN"), ("none_made", "none made")],
+)
+def test_the_promise_is_told(promise, words):
+    assert row(promise=promise)["promise"] == words
 
 
 def test_a_motion_that_escapes_has_no_size():

@@ -226,19 +226,22 @@ class Task:
         return replace(self.settling, patience=patience, limit=limit)
 
     @cached_property
+    def resonances(self) -> list[float]:
+        """Resonances within the band, without the loose mass and with it attached, Hz."""
+        ratio = math.sqrt(1 + self.mass / self.machine.mass)
+        found = [each for end in self.resonance for each in (end / ratio, end)]
+        return [each for each in found if self.band[0] < each < self.band[1]]
+
+    @cached_property
     def grid(self) -> np.ndarray:
         """Frequencies over the band, Hz.
 
-        They are even, but the nearest ones between the ends are moved onto the resonances in the
-        band: those of the machine alone and with the loose mass attached, at which a lightly damped
-        machine moves most.
+        They are even, but the nearest ones between the ends are moved onto `resonances`, at which a
+        lightly damped machine moves most.
         """
         values = np.linspace(*self.band, self.frequencies)
-        ratio = 1 + self.mass / self.machine.mass
-        for end in self.resonance:
-            for frequency in (end / math.sqrt(ratio), end):
-                if self.band[0] < frequency < self.band[1]:
-                    values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
+        for frequency in self.resonances:
+            values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
         return np.unique(values)
 
     @cached_property
@@ -255,8 +258,9 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return some frequencies of `grid`, evenly spread, the worst one and others among them."""
-        return np.union1d(spread(self.grid, count), [self.worst_frequency, *others])
+        """Return some frequencies of `grid`, evenly spread, and all resonances and others."""
+        resonances = np.intersect1d(self.grid, self.resonances)
+        return np.union1d(spread(self.grid, count), [self.worst_frequency, *resonances, *others])
 
     @property
     def scales(self):

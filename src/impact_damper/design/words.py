@@ -3,7 +3,7 @@
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.design.cliff import LEAD
+from impact_damper.design.cliff import LEAD, LONGEST
 
 SUMMARY = {
     "robust": (
@@ -61,9 +61,9 @@ def conclusion(task, kind, data) -> list[str]:
     return [sentence for sentence in found if sentence]
 
 
-def _percent(share):
+def _percent(share, digits=3):
     """Return a share in per cent."""
-    return f"{100 * share:.3g} %"
+    return f"{100 * share:.{digits}g} %"
 
 
 def _moves(size):
@@ -75,7 +75,8 @@ def _worst(kind, data):
     """Return how far the machine moves in the largest motion that starts reach."""
     size, limit = float(data["reached_displacement"].max()), float(data["displacement_limit"])
     if kind == "least_worst":
-        return f"the machine {_moves(size)}"
+        k = int(np.argmax(data["reached_displacement"].values))
+        return f"the machine {_moves(size)} at {float(data['frequency'][k]):.4g} Hz"
     if size <= limit:
         return f"In none of the motions that starts reached does it move more than {size:.3g} mm."
     if float(data["reached_quiet_share"].min()) < 1:
@@ -88,16 +89,17 @@ def _worst(kind, data):
 
 
 def _untouched(data, gap):
-    """Return the motion of the machine alone inside the gap, if there is one."""
-    sizes = data["untouched_displacement"].values
-    if not np.isfinite(sizes).any():
+    """Return the motion of the machine alone inside the gap, if there is one that is not quiet."""
+    size = float(np.fmax.reduce(data["untouched_displacement"].values))
+    if not size > float(data["displacement_limit"]):
         return ""
-    size = float(np.nanmax(sizes))
+    room = gap / 2 - size
     return (
-        f"The gap is wider than the vibration without the damper at some frequencies, up to "
-        f"{size:.3g} mm to each side: a loose mass that floats without any drift within "
-        f"{gap / 2 - size:.2g} mm of the middle of the gap touches no stop, and the machine then "
-        "moves as without the damper. No random start led there, and any drift ends it."
+        f"At some frequencies the machine without the damper moves less than half the gap, up to "
+        f"{size:.3g} mm. A loose mass that lies still within {room:.2g} mm of the middle of the "
+        f"gap ({_percent(2 * room / gap, 2)} of it) when the machine starts is then not touched, "
+        "and the machine moves as without the damper until the loose mass drifts; one that begins "
+        "at an end of the gap is touched at once. No random start led to this motion."
     )
 
 
@@ -146,20 +148,33 @@ def _lives(data):
     """Return where chaos beside the quiet motion changes from a transient to an attractor."""
     if "life_rate" not in data:
         return ""
-    texts = []
+    passing, lasting = [], []
     for gap, (rate, low, high) in zip(
         data["life_gap"].values, data["life_rate"].values, strict=True
     ):
-        if not np.isfinite(rate):
-            continue  # all starts are quiet before lives are counted
-        life = f"{1 / rate:.0f}" if low > 0 else f"more than {1 / high:.0f}, or never,"
-        texts.append(f"{life} at {gap:.4g} mm")
-    if not texts:
-        return ""
-    return (
-        f"Motions that are not quiet after {LEAD} forcing periods become so after, on average, "
-        f"another {', '.join(texts)}."
-    )
+        if low > 0:
+            passing.append(f"{_rounded(1 / rate)} at {gap:.4g} mm")
+        elif np.isfinite(rate):
+            lasting.append((f"{gap:.4g}", high))
+    found = []
+    if passing:
+        found.append(
+            f"Beyond the cliff, motions that are not quiet after {LEAD} forcing periods become so, "
+            f"on average, after another {', '.join(passing)}."
+        )
+    if lasting:
+        gaps, rates = zip(*lasting, strict=True)
+        found.append(
+            f"{'Not so' if passing else 'Beyond the cliff, motions do not become quiet'} at "
+            f"{', '.join(gaps)} mm: none did within {LONGEST} periods; this chaos lasts for good, "
+            f"or more than {_rounded(1 / max(rates))} periods on average."
+        )
+    return " ".join(found)
+
+
+def _rounded(count):
+    """Return a number of periods with two digits."""
+    return f"{float(f'{count:.2g}'):.0f}"
 
 
 def _amplitudes(data):

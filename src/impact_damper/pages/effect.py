@@ -57,9 +57,9 @@ def section(data) -> Section:
 
 
 def _untouched(data, frequency):
-    """Yield the largest motion of the machine in which the loose mass touches no wall, if any."""
+    """Yield the largest motion in which the loose mass touches no wall, if it is not quiet."""
     sizes = data["untouched_displacement"].values
-    if np.isfinite(sizes).any():
+    if np.fmax.reduce(sizes) > float(data["displacement_limit"]):
         k = int(np.nanargmax(sizes))
         yield (
             "not counted: largest displacement while the loose mass floats and touches no stop",

@@ -47,6 +47,7 @@ def section(data) -> Section:
         Picture("competitors", competitors.CAPTION),
         Words(MASSES),
         Table(*_masses(data)),
+        Points([*_lighter(data)]),
         Picture("masses", masses.CAPTION),
     ]
     return Section("What else would do", blocks)
@@ -144,6 +145,21 @@ def _absorbers(data):
             if np.isfinite(value) and value != 0:
                 rows.append((f"{NAMES[name]}: {words}", shown(value, unit), variable))
     return rows
+
+
+def _lighter(data):
+    """Yield the lightest other loose mass with which the machine moves no more, if there is one."""
+    mass, gap, size, share = (
+        data[f"other_{name}"].values for name in ("mass", "gap", "displacement", "share")
+    )
+    here = int(np.argmin(np.abs(mass - parameters_of(data)["mass"])))
+    as_quiet = (size <= size[here]) & (share >= share[here])
+    k = int(np.argmax(as_quiet))
+    if k < here:
+        yield (
+            f"A lighter loose mass does as well: {shown(mass[k], 'kg')} with a gap of "
+            f"{shown(gap[k], 'mm')}. Ask for a design with it before you build."
+        )
 
 
 def _masses(data):

@@ -41,9 +41,8 @@ def draw_drawing(data):
     _carriage(axes, bottom, width, height, made)
     left = LEFT + (width - (loose + gap) * scale) / 2
     _slot(axes, left, bottom + 0.3 * height, loose * scale, gap * scale)
-    middle = bottom + 0.3 * height + 1.1 * loose * scale
-    letter(axes, LEFT + width / 2, middle + 0.38, f"gap {gap:.3g} mm", color=VERMILION)
-    letter(axes, left + loose * scale / 2, middle - 0.62 * loose * scale, "$m_2$")
+    letter(axes, LEFT + width / 2, bottom + height + 0.17, f"gap {gap:.3g} mm", color=VERMILION)
+    letter(axes, left + loose * scale / 2, bottom + 0.3 * height + 0.48 * loose * scale, "$m_2$")
     letter(axes, LEFT + width / 2, bottom + 0.12, f"$m_1$ = {made['mass']:.3g} kg", **SMALL)
     words = f"$m_2$ = {made['damper_mass']:.3g} kg, $e$ = {made['restitution']:.3g}"
     letter(axes, LEFT + width / 2, 2.85, words, **SMALL)
@@ -60,15 +59,16 @@ def _carriage(axes, bottom, width, height, made):
     spring(axes, WALL, LEFT, bottom + 0.72 * height)
     dashpot(axes, WALL, LEFT, bottom + 0.3 * height)
     between = (WALL + LEFT) / 2
-    letter(axes, between, bottom + 0.72 * height + 0.2, "$k, k_3$", **SMALL)
+    stiffness = "$k, k_3$" if made.get("cubic_stiffness") else "$k$"
+    letter(axes, between, bottom + 0.72 * height + 0.2, stiffness, **SMALL)
     letter(axes, between, bottom + 0.3 * height + 0.2, "$c$", **SMALL)
     right = LEFT + width
     look = {"color": VERMILION}
     if "unbalance" in made:
-        centre = (right - 0.28, bottom + height - 0.26)
+        centre = (right - 0.25, bottom + 0.25)
         axes.add_patch(Circle(centre, 0.17, **filled(WHITE)))
         axes.add_patch(Circle((centre[0] + 0.09, centre[1] + 0.06), 0.045, **look))
-        letter(axes, centre[0] - 0.36, centre[1], "$u$", **look)
+        letter(axes, centre[0] + 0.02, centre[1] + 0.28, "$u$", **look)
     elif "force" in made:
         arrow(axes, (right, bottom + height / 2), (right + 0.42, bottom + height / 2), **look)
         letter(axes, right + 0.25, bottom + height / 2 + 0.16, "$F$", **look)

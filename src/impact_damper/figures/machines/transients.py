@@ -6,8 +6,10 @@ from impact_damper.figures.style import PALE, figure, legend, style
 
 CAPTION = """
 Largest displacement in each period. Above and middle: the forcing frequency is swept up and down
-through the band and the resonance, at a constant rate; shaded outside the band. Below: ring-down
-without excitation, from a displacement of the machine at rest.
+through the band and the resonance, at a constant rate, from rest and with the loose mass in the
+middle of its gap; shaded outside the band. Below: ring-down without excitation, from a displacement
+of the machine at rest. The damper does nothing while the machine moves less than half the gap and
+the loose mass has not been touched.
 """
 LOOKS = {"bare": BARE, "damped": DAMPED}
 
