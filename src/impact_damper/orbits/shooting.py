@@ -14,6 +14,7 @@ import numpy as np
 from impact_damper.kernel.single import advance, side_of, workspace
 from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, flow_map
+from impact_damper.orbits import segments
 from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
 
 TURN = 2 * math.pi
@@ -27,6 +28,11 @@ ITERATIONS = 20
 FAR = 10.0
 # Residual below which an orbit is known well enough to move its phase.
 NEAR = 1e-6
+# Norm of the derivative of the map above which single shooting loses too many digits.
+AMPLIFYING = 300.0
+# Multiple shooting: an orbit is cut again, at most CUTS times, while a segment amplifies by more
+# than ROUGH times what it should.
+CUTS, ROUGH = 4, 4.0
 # Largest number of contacts in a forcing period that are listed.
 CONTACTS = 64
 
@@ -60,6 +66,10 @@ class Orbit:
         1 if that is less. Otherwise the state is the best that Newton's method found.
     maps : int
         Number of maps over the period that Newton's method computed.
+    chain : segments.Chain or None
+        Segments of an orbit by multiple shooting. The state is that of the first segment; the
+        monodromy matrix and its root are products of factors, which are exact only relative to
+        their norm. Everything else is computed from the segments, with their accuracy.
     """
 
     p: np.ndarray
@@ -72,6 +82,25 @@ class Orbit:
     touching: float
     converged: bool
     maps: int = 1
+    chain: segments.Chain | None = None
+
+    @property
+    def cycle(self):
+        """Phase after which the motion repeats, with a change of sign if the orbit has a root."""
+        return self.periods * TURN * (1.0 if self.root is None else 0.5)
+
+    @property
+    def factors(self):
+        """Derivatives of the segments of a cycle, shape (m, 4, 4)."""
+        if self.chain is not None:
+            return self.chain.factors
+        return (self.monodromy if self.root is None else self.root)[None]
+
+    @property
+    def amplification(self):
+        """Norm of the derivative of the map over a cycle."""
+        matrix = self.monodromy if self.root is None else self.root
+        return np.linalg.norm(matrix, 2) if np.all(np.isfinite(matrix)) else np.inf
 
     @property
     def active(self):
@@ -83,12 +112,15 @@ class Orbit:
         """Floquet multipliers by falling modulus, shape (4,); two are NaN without contacts."""
         values = np.full(4, complex(np.nan, np.nan))
         n = self.active
-        if self.root is None:
-            active = np.linalg.eigvals(self.monodromy[:n, :n])
-        else:
-            active = np.linalg.eigvals(self.root[:n, :n]) ** 2
+        active = self.cycle_multipliers if self.root is None else self.cycle_multipliers**2
         values[:n] = active[np.lexsort((-active.imag, -np.abs(active)))]
         return values
+
+    @cached_property
+    def cycle_multipliers(self):
+        """Multipliers of a cycle, shape (active,): those of the root if the orbit has one."""
+        n = self.active
+        return segments.multipliers(self.factors[:, :n, :n])
 
     @property
     def stable(self):
@@ -105,7 +137,10 @@ class Orbit:
         p = self.p
         contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
         rate = p[DAMPING] * self.periods * TURN / p[FREQUENCY] + contact_damping * self.touching
-        return abs(np.linalg.det(self.monodromy) * math.exp(rate) - 1)
+        if self.chain is None:
+            return abs(np.linalg.det(self.monodromy) * math.exp(rate) - 1)
+        cycles = 1 if self.root is None else 2
+        return abs(math.expm1(cycles * segments.log_determinant(self.chain.factors) + rate))
 
     @cached_property
     def contacts(self):
@@ -116,6 +151,12 @@ class Orbit:
         ArithmeticError
             If there are more than CONTACTS in a forcing period.
         """
+        if self.chain is not None:
+            log = self.chain.log()
+            if self.root is None:
+                return log
+            shift = self.cycle / self.p[FREQUENCY]
+            return np.concatenate([log, log * [-1, 1, 1, -1, -1] + [0, shift, shift, 0, 0]])
         begin = self.phase / self.p[FREQUENCY]
         end = begin + self.periods * TURN / self.p[FREQUENCY]
         # a contact at the phase itself is complete only a period later
@@ -157,6 +198,8 @@ class Orbit:
 
     def at(self, phase):
         """Return the state, shape (4,), at a phase W T not before that of the orbit, radian."""
+        if self.chain is not None:
+            return self.chain.at(phase)
         y = self.state.copy()
         begin = self.phase / self.p[FREQUENCY]
         end = begin + (phase - self.phase) / self.p[FREQUENCY]
@@ -173,7 +216,23 @@ class Orbit:
     @cached_property
     def record(self):
         """Largest |Z1|, contacts, asymmetry and first harmonics: a `records.MOTION`."""
+        if self.chain is not None:
+            return self._record_of_chain()
         return records.measured(self.p, self.strobe_states[0], self.periods, POLISH_TOLERANCE)
+
+    def _record_of_chain(self):
+        """Return the `record` from the segments."""
+        record = np.zeros(1, records.MOTION)[0]
+        record["maximum_displacement"] = self.chain.largest()
+        record["contacts"] = len(self.contacts) / self.periods
+        begin = self.phase + (STROBE - self.phase) % TURN
+        sums = self.at(begin) + self.at(begin + self.periods * TURN / 2)
+        record["asymmetry"] = np.max(np.abs(sums)) if self.periods % 2 else np.nan
+        # half a symmetric orbit has the mean of the whole, since it has only odd harmonics
+        phases, states = self.chain.samples(STROBE, TURN / records.SAMPLES)
+        first, _, second, _ = 2 / len(states) * (np.exp(-1j * phases) @ states)
+        record["harmonic_displacement"], record["harmonic_relative"] = first, second
+        return record
 
     def is_same(self, other, tolerance=1e-6):
         """Return whether another orbit is this one or its mirror image, up to a shift in time."""
@@ -252,6 +311,7 @@ def find_orbit(p, state, periods=1, phase=STROBE):
     """Find the orbit near a state by Newton's method, and move its phase into flight.
 
     Where no wall is touched only Z1 and Z1' are unknown, and the loose mass keeps its place.
+    An orbit that amplifies disturbances by more than AMPLIFYING is found by multiple shooting.
 
     Parameters
     ----------
@@ -263,7 +323,12 @@ def find_orbit(p, state, periods=1, phase=STROBE):
     Orbit
         Its attribute `converged` says whether Newton's method converged.
     """
-    orbit = _newton(p, np.array(state, float), periods, phase)
+    state = np.array(state, float)
+    orbit = _newton(p, state, periods, phase)
+    if orbit.amplification > AMPLIFYING:
+        chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase)[0])
+        if chain.residual < orbit.residual:
+            return replace(chain, maps=orbit.maps + chain.maps)
     # during a contact rounding errors grow at its natural frequency: `converged` is too much to ask
     if not orbit.residual < NEAR or orbit.quiet_phase() == orbit.phase:
         return orbit
@@ -297,3 +362,83 @@ def _newton(p, state, periods, phase):
         if orbit.residual < best.residual or not best.converged:
             best = orbit
     return replace(best, maps=maps)
+
+
+def orbit_of(chain, periods):
+    """Return the orbit that a `segments.Chain` would be; its residual says how far it is from one.
+
+    Parameters
+    ----------
+    chain : segments.Chain
+    periods : int
+        Period n in forcing periods of the orbit, odd if the chain is half of it.
+    """
+    product = np.eye(4)
+    for factor in chain.factors:
+        product = factor @ product
+    residual = float(np.max(np.abs(chain.defects)))
+    converged = bool(residual <= RESIDUAL * max(1.0, np.max(np.abs(chain.states))))
+    half = chain.sign < 0
+    matrices = (product @ product, product) if half else (product, None)
+    touching = (1 + half) * chain.touching
+    return Orbit(
+        chain.p,
+        periods,
+        chain.phases[0],
+        chain.states[0],
+        *matrices,
+        residual,
+        touching,
+        converged,
+        chain=chain,
+    )
+
+
+def polish(orbit):
+    """Return an orbit by multiple shooting, from an orbit or a state that is nearly one.
+
+    Parameters
+    ----------
+    orbit : Orbit
+
+    Returns
+    -------
+    Orbit
+        Its attribute `converged` says whether Newton's method converged.
+    """
+    maps = orbit.maps
+    for _ in range(CUTS):
+        phases = segments.cut(orbit)
+        states = np.array([orbit.at(phase) for phase in phases[:-1]])
+        orbit, more = _newton_of_chain(orbit, phases, states)
+        maps += more
+        if np.max(np.linalg.norm(orbit.factors, 2, axis=(1, 2))) < ROUGH * segments.AMPLIFIED:
+            break
+    return replace(orbit, maps=maps)
+
+
+def _newton_of_chain(orbit, phases, states):
+    """Return the orbit of least residual on the way of Newton's method, and the number of maps."""
+
+    def shot(states):
+        sign = 1 if orbit.root is None else -1
+        return orbit_of(segments.chain_of(orbit.p, phases, states, sign), orbit.periods)
+
+    current = best = shot(states)
+    maps = 1
+    for _ in range(ITERATIONS):
+        matrix = segments.cyclic(current.factors)
+        try:
+            change = np.linalg.solve(matrix, -current.chain.defects.ravel())
+        except np.linalg.LinAlgError:
+            break
+        if not np.max(np.abs(change)) < FAR:
+            break
+        before = current.residual
+        current = shot(current.chain.states + change.reshape(states.shape))
+        maps += 1
+        if current.residual < best.residual:
+            best = current
+        if best.converged and current.residual > before / 2:
+            break
+    return best, maps

@@ -1,0 +1,269 @@
+"""Multiple shooting: an orbit as a chain of segments, each from one flight to the next.
+
+A strongly unstable orbit amplifies rounding by its largest multiplier over a period. Cut into
+segments that amplify little, with a state at the beginning of each, it keeps its digits: the
+states solve F_k = Phi_k(y_k) - y_(k+1) = 0 for all segments k, where Phi_k is the flow over
+segment k and the last segment leads back to the first, with a change of sign if the chain is half
+of a symmetric orbit. The multipliers are those of the product of the segments' derivatives, the
+factors, and are found without forming it. Segments begin at phases of the forcing at which the
+loose mass is in flight, so that the sections depend smoothly on the state.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.motions import records
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.orbits.paths import follow_path
+from impact_damper.system.packed import FREQUENCY
+
+# Multipliers whose moduli differ by more than this factor are separated by orthogonal iteration;
+# the others by eigenvalues of a product. SWEEPS iterations separate them to rounding.
+APART = 30.0
+SWEEPS = 12
+# A segment is ended before its derivative exceeds this norm.
+AMPLIFIED = 30.0
+# Least distance of a section from contacts, radian.
+CLEAR = 0.01
+# Largest number of contacts in a segment that are listed.
+CONTACTS = 512
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A chain of m segments.
+
+    Attributes
+    ----------
+    p : numpy.ndarray, shape (packed.COUNT,)
+        Packed parameters.
+    phases : numpy.ndarray, shape (m + 1,)
+        Phases W T at which the segments begin, and at which the last one ends, radian.
+    states : numpy.ndarray, shape (m, 4)
+        States at the beginnings.
+    sign : int
+        -1 if the chain is half of a symmetric orbit, else 1.
+    ends : numpy.ndarray, shape (m, 4)
+        States to which the flow leads from the beginning of each segment to its end.
+    factors : numpy.ndarray, shape (m, 4, 4)
+        Derivatives of the ends with respect to the states, in order of time, the last one with
+        the sign.
+    touching : float
+        Time in contact.
+    """
+
+    p: np.ndarray
+    phases: np.ndarray
+    states: np.ndarray
+    sign: int
+    ends: np.ndarray
+    factors: np.ndarray
+    touching: float
+
+    @property
+    def cycle(self):
+        """Length of the chain, radian: the period of the orbit, or half of it."""
+        return self.phases[-1] - self.phases[0]
+
+    @property
+    def defects(self):
+        """Ends less the states that they should be, shape (m, 4), the last one with the sign."""
+        defects = self.ends - np.roll(self.states, -1, axis=0)
+        defects[-1] = self.sign * self.ends[-1] - self.states[0]
+        return defects
+
+    def at(self, phase):
+        """Return the state, shape (4,), at a phase not before the first, radian."""
+        turns = int((phase - self.phases[0]) // self.cycle)
+        local = phase - turns * self.cycle
+        k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
+        state = self.states[k].copy()
+        _advance(self.p, state, np.empty((0, 4)), self.phases[k], max(local, self.phases[k]))
+        return self.sign**turns * state
+
+    def log(self):
+        """Return the contacts in the order of time, shape (k, 5), as `Orbit.contacts`."""
+        logs = []
+        for k, state in enumerate(self.states):
+            begin, end = self.phases[k : k + 2] / self.p[FREQUENCY]
+            log, last = np.empty((CONTACTS, 5)), np.empty((1, 4))
+            count = records.trace(
+                self.p, state.copy(), begin, np.array([end]), POLISH_TOLERANCE, last, log
+            )
+            if count > CONTACTS:
+                raise ArithmeticError(f"{count} contacts in a segment: more than {CONTACTS}")
+            logs.append(log[:count])
+        return np.concatenate(logs)
+
+    def samples(self, first, spacing):
+        """Return phases, shape (n,), and states, (n, 4), at equal distances over the chain.
+
+        Parameters
+        ----------
+        first, spacing : float
+            A phase of the grid, not necessarily on the chain, and the distance, radian.
+        """
+        begin = self.phases[0] + (first - self.phases[0]) % spacing
+        count = round(self.cycle / spacing)
+        places = begin + spacing * np.arange(count)
+        states = np.empty((count, 4))
+        for k, state in enumerate(self.states):
+            chosen = (places >= self.phases[k]) & (places < self.phases[k + 1])
+            times = places[chosen] / self.p[FREQUENCY]
+            found, begin = np.empty((len(times), 4)), self.phases[k] / self.p[FREQUENCY]
+            records.trace(
+                self.p, state.copy(), begin, times, POLISH_TOLERANCE, found, np.empty((0, 5))
+            )
+            states[chosen] = found
+        return places, states
+
+    def path(self, k):
+        """Return the `paths.Path` of segment k."""
+        begin, end = self.phases[k : k + 2] / self.p[FREQUENCY]
+        return follow_path(self.p, self.states[k], begin, end)
+
+    def largest(self):
+        """Return the largest |Z1|."""
+        turns = [self.path(k).turns(0)[1] for k in range(len(self.states))]
+        return float(np.max(np.abs(np.concatenate([*turns, self.states[:, 0]]))))
+
+
+def _advance(p, state, tangents, begin, end):
+    """Integrate a state and tangents in place between two phases; return the time in contact."""
+    times = begin / p[FREQUENCY], end / p[FREQUENCY]
+    side = side_of(p, state)
+    return advance(p, state, tangents, side, *times, POLISH_TOLERANCE, workspace())[2]
+
+
+def chain_of(p, phases, states, sign) -> Chain:
+    """Integrate all segments of a chain; arguments as its attributes."""
+    ends = np.array(states, float)
+    factors, touching = np.empty((len(ends), 4, 4)), 0.0
+    for k, end in enumerate(ends):
+        tangents = np.eye(4)
+        touching += _advance(p, end, tangents, phases[k], phases[k + 1])
+        factors[k] = tangents.T
+    factors[-1] *= sign
+    return Chain(p, phases, np.array(states, float), sign, ends, factors, touching)
+
+
+def ends_of(p, phases, states):
+    """Return only the ends of the segments of a chain, shape (m, 4)."""
+    ends, none = np.array(states, float), np.empty((0, 4))
+    for k, end in enumerate(ends):
+        _advance(p, end, none, phases[k], phases[k + 1])
+    return ends
+
+
+def cyclic(factors):
+    """Return the derivative of the defects with respect to the states, shape (m n, m n)."""
+    m, n = factors.shape[:2]
+    matrix = np.zeros((m, n, m, n))
+    for k in range(m):
+        matrix[k, :, k] = factors[k]
+        matrix[k, :, (k + 1) % m] -= np.eye(n)
+    return matrix.reshape(m * n, m * n)
+
+
+def multipliers(factors):
+    """Return the eigenvalues of the product of matrices, without forming it.
+
+    Orthogonal iteration on the cyclic product separates multipliers of different moduli; those of
+    similar moduli are eigenvalues of the product of diagonal blocks.
+
+    Parameters
+    ----------
+    factors : array, shape (m, n, n)
+        In the order in which they act: the last is leftmost in the product.
+
+    Returns
+    -------
+    numpy.ndarray of complex, shape (n,)
+        By falling modulus.
+    """
+    m, n = factors.shape[:2]
+    if m == 1:
+        return np.linalg.eigvals(factors[0]).astype(complex)
+    basis, triangles = np.eye(n), np.empty_like(factors)
+    for _ in range(SWEEPS):
+        for k, factor in enumerate(factors):
+            basis, triangles[k] = np.linalg.qr(factor @ basis)
+    # the bases before and after a sweep differ by signs, or within blocks: one sweep more measures
+    first = basis
+    for k, factor in enumerate(factors):
+        basis, triangles[k] = np.linalg.qr(factor @ basis)
+    triangles[-1] = first.T @ basis @ triangles[-1]
+    sizes = np.sum(np.log(np.abs(np.diagonal(triangles, axis1=1, axis2=2)) + 1e-300), axis=0)
+    cuts = [0, *(np.flatnonzero(sizes[:-1] - sizes[1:] > np.log(APART)) + 1), n]
+    values = []
+    for begin, end in zip(cuts, cuts[1:], strict=False):
+        product = np.eye(end - begin)
+        for triangle in triangles:
+            product = triangle[begin:end, begin:end] @ product
+        values.append(np.linalg.eigvals(product))
+    return np.concatenate(values).astype(complex)
+
+
+def log_determinant(factors):
+    """Return the logarithm of the modulus of the determinant of the product of matrices."""
+    return float(np.sum(np.linalg.slogdet(factors)[1]))
+
+
+def cut(orbit, between=()):
+    """Return the phases of segments into which an orbit is cut, shape (m + 1,).
+
+    Sections lie in the middle of flights. A segment ends at the last section at which its
+    derivative is below AMPLIFIED in norm, or else at the first.
+
+    Parameters
+    ----------
+    orbit : Orbit
+    between : sequence of float
+        Phases at which the orbit comes near a wall: a flight with one has two sections, before it
+        and after it, and segments end at both.
+    """
+    cycle = orbit.cycle
+    if not orbit.touching:
+        return np.array([orbit.phase, orbit.phase + cycle])
+    places, forced = _sections(orbit, between)
+    phases, state = [places[0]], orbit.at(places[0])
+    product = np.eye(4)
+    for here, ahead in zip(places, np.append(places[1:], places[0] + cycle), strict=True):
+        tangents = np.eye(4)
+        begin = orbit.at(here) if here != places[0] else state
+        _advance(orbit.p, begin, tangents, here, ahead)
+        grown = tangents.T @ product
+        if here > phases[-1] and (here in forced or np.linalg.norm(grown, 2) > AMPLIFIED):
+            phases.append(here)
+            grown = tangents.T
+        product = grown
+    return np.array([*phases, places[0] + cycle])
+
+
+def _sections(orbit, between):
+    """Return phases in flight within one cycle, ascending from the longest flight's, (k,).
+
+    The second result holds those beside the phases `between`.
+    """
+    log, cycle, first = orbit.contacts, orbit.cycle, orbit.phase
+    begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
+    following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
+    found, forced, longest = [], [], (0.0, first)
+    for end, begin in zip(ends, following, strict=True):
+        turns = sorted(end + (phase - end) % cycle for phase in between)
+        marks = [end, *(turn for turn in turns if turn < begin), begin]
+        for low, high in zip(marks, marks[1:], strict=False):
+            middle = first + ((low + high) / 2 - first) % cycle
+            if high - low > 2 * CLEAR:
+                found.append(middle)
+                forced += [middle] * (len(marks) > 2)
+            longest = max(longest, (high - low, middle))
+    start = longest[1]
+    # a symmetric orbit has each section twice in a period
+    places = np.sort(start + (np.array([*found, start]) - start + 1e-9) % cycle - 1e-9)
+    places = places[np.append(True, np.diff(places) > 1e-6)]
+    places = places[places < start + cycle - 1e-6]
+    forced = start + (np.array(forced) - start + 1e-9) % cycle - 1e-9
+    return places, [place for place in places if np.min(np.abs(forced - place), initial=1) < 1e-6]
