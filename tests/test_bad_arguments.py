@@ -68,7 +68,13 @@ FUNCTIONS = {
     ),
     "Settling": (
         {},
-        {"tolerance": positive, "patience": count, "limit": count, "watched": count},
+        {
+            "tolerance": positive,
+            "patience": count,
+            "limit": count,
+            "watched": count,
+            "further": negative,
+        },
     ),
     "Machine": (
         {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005, "force": 40},

@@ -29,6 +29,8 @@ MOTIONS = [  # outcome, period, contacts
     ("non_colliding", 1, 0.0),
     ("chaotic", 0, 3.0),
     ("unresolved", 0, 1.0),
+    ("quasi_periodic", 0, 2.0),
+    ("drifting", 1, 0.0),
     ("absent", 0, 0.0),
 ]
 
@@ -138,7 +140,7 @@ def orbits(**parameters):
 FREE = orbits().assign_attrs(parameters='{"damping": 0.2}')
 DAMPED = {"branches": [orbits(), FREE]}
 STATUSES = ["period_1", "higher_period", "subharmonic_damped", "chaotic", "non_colliding"]
-STATUSES += ["unresolved"]
+STATUSES += ["quasi_periodic", "drifting", "unresolved"]
 FREE_ROLES = ["free_stable", "free_unstable", "subharmonic_free", "free_higher"]
 FREE_ROLES += ["subharmonic_unstable"]
 BALANCE_ROLES = ["harmonic_balance", "band"]

@@ -9,9 +9,12 @@ import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.system.bounds import MOST_STIFF
 
-SHORT = idm.Settling(patience=100, limit=100, watched=2)
+SHORT = idm.Settling(patience=100, limit=100, watched=2, further=0)
 OUTCOMES = [flag("outcome", name) for name in ("unresolved", "settled", "chaotic")]
-OUTCOMES += [flag("outcome", name) for name in ("diverged", "non_colliding", "escaped", "at_rest")]
+OUTCOMES += [
+    flag("outcome", name)
+    for name in ("diverged", "non_colliding", "escaped", "at_rest", "drifting")
+]
 OF_OSCILLATOR = {"damping": 0.215, "linear_frequency": 0.0, "cubic": 1.0, "force": 1.0}
 OF_OSCILLATOR |= {"unbalance": 0.0}
 USUAL = {"mass_ratio": 0.12, "clearance": 2.0, "restitution": 1.0, "contact_stiffness": 2000.0}

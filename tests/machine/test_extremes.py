@@ -16,10 +16,18 @@ import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.system.bounds import CLEARANCE_RANGE
 
-SHORT = idm.Settling(patience=100, limit=100, watched=2)
+SHORT = idm.Settling(patience=100, limit=100, watched=2, further=0)
 OUTCOMES = [
     flag("outcome", name)
-    for name in ("unresolved", "settled", "chaotic", "non_colliding", "escaped", "at_rest")
+    for name in (
+        "unresolved",
+        "settled",
+        "chaotic",
+        "non_colliding",
+        "escaped",
+        "at_rest",
+        "drifting",
+    )
 ]
 MASS, STIFFNESS, FORCE = 12.0, 2e5, 40.0
 SPRINGS = {"linear": 0.0, "hardening": 4e9, "softening": -4e9}

@@ -125,9 +125,12 @@ def test_chaos_and_its_exponent():
 
 def test_chaos_without_time_to_be_sure_is_unresolved():
     p, state = VIOLENT
-    record = settled(p, state, patience=100, limit=100)
+    settling, rows = Settling(patience=100, limit=100, further=0), (p[None], np.array([state]))
+    record = ensemble.settle(*rows, settling, from_strobe=True)[0]
     assert record["outcome"] == records.UNRESOLVED
     assert record["periods_run"] == 99
+    settling = Settling(patience=100, limit=100)
+    assert ensemble.settle(*rows, settling, from_strobe=True)[0]["outcome"] == records.CHAOTIC
     assert settled(p, state, patience=1000, limit=2000)["outcome"] == records.CHAOTIC
 
 

@@ -212,5 +212,5 @@ def test_steady_orbit_closes():
 
 def test_steady_orbit_says_that_a_motion_has_not_settled():
     with pytest.raises(ArithmeticError, match="limit = 120"):
-        settling = Settling(patience=100, limit=120)
+        settling = Settling(patience=100, limit=120, further=0)
         steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0), settling=settling)

@@ -180,13 +180,14 @@ def test_without_a_radius_placed_starts_count_in_the_sizes_alone(entire):
 
 def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator():
     axes = AXES | {"mass_ratio": [0.12], "clearance": [1000], "restitution": [1]}
-    # shorter than a flight of the loose mass
+    # shorter than a flight of the loose mass, which only drifts
     settling = Settling(patience=100, limit=100, watched=20)
     given = {"starts": 20, "radius": 2.0, "settling": settling}
     wide = studies.study_chunk(PAPER, axes, (0, 1), **given).isel(cell=0)
     starts = random_states(20, 2.0, Damper(0.12, 1000), [1995, 0])[:, :2]
     free = [steady_motion(PAPER, None, 2.0, state) for state in starts]
-    assert wide["outcome_count"].sel(counted_outcome="unresolved") == 20
+    without_contact = wide["outcome_count"].sel(counted_outcome=["drifting", "non_colliding"])
+    assert without_contact.sum() >= 19
     assert wide["quiet_count"] == 0 and np.isnan(wide["quiet_displacement"])
     largest = max(float(motion["maximum_displacement"]) for motion in free)
     assert_allclose(wide["largest_displacement"], largest, rtol=1e-6)

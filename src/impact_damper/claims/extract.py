@@ -61,7 +61,8 @@ def is_outcome(data, *meanings):
 
 def touching(response):
     """Mask of the motions, settled or not, in which the loose mass touches the walls."""
-    return is_outcome(response, "settled", "chaotic", "unresolved") & (response.contacts > 0)
+    steady = is_outcome(response, "settled", "quasi_periodic", "chaotic", "unresolved")
+    return steady & (response.contacts > 0)
 
 
 def spacing(data):

@@ -71,7 +71,9 @@ def suppression_band(datasets, name):
     response = extract.get(datasets, "response", name)
     upper, _ = exact_orbits.resonance_fold(free)
     ends = [top for _, top in exact_orbits.ranges(exact_orbits.high(branches, free))]
-    unsettled = high_motions(response, free) & extract.is_outcome(response, "chaotic", "unresolved")
+    unsettled = high_motions(response, free) & extract.is_outcome(
+        response, "quasi_periodic", "chaotic", "unresolved"
+    )
     last = response.frequency.values[unsettled.any("motion").values]
     if not ends and not len(last):
         return Band(np.nan, upper, np.nan)

@@ -141,6 +141,12 @@ def is_settled(motions):
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
+def touches_no_wall(motions):
+    """Mask of the motions of a record or dataset in which the loose mass touches no wall."""
+    names = ("non_colliding", "drifting")
+    return np.isin(motions["outcome"], [flag("outcome", name) for name in names])
+
+
 def parameters_of(data) -> dict:
     """Parameters from which a dataset was computed."""
     return json.loads(data.attrs["parameters"])

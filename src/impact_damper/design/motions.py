@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import flag, touches_no_wall
 from impact_damper.data.shares import wilson_intervals
 from impact_damper.design.labelled import SIDES, labelled
 from impact_damper.design.outcomes import Case, are_quiet
@@ -50,7 +50,7 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     counts = np.where(quiet, response["share"].values, 0).sum(axis=1)
     total = response.sizes["start"]
     placed = response["origin"].values == flag("origin", "placed_start")
-    alone = response["outcome"].values == flag("outcome", "non_colliding")
+    alone = touches_no_wall(response)
     by_chance = response["share"].values > 0
     reached = by_chance | (placed & ~alone)
     untouched = np.where(placed & alone & ~by_chance, sizes, -np.inf).max(axis=1)

@@ -117,7 +117,7 @@ class Task:
         stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
         settle(self, "contact_stiffness", stiffness)
         settling = check_settling(self.settling)
-        settling = replace(settling, watched=max(settling.watched, WATCHED))
+        settling = replace(settling, watched=max(settling.watched, WATCHED), further=0)
         settle(self, "settling", settling)
         self._check_excitation()
         settle(self, "band", self._checked_band())

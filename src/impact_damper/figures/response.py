@@ -11,7 +11,9 @@ Largest displacement against forcing frequency of all motions that were found, f
 and by following each motion to the neighbouring frequencies. Lines join the settled motions of a
 branch and extend to its ends. The motions without damper and the dotted unstable ones with damper
 are exact periodic orbits. A chaotic motion is a point at the largest displacement observed. A
-motion without contact is one of the free oscillator. A motion with damper is called subharmonic if
+quasi-periodic motion has two frequencies without a common multiple, found from rotation numbers. A
+motion without contact is one of the free oscillator, while the loose mass stands still or drifts in
+the gap. A motion with damper is called subharmonic if
 its period is a multiple of three forcing periods. Harmonic balance, for elastic contact only, gives
 the amplitude of the first harmonic, which is below the largest displacement where higher harmonics
 matter. The paper draws few motions at each frequency and calls the chaotic ranges narrow; here
@@ -19,7 +21,7 @@ several motions coexist at most frequencies, and all are drawn.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-STATUSES = ("chaotic", "non_colliding", "unresolved")
+STATUSES = ("chaotic", "quasi_periodic", "non_colliding", "drifting", "unresolved")
 
 
 @style()

@@ -115,12 +115,20 @@ ROLES = {
     "subharmonic_damped": _points("elastic, subharmonic (period $3n$)", PURPLE, "v"),
     "chaotic": _points("elastic, chaotic", ORANGE, ".", filled=True),
     "non_colliding": _points("elastic, no contact", BLACK, "D", markersize=2.6),
+    "drifting": _points("elastic, drifting without contact", BLACK, "|", markersize=4.2),
+    "quasi_periodic": _points("elastic, quasi-periodic", SKY, "P", filled=True, markersize=4.2),
     "unresolved": _points("elastic, unresolved", BLACK, "x"),
     "inelastic_period_1": _points("inelastic, period 1", VERMILION, "+", markersize=4.6),
     "inelastic_higher_period": _points("inelastic, other periods", VERMILION, "*"),
     "inelastic_subharmonic_damped": _points("inelastic, subharmonic (period $3n$)", VERMILION, "<"),
     "inelastic_chaotic": _points("inelastic, chaotic", VERMILION, "1", markersize=4.6),
     "inelastic_non_colliding": _points("inelastic, no contact", VERMILION, "d"),
+    "inelastic_drifting": _points(
+        "inelastic, drifting without contact", VERMILION, "2", markersize=4.6
+    ),
+    "inelastic_quasi_periodic": _points(
+        "inelastic, quasi-periodic", PURPLE, "h", filled=True, markersize=4.2
+    ),
     "inelastic_unresolved": _points("inelastic, unresolved", VERMILION, "X"),
     "optimum": _points("smallest simulated", BLACK, "*", filled=True, markersize=5.5, zorder=3),
     "near_optimum": _line("within 10 % of it", GREY, marker="|", linewidth=0.6, zorder=3),

@@ -11,6 +11,7 @@ from tqdm import tqdm
 
 from impact_damper.motions.records import MOTION, first_collisions, measure
 from impact_damper.motions.settling import settle_many
+from impact_damper.motions.undecided import name_undecided
 from impact_damper.system import packed
 from impact_damper.system.bounds import check_count
 from impact_damper.system.packed import FREQUENCY
@@ -116,6 +117,7 @@ def settle(
             found[part],
             stop,
         )
+        name_undecided(parameters[part], found[part], settling.limit, settling.further, stop)
         measure(parameters[part], settling.tolerance, settling.watched, found[part], stop)
 
     # Compiles in this thread, where Ctrl-C is heard.

@@ -26,7 +26,17 @@ STEPS_AT_ONCE = 50_000
 NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
-UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING, ESCAPED, AT_REST = range(7)
+(
+    UNRESOLVED,
+    SETTLED,
+    CHAOTIC,
+    DIVERGED,
+    NON_COLLIDING,
+    ESCAPED,
+    AT_REST,
+    QUASI_PERIODIC,
+    DRIFTING,
+) = range(9)
 MOTION = np.dtype(
     [
         ("outcome", "i1"),
@@ -36,6 +46,9 @@ MOTION = np.dtype(
         ("residual", "f8"),
         ("lyapunov_exponent", "f8"),
         ("lyapunov_error", "f8"),
+        ("first_frequency", "f8"),
+        ("second_frequency", "f8"),
+        ("frequency_error", "f8"),
         ("state", "f8", 4),
         ("maximum_displacement", "f8"),
         ("contacts", "f8"),
@@ -316,5 +329,8 @@ def tabulate(records):
         "residual": records["residual"],
         "lyapunov_exponent": records["lyapunov_exponent"],
         "lyapunov_error": records["lyapunov_error"],
+        "first_frequency": records["first_frequency"],
+        "second_frequency": records["second_frequency"],
+        "frequency_error": records["frequency_error"],
         "periods_run": records["periods_run"],
     }

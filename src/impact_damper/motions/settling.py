@@ -23,10 +23,12 @@ from impact_damper.kernel.batch import (
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped
 from impact_damper.kernel.single import assign, side_of
+from impact_damper.motions.growth import BLOCK, RECENT, exponent, follow_tangent
 from impact_damper.motions.records import (
     AT_REST,
     CHAOTIC,
     DIVERGED,
+    DRIFTING,
     ESCAPED,
     NON_COLLIDING,
     SETTLED,
@@ -45,11 +47,8 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # Longest period looked for, in forcing periods, and number of strobe states kept for it.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# Lyapunov exponent: forcing periods of a batch, a stretch of motion that gives a sample of growth;
-# number of recent batches that must still grow; number of standard errors by which the exponent
-# must be positive; and value per unit time below which it is weak.
-BLOCK = 10
-RECENT = 5
+# Lyapunov exponent: number of standard errors by which it must be positive, and value per unit time
+# below which it is weak.
 CONFIDENCE = 4.0
 WEAK = 0.05
 # Distance from an orbit at which Newton's method is first tried, and at which it is tried last.
@@ -124,41 +123,30 @@ def move_onto_orbit(p, y, periods, near, out):
     return True
 
 
+@inlined
+def leave_transient(p, out):
+    """Replace the exponent of the run before an orbit by that of the orbit, which has no error."""
+    duration = out.period * 2.0 * math.pi / p[FREQUENCY]
+    out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
+    out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
+
+
 @kernel_only
-def follow_tangent(tangent, growth):
-    """Normalise a tangent vector after a period; add the logarithm of its growth to the batch.
+def stays_without_contact(p, y, ring, k, out):
+    """Move a state y without contacts onto the orbit of the primary mass near it, if there is one.
 
-    Mean and sum of squares over complete batches, of BLOCK periods, follow Welford's recurrence.
+    The loose mass keeps its distance from the primary mass and its speed. Returns whether there is
+    such an orbit, stable and of at most LONGEST_PERIOD.
     """
-    size = 0.0
-    for i in range(4):
-        size += tangent[i] ** 2
-    size = math.sqrt(size)
-    for i in range(4):
-        tangent[i] /= size
-    growth.batch += math.log(size)
-    growth.periods += 1
-    if growth.periods % BLOCK == 0:
-        count = growth.periods // BLOCK
-        change = growth.batch - growth.mean
-        growth.mean += change / count
-        growth.squares += change * (growth.batch - growth.mean)
-        growth.recent[count % RECENT] = growth.batch
-        growth.batch = 0.0
-
-
-@kernel
-def exponent(growth):
-    """Return mean growth of a batch, its standard error, and whether recent batches grow too.
-
-    Recent batches grow if their average growth is above half the mean.
-    """
-    count = growth.periods // BLOCK
-    recent = 0.0
-    for i in range(RECENT):
-        recent += growth.recent[i] / RECENT
-    error = math.sqrt(growth.squares / (count * (count - 1.0)))
-    return growth.mean, error, recent > 0.5 * growth.mean
+    for n in range(1, min(k, LONGEST_PERIOD) + 1):
+        before = ring[(k - n) % RING]
+        if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
+            found, residual, multiplier = polish(p, y, n, 100.0 * NEAR, POLISH_TOLERANCE)
+            if found and abs(multiplier) < 1.0:
+                out.period, out.residual, out.multiplier = n, residual, multiplier
+                leave_transient(p, out)
+                return True
+    return False
 
 
 @inlined
@@ -169,6 +157,7 @@ def begin_watch(seen, index, out):
     out.outcome, out.period = UNRESOLVED, 0
     out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
     out.lyapunov_exponent, out.lyapunov_error = np.nan, np.nan
+    out.first_frequency, out.second_frequency, out.frequency_error = np.nan, np.nan, np.nan
 
 
 @kernel_only
@@ -197,18 +186,26 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       REST of that at the first strobe. A motion without forcing is stopped for no other reason
       than this, an escape, a divergence, or `limit`;
     - as non-colliding when it has settled without contacts, or when the loose mass has touched no
-      wall for `patience` periods and would drift by less than 1 % of the clearance until `limit`;
+      wall for `patience` periods and would drift by less than 1 % of the clearance until `limit`,
+      while the primary mass is on an orbit;
+    - as drifting at `limit` if the loose mass has touched no wall for `patience` periods and drifts
+      farther, while the primary mass is on an orbit;
     - as chaotic after `patience` periods if the largest Lyapunov exponent is positive by
       CONFIDENCE standard errors and recent batches grow too (a chaotic transient may just have
       ended). With a WEAK exponent it is stopped only at `limit`, because a slow spiral can look
       like weak chaos for a while.
 
-    The exponent is computed from one tangent, from half of `patience` on. Outcome, period,
+    The exponent is computed from one tangent, from half of `patience` on; on an orbit it follows
+    from the dominant multiplier, since the run before it is a transient. Outcome, period,
     residual, dominant multiplier, periods_run and the exponent per unit time are written to the
     record `out`; y is moved onto the orbit if there is one.
     """
     k = seen.strobes
+    bounded = p[CLEARANCE] < math.inf
     if k == limit:
+        untouched = bounded and contacts == 0 and side == 0 and seen.quiet >= patience
+        if untouched and stays_without_contact(p, y, ring, k, out):
+            out.outcome = DRIFTING
         return True
     period = 2.0 * math.pi / p[FREQUENCY]
     for i in range(4):
@@ -227,14 +224,16 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
     if n > 0:
         if move_onto_orbit(p, y, n, seen.near, out):
-            if seen.quiet >= out.period and p[CLEARANCE] < math.inf:
+            if seen.quiet >= out.period and bounded:
                 out.outcome = NON_COLLIDING
+            leave_transient(p, out)
             return True
         seen.near = max(0.1 * seen.near, NEAREST)
     drift = abs(y[3] - y[1]) * limit * period
-    if seen.quiet >= patience and drift < 0.01 * p[CLEARANCE] < math.inf:
-        out.outcome = NON_COLLIDING
-        return True
+    if bounded and seen.quiet >= patience and drift < 0.01 * p[CLEARANCE]:
+        if stays_without_contact(p, y, ring, k, out):
+            out.outcome = NON_COLLIDING
+            return True
     half = patience // 2
     if k == half:
         for i in range(4):

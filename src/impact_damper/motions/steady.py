@@ -34,10 +34,10 @@ def steady_motion(
     -------
     xarray.Dataset
         Scalars: outcome, period (in forcing periods), contacts per forcing period, largest
-        |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent; and `state`,
-        a state of the motion at W T = pi/2. The state carries this phase as a coordinate, so that
-        `simulate` and this function go on from there: in a sweep hand it on from one frequency to
-        the next.
+        |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent, the two frequencies
+        of a quasi-periodic motion; and `state`, a state of the motion at W T = pi/2. The state
+        carries this phase as a coordinate, so that `simulate` and this function go on from there:
+        in a sweep hand it on from one frequency to the next.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
     """
     settling = check_settling(settling)
     steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
-    for name in ("escaped", "at_rest"):
+    for name in ("escaped", "at_rest", "drifting", "quasi_periodic"):
         if steady["outcome"] == flag("outcome", name):
             raise ArithmeticError(f"{name}: the motion leads to no orbit; simulate shows it")
     if not is_settled(steady):

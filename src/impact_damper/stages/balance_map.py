@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
 from impact_damper.data.variables.balance_map import MAPPED
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
@@ -203,12 +203,13 @@ def _kinds(records, resonance):
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]
+    regular = is_settled(records) | (outcome == flag("outcome", "quasi_periodic"))
     cases = {
         "not_run": outcome == flag("outcome", "absent"),
-        "no_contact": outcome == flag("outcome", "non_colliding"),
+        "no_contact": touches_no_wall(records),
         "quiet": is_settled(records) & quiet,
-        "other_low": is_settled(records) & low,
-        "high": is_settled(records),
+        "other_low": regular & low,
+        "high": regular,
         "low_chaotic": (outcome == flag("outcome", "chaotic")) & low,
         "high_chaotic": outcome == flag("outcome", "chaotic"),
     }

@@ -6,7 +6,7 @@ periods). With the damper, every motion whose period is a multiple of 3 counts a
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.datasets import dataset, flag, touches_no_wall
 from impact_damper.motions.free_subharmonic import (
     SEARCHED,
     branch_ends,
@@ -35,6 +35,7 @@ SWITCHED_MOTIONS = (
     "other_period",
     "chaotic",
     "non_colliding",
+    "quasi_periodic",
     "unsettled",
 )
 
@@ -220,7 +221,8 @@ def _shares(data, present, count):
             is_subharmonic(data),
             settled,
             data["outcome"][1] == flag("outcome", "chaotic"),
-            data["outcome"][1] == flag("outcome", "non_colliding"),
+            touches_no_wall({"outcome": data["outcome"][1]}),
+            data["outcome"][1] == flag("outcome", "quasi_periodic"),
         ],
         range(len(SWITCHED_MOTIONS) - 1),
         len(SWITCHED_MOTIONS) - 1,

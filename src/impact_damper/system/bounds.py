@@ -37,6 +37,7 @@ TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "below, rounding prevail
 PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "fewer periods decide nothing"}
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
+FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Runs whose records are kept in memory together.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}

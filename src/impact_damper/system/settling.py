@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from impact_damper.system.bounds import (
+    FURTHER_RANGE,
     LIMIT_RANGE,
     PATIENCE_RANGE,
     TOLERANCE_RANGE,
@@ -27,10 +28,14 @@ class Settling:
         Forcing periods after which a motion is stopped if it is certainly chaotic, or if the loose
         mass hardly moves and has touched no wall during these periods.
     limit : int
-        Forcing periods after which every motion is stopped, as chaotic if that is certain, else as
-        unresolved.
+        Forcing periods after which every motion is stopped, as chaotic if that is certain, or as
+        drifting if its loose mass has touched no wall for `patience` periods.
     watched : int
         Further forcing periods for which a motion that has not settled is run to measure it.
+    further : int
+        Most forcing periods for which a motion that is undecided at `limit` is run on, to find out
+        whether it is quasi-periodic, periodic with a long period, or chaotic (`motions.undecided`).
+        A motion still undecided then is unresolved.
 
     Raises
     ------
@@ -42,6 +47,7 @@ class Settling:
     patience: int = 300
     limit: int = 1500
     watched: int = 50
+    further: int = 100_000
 
     def __post_init__(self):
         check_number("tolerance", self.tolerance, **TOLERANCE_RANGE)
@@ -49,6 +55,7 @@ class Settling:
         limits = LIMIT_RANGE | {"least": self.patience, "why": "not below patience"}
         check_count("limit", self.limit, **limits)
         check_count("watched", self.watched, **WATCHED_RANGE)
+        check_count("further", self.further, **FURTHER_RANGE)
 
 
 def check_settling(settling) -> Settling:

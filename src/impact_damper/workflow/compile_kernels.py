@@ -80,6 +80,11 @@ def warm_up_settling() -> None:
     batch.send(pool, 0, 0.0, 0.01, False)
     batch.advance_some(pool, places, places.copy())
 
+    from impact_damper.motions import undecided
+
+    p, tangent, stop = pack(OSCILLATOR, DAMPER, FREQUENCY), np.ones((1, 4)), np.zeros(1, bool)
+    undecided.run_block(p, np.zeros(4), tangent, np.empty((1, 4)), np.empty(1), stop)
+
     from impact_damper.stages.response import frequency_response
     from impact_damper.system.settling import Settling
 

@@ -85,6 +85,22 @@ VARIABLES = {
     "lyapunov_error": Variable(
         ("frequency", "motion"), "standard error of the largest Lyapunov exponent", quantity="rate"
     ),
+    "first_frequency": Variable(
+        ("frequency", "motion"),
+        "first frequency of a quasi-periodic motion, the forcing frequency divided by the number "
+        "of closed curves of the strobe states",
+        quantity="frequency",
+    ),
+    "second_frequency": Variable(
+        ("frequency", "motion"),
+        "second frequency of a quasi-periodic motion, at most half of the first",
+        quantity="frequency",
+    ),
+    "frequency_error": Variable(
+        ("frequency", "motion"),
+        "difference of the second frequency between the halves of the run",
+        quantity="frequency",
+    ),
     "periods_run": Variable(
         ("frequency", "motion"), "forcing periods run before the motion settled"
     ),

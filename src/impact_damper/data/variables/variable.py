@@ -43,6 +43,8 @@ OUTCOME = {
     "non_colliding": 4,
     "escaped": 5,
     "at_rest": 6,
+    "quasi_periodic": 7,
+    "drifting": 8,
 }
 MINIMUM = {"not_found": 0, "smooth": 1, "kink": 2, "jump": 3, "edge": 4}
 # A damped period-1 motion is quiet below half the displacement of the free resonance motion.

@@ -1,6 +1,7 @@
 """Settings that many stages share: grids, searches, settling, and the controller."""
 
 from impact_damper.system.bounds import (
+    FURTHER_RANGE,
     LIFETIME_RANGE,
     LIMIT_RANGE,
     PATIENCE_RANGE,
@@ -57,7 +58,8 @@ class Settling(Section):
     patience: count(
         "forcing periods after which a motion that is chaotic is stopped", **PATIENCE_RANGE
     )
-    limit: count("forcing periods after which a motion is stored as unresolved", **LIMIT_RANGE)
+    limit: count("forcing periods after which every motion is stopped", **LIMIT_RANGE)
+    further: count("most forcing periods for which an undecided motion is run on", **FURTHER_RANGE)
     watched: count("forcing periods over which an unsettled motion is measured", **WATCHED_RANGE)
 
     def contradictions(self, path, config):

@@ -1,0 +1,230 @@
+"""Motions that are undecided when settling ends: run on, and called by their right name.
+
+A run that settles on no orbit and is not certainly chaotic may be quasi-periodic, be periodic with
+a long period, approach an orbit slowly, be weakly chaotic, or have a loose mass that drifts in the
+gap. Here such a motion is run on in blocks, each twice as long as the one before, until one of
+these is certain.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.equation import has_escaped
+from impact_damper.kernel.single import side_of, workspace
+from impact_damper.motions.growth import BLOCK
+from impact_damper.motions.records import (
+    CHAOTIC,
+    DIVERGED,
+    DRIFTING,
+    ESCAPED,
+    NON_COLLIDING,
+    QUASI_PERIODIC,
+    SETTLED,
+    UNRESOLVED,
+)
+from impact_damper.motions.settling import CONFIDENCE, LONGEST_PERIOD, NEAR
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish, repeats_sooner
+from impact_damper.system.packed import CLEARANCE, FORCE, FREQUENCY, UNBALANCE
+from impact_damper.theory.rotation_numbers import find_rotation
+
+# Most forcing periods of the first block.
+FIRST = 1500
+# Chaos: least growth of a tangent in a block, as a logarithm. On a motion that leaves an unstable
+# orbit from within rounding, 1e-16, it grows by less.
+GROWN = 40.0
+# Exponents within this number of standard errors of 0 are taken for 0.
+NEUTRAL = 3.0
+# Longest period of an orbit, in forcing periods.
+LONGEST = 128
+# Largest distance moved in Newton's method onto an orbit.
+REACH = 1e-2
+# Largest distance of a motion from closed curves already known, if it is the motion on them.
+NEIGHBOUR = 1e-3
+# What such a motion has in common with the one known.
+TORUS = (
+    "outcome",
+    "lyapunov_exponent",
+    "lyapunov_error",
+    "first_frequency",
+    "second_frequency",
+    "frequency_error",
+)
+
+
+@kernel
+def run_block(p, y, tangent, states, growth, stop):
+    """Run a motion in place over the forcing periods of a block.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+    y : array, shape (4,)
+        State at the strobe; replaced.
+    tangent : array, shape (1, 4)
+        Solution of the variational equations; replaced, of length 1 after each period.
+    states : array, shape (n, 4)
+        Gets the state after each period.
+    growth : array, shape (n,)
+        Gets the logarithm of the growth of the tangent in each period.
+    stop : array of bool, shape (1,)
+        Set to true by another thread, it ends the run.
+
+    Returns
+    -------
+    contacts : int
+    escaped : bool
+    """
+    work = workspace()
+    side = side_of(p, y)
+    total = 1 if side != 0 else 0
+    for k in range(len(states)):
+        if stop[0]:
+            break
+        side, contacts, _ = one_period(p, y, tangent, side, POLISH_TOLERANCE, work)
+        total += contacts
+        if has_escaped(p, y[0], y[1]):
+            return total, True
+        size = 0.0
+        for i in range(4):
+            states[k, i] = y[i]
+            size += tangent[0, i] ** 2
+        size = math.sqrt(size)
+        for i in range(4):
+            tangent[0, i] /= size
+        growth[k] = math.log(size)
+    return total, False
+
+
+def name_undecided(parameters, records, limit, further, stop):
+    """Run on the motions of `records` that are unresolved, and complete their records in place.
+
+    Parameters
+    ----------
+    parameters : array, shape (m, packed.COUNT)
+    records : array of records.MOTION, shape (m,)
+        As from `settling.settle_many`.
+    limit : int
+        Forcing periods of the run before; the first block is as long, but not longer than FIRST.
+    further : int
+        Most forcing periods of all blocks together.
+    stop : array of bool, shape (1,)
+        Set to true by another thread, it ends the runs; records are then incomplete.
+    """
+    curves = []
+    for i in np.flatnonzero(records["outcome"] == UNRESOLVED):
+        p, record = parameters[i], records[i : i + 1]
+        if p[FORCE] + p[UNBALANCE] > 0:
+            known = [curve for curve in curves if np.array_equal(curve.parameters, p)]
+            states = _name_one(p, record, limit, further, known, stop)
+            if record["outcome"] == QUASI_PERIODIC:
+                curves.append(_Curves(p, states, record.copy()))
+
+
+class _Curves(NamedTuple):
+    """Closed curves on which a quasi-periodic motion lies at the strobe, as states on them."""
+
+    parameters: np.ndarray
+    states: np.ndarray
+    record: np.ndarray
+
+
+def _name_one(p, record, limit, further, known, stop):
+    """Run on one motion, whose record is an array of length 1, until it has a name.
+
+    A motion that comes to closed curves already known is the one that lies on them. Returns the
+    states of the last block.
+    """
+    y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
+    period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
+    states = np.empty((0, 4))
+    while count <= further:
+        states, growth = np.empty((count, 4)), np.empty(count)
+        contacts, escaped = run_block(p, y, tangent, states, growth, stop)
+        record["periods_run"] += count
+        record["state"] = y
+        if stop[0]:
+            break
+        if escaped or not np.all(np.isfinite(y)):
+            record["outcome"] = ESCAPED if escaped else DIVERGED
+            break
+        mean, error = _exponent(growth)
+        record["lyapunov_exponent"], record["lyapunov_error"] = mean / period, error / period
+        for curves in known:
+            if _is_on(curves.states, states[-LONGEST_PERIOD:]):
+                for name in TORUS:
+                    record[name] = curves.record[name]
+                return states
+        record["outcome"] = (
+            _on_orbit(p, record, states, contacts, limit)
+            or _quasi_periodic(p, record, states, mean, error)
+            or (CHAOTIC if _grows(growth, mean, error) else UNRESOLVED)
+        )
+        if record["outcome"] != UNRESOLVED:
+            break
+        further, count = further - count, 2 * count
+    return states
+
+
+def _is_on(curve, states):
+    """Return whether states lie, to NEIGHBOUR, on the closed curves given by many states."""
+    apart = np.abs(states[:, None, :3] - curve[None, :, :3]).max(axis=2)
+    return bool(np.max(np.min(apart, axis=1)) < NEIGHBOUR)
+
+
+def _exponent(growth):
+    """Return the mean growth in a period and its standard error, from batches of BLOCK periods."""
+    batches = growth[: len(growth) // BLOCK * BLOCK].reshape(-1, BLOCK).mean(axis=1)
+    return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(len(batches))
+
+
+def _grows(growth, mean, error):
+    """Return whether a tangent grows for certain, and still does in the last quarter."""
+    lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
+    return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
+
+
+def _on_orbit(p, record, states, contacts, limit):
+    """Move a motion onto the stable orbit near it; return its outcome, UNRESOLVED without one.
+
+    If the loose mass has touched no wall, only the primary mass must be on an orbit.
+    """
+    last, components = states[-1], 2 if contacts == 0 else 3
+    before = states[-2 : -2 - LONGEST : -1]
+    near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR
+    for n in np.flatnonzero(near) + 1:
+        y, n = last.copy(), int(n)
+        found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
+        if not found or abs(multiplier) >= 1 or repeats_sooner(p, y, n, POLISH_TOLERANCE):
+            continue
+        duration = n * 2 * math.pi / p[FREQUENCY]
+        record["state"], record["period"], record["residual"] = y, n, residual
+        record["multiplier"], record["lyapunov_error"] = multiplier, 0.0
+        record["lyapunov_exponent"] = math.log(abs(multiplier)) / duration
+        if contacts > 0 or p[CLEARANCE] == math.inf:
+            return SETTLED
+        drift = abs(y[3] - y[1]) * limit * 2 * math.pi / p[FREQUENCY]
+        return NON_COLLIDING if drift < 0.01 * p[CLEARANCE] else DRIFTING
+    return UNRESOLVED
+
+
+def _quasi_periodic(p, record, states, mean, error):
+    """Return QUASI_PERIODIC if the states lie on closed curves that the map turns, or UNRESOLVED.
+
+    Each of the curves is tried, since one on which contacts begin or end at the strobe has corners.
+    """
+    if abs(mean) > NEUTRAL * error:
+        return UNRESOLVED
+    points = states[:, 0] + 1j * states[:, 1] / p[FREQUENCY]
+    for curves in range(1, LONGEST_PERIOD + 1):
+        found = [find_rotation(points[first::curves]) for first in range(curves)]
+        found = [rotation for rotation in found if rotation is not None]
+        if found:
+            best = min(found, key=lambda rotation: rotation.error)
+            first = p[FREQUENCY] / curves
+            record["first_frequency"], record["second_frequency"] = first, first * best.number
+            record["frequency_error"] = first * best.error
+            return QUASI_PERIODIC if best.known else UNRESOLVED
+    return UNRESOLVED

@@ -1,0 +1,59 @@
+"""Rotation numbers of maps of a closed curve that are known exactly, and sets that are no curve."""
+
+import math
+
+import numpy as np
+import pytest
+
+from impact_damper.theory.rotation_numbers import AGREEMENT, birkhoff_average, find_rotation
+
+GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+def on_curve(number, count=3000):
+    """Return points of a rotation by `number` revolutions, on a closed curve without symmetry."""
+    angle = 2 * np.pi * number * np.arange(count)
+    return 1 + 2j + np.exp(1j * angle) + 0.3 * np.exp(-1j * angle) + 0.1 * np.exp(2j * angle)
+
+
+@pytest.mark.parametrize("number", [1 - GOLDEN, 0.1 / math.pi, 1 / math.sqrt(5)])
+@pytest.mark.parametrize("sense", [1, -1])
+def test_rotation_of_a_curve(number, sense):
+    found = find_rotation(on_curve(sense * number))
+    assert found.known
+    assert abs(found.number - number) < 1e-12
+
+
+def test_error_falls_faster_than_a_power():
+    """Doubling the orbit gains more than a factor of 50; without weights it gains about 2."""
+    errors = []
+    for count in (25, 50, 100, 200):
+        values = np.sin(2 * np.pi * GOLDEN * np.arange(count)) ** 2
+        errors.append(abs(birkhoff_average(values) - 0.5))
+    assert np.all(np.divide(errors[:-1], errors[1:]) > 50)
+
+
+def test_slow_turning_curve_is_not_known_from_a_short_orbit():
+    """Near 2/5 the orbit has gone round in small steps only once."""
+    found = find_rotation(on_curve(0.4 + 1e-4, 2000))
+    assert found is None or not found.known
+    assert abs(find_rotation(on_curve(0.4 + 1e-4, 200_000)).number - 0.4 - 1e-4) < AGREEMENT
+
+
+@pytest.mark.parametrize("period", [1, 2, 5, 12])
+def test_periodic_points_are_no_curve(period):
+    assert find_rotation(on_curve(1 / period) if period > 1 else np.ones(3000, complex)) is None
+
+
+def test_several_curves_are_no_single_one():
+    one = on_curve(GOLDEN, 1000)
+    assert find_rotation(np.ravel([one, one + 5, one + 5j], order="F")) is None
+
+
+def test_chaotic_points_are_no_curve():
+    """Points of Henon's map."""
+    points = [0.1 + 0.1j]
+    for _ in range(3000):
+        x, y = points[-1].real, points[-1].imag
+        points.append(complex(1 - 1.4 * x * x + y, 0.3 * x))
+    assert find_rotation(np.array(points)) is None
