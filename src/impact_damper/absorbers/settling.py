@@ -59,7 +59,7 @@ class Settled(NamedTuple):
     state: np.ndarray
 
     def joined(self, later) -> "Settled":
-        """Return these ends and those of later runs, which began with the orbits of these."""
+        """Return these ends and the ends of later runs, which knew the orbits of these."""
         pairs = zip(self[1:], later[1:], strict=True)
         return Settled(later.orbits, *(np.concatenate(pair) for pair in pairs))
 

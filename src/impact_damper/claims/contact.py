@@ -18,8 +18,8 @@ def pull_free_error(restitution):
     """Relative excess of the realised restitution over e if the contact ends at zero force.
 
     With the damping ratio z and the damped frequency wd, the force -y'' vanishes at wd t =
-    pi - 2 asin(z), when the penetration y is still positive. In the paper's model the contact goes
-    on to y = 0, and the wall pulls during this time.
+    pi - 2 asin(z), when the penetration y is still positive. In the paper's model the contact lasts
+    until y = 0, and in between the wall pulls.
     """
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * duration(restitution)) - 1

@@ -29,7 +29,7 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return the branches of dataset `name` and those of the free oscillator, or raise Missing."""
+    """Return the branches of dataset `name` and of its free oscillator, or raise Missing."""
     branches = extract.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 

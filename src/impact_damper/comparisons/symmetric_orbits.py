@@ -32,7 +32,7 @@ class SymmetricOrbit(NamedTuple):
     Attributes
     ----------
     orbit : Orbit
-        Its state is that in the middle of the flight from the wall Z2 = -d0.
+        Its state refers to the middle of the flight from the wall Z2 = -d0.
     clearance : float
         d0.
     ratio : float

@@ -18,8 +18,9 @@ from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rigid_map
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE, DASHPOT, pack
 
-# Impacts a forcing period of the orbits wanted, most corrections of Newton's method, and largest
-# relative difference of the approach speeds of two symmetric impacts.
+# Number of impacts in a forcing period of an orbit; largest number of corrections of Newton's
+# method; largest relative difference between the approach speeds of impacts that count as
+# symmetric.
 IMPACTS = 2
 ITERATIONS = 12
 SAME_SPEED = 1e-6

@@ -16,7 +16,7 @@ from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.system import packed
 
 LANES = 16
-# Trajectories in a pool: so many that the longest queue nearly always fills all lanes.
+# Trajectories in a pool: enough for the longest queue to fill all lanes nearly always.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 

@@ -6,10 +6,10 @@ The oscillator x'' + 0.08 x' + x^3 = 0.2 cos t of Thompson and Stewart, Nonlinea
 Chaos, 1986, is a test case of bSTAB (Stender and Hoffmann, "bSTAB: an open-source software for
 computing the basin stability of multi-stable dynamical systems", Nonlinear Dyn. 107, 1451-1468,
 2022, doi 10.1007/s11071-021-06786-5) and of its successor pybasin. Starts (x, x') are drawn
-uniformly from a box. The shares below are those of 10 000 starts by bSTAB, as pybasin publishes
-them (github.com/adrianwix/pybasin, commit 925877c,
-artifacts/results/duffing_case1_comparison.json); those of pybasin itself, in the same order, are
-0.2023, 0.4950, 0.0288, 0.0257 and 0.2482.
+uniformly from a box. The shares below were computed by bSTAB from 10 000 starts and published by
+pybasin (github.com/adrianwix/pybasin, commit 925877c,
+artifacts/results/duffing_case1_comparison.json). The shares by pybasin itself, in the same order,
+are 0.2023, 0.4950, 0.0288, 0.0257 and 0.2482.
 """
 
 from typing import NamedTuple

@@ -21,7 +21,7 @@ class Jumps(NamedTuple):
     Attributes
     ----------
     down : float
-        Frequency r of the jump from the large motion, taken as that of the largest response, which
+        Frequency r of the jump from the large motion, taken as r of the largest response, which
         is in quadrature with the force: r^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2. The fold differs
         from it by a distance of second order in z.
     up : float

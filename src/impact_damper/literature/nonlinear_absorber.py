@@ -8,7 +8,7 @@ ratio z of the absorber, and the displacement u = x1 - x2 of the oscillator rela
     x1'' + x1 + k x1^3 + N = F cos(r T),    m (x1 - u)'' = N,
     N = m (f^2 u + 2 z f u') + k2 u^3.
 
-f and z are those of `tuned_mass_damper.exact_optimum`. With k2 = 2 m^2 k/(1 + 4 m) the two peaks of
+`tuned_mass_damper.exact_optimum` gives f and z. With k2 = 2 m^2 k/(1 + 4 m) the two peaks of
 the response stay equal to first order in k F^2.
 """
 
@@ -19,8 +19,9 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.literature.tuned_mass_damper import exact_optimum
 
-# HARMONICS: odd harmonics of the balance. SAMPLES in a period in the balance, FINE for the largest
-# displacement. FREQUENCIES among which peaks are looked for before they are refined.
+# HARMONICS: odd harmonics of the balance. SAMPLES: samples of a period in the balance. FINE:
+# samples of a period from which the largest displacement is taken. FREQUENCIES: grid on which peaks
+# are looked for before they are refined.
 HARMONICS = np.array([1, 3, 5, 7])
 SAMPLES, FINE = 64, 2048
 FREQUENCIES = np.linspace(0.75, 1.4, 131)
@@ -145,7 +146,7 @@ class AbsorberOnDuffing:
         return residual, slope
 
     def _cube(self, factor, coefficients):
-        """Return the coefficients of factor x^3 and their derivative by those of x."""
+        """Return the coefficients of factor x^3, and their derivative by the coefficients of x."""
         x = self._sample @ coefficients
         slope = self._project @ (3 * factor * x[:, None] ** 2 * self._sample)
         return self._project @ (factor * x**3), slope

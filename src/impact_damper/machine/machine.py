@@ -245,7 +245,7 @@ class Machine:
         if "each side" in getattr(gap, "attrs", {}).get("long_name", ""):
             raise ValueError(
                 f"gap = {gap.item():g} {gap.units}: must be the full play; for a clearance of a "
-                "dataset, which is that on each side, use clearance_each_side"
+                "dataset, which is the clearance on each side, use clearance_each_side"
             )
         if gap is None:
             name = "clearance_each_side"

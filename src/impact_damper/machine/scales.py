@@ -1,6 +1,6 @@
 """Scales of length, time and mass between SI units and the dimensionless equations.
 
-The equations are those of section 2.1 of Chatterjee, Mallik and Ghosh (1995), for any scales
+Section 2.1 of Chatterjee, Mallik and Ghosh (1995) has the equations; they hold for any scales
 of length and time; the scale of mass is the mass of the machine.
 """
 

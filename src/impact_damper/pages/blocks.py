@@ -36,7 +36,7 @@ class Table(NamedTuple):
 
 
 class Picture(NamedTuple):
-    """A figure: its name, which is that of its file, and its caption."""
+    """A figure: its name, which is also the name of its file, and its caption."""
 
     name: str
     caption: str

@@ -29,7 +29,7 @@ HOW = (
     "1 m, rebounds to {height:.2g} m."
 )
 WRONG = (
-    "The values below are those of the least bad damper found. They are shown so that the "
+    "The values below belong to the least bad damper found. They are shown so that the "
     "decision can be checked, not to be built."
 )
 

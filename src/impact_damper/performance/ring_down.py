@@ -16,8 +16,8 @@ from impact_damper.system.bounds import FARTHEST
 from impact_damper.system.families import FORCING
 from impact_damper.system.packed import CUBIC, STIFFNESS, pack
 
-# A ring-down ends once the energy is that at the share REST of the first displacement, and at the
-# latest after MOST_WINDOWS free periods.
+# A ring-down ends once the energy has fallen to the energy at the share REST of the first
+# displacement, and at the latest after MOST_WINDOWS free periods.
 REST = 1e-3
 MOST_WINDOWS = 10**4
 # Longest window, in periods of small vibrations of a softening spring, whose period has no bound.
@@ -43,9 +43,9 @@ def ring_down(machine, damper, displacement):
         In SI units. A window is a period of the free vibration without damping that has the energy
         at its beginning. `time` at the middle of the window, `frequency`, `envelope` and
         `window_contacts`, all (equipment, window), NaN after the end; `transient_status`
-        (equipment): at_rest once the energy left, that of the loose mass too, is that at a
-        thousandth of the displacement; escaped over a barrier of a softening spring; limit after
-        MOST_WINDOWS windows.
+        (equipment): at_rest once the energy of both masses has fallen to the energy at a thousandth
+        of the displacement; escaped over a barrier of a softening spring; limit after MOST_WINDOWS
+        windows.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def ring_down(machine, damper, displacement):
 
 
 def _unforced(machine, damper):
-    """Return the packed parameters of a machine without forcing; the frequency has no effect."""
+    """Return the packed parameters of a machine without forcing; their frequency has no effect."""
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
     p = pack(machine.oscillator(scales.to_si(1.0, "frequency")), scaled, 1.0)

@@ -64,7 +64,7 @@ def check_accuracy(motion, accuracy):
 
 
 class Reference(NamedTuple):
-    """Values of a run that are taken as exact; the attributes are those of `runs.Run`."""
+    """Values of a run that are taken as exact, with the names of attributes of `runs.Run`."""
 
     state: np.ndarray
     contact_times: np.ndarray

@@ -128,7 +128,7 @@ class SciPy(Integrator):
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations):
         """Return the run.
 
-        Its work is that of all evaluations of the rate, also those for Jacobians by differences;
+        Its work counts all evaluations of the rate, also those for Jacobians by differences;
         of combining them (`COMBINING` for each evaluation); and of factorisations (`FACTORISING`).
         """
         left, factorisations = np.array([most_evaluations]), 0

@@ -1,6 +1,6 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The optimum is that of the quiet motion, which is symmetric and has the period of the forcing and
+The optimum refers to the quiet motion, which is symmetric and has the period of the forcing and
 two contacts per period. Newton's method finds its exact orbit, stable or unstable, from the state
 that `theory.straight_flight` predicts. Clearances are given as the ratio rm W^2 d0/f with the
 forcing amplitude f, which is 1 by rule (18), and displacements as W^2 Z1/f.

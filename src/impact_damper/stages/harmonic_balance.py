@@ -71,7 +71,7 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     xarray.Dataset
         For each (frequency, free_solution) a motion without the damper. With a damper also, for
         each (frequency, solution), a solution of (7) or a motion in which the loose mass rests,
-        whose stability is that of the free slow flow because the place of the loose mass is
+        whose stability follows from the free slow flow because the place of the loose mass is
         neutral; and for each (frequency, root) a root of (14). Unused entries are NaN or flagged
         absent; the number of used entries is given for each frequency.
 

@@ -1,7 +1,7 @@
 """Largest displacement as a function of the clearance, and its minimum (figures 6, 7 and 11).
 
-The displacement is that of the quiet motion, which has the period of the forcing, is symmetric and
-has two contacts a period. If there are several branches of such motions, the one that exists at the
+The motion is the quiet motion, which has the period of the forcing, is symmetric and has two
+contacts a period. If there are several branches of such motions, the one that exists at the
 clearance nearest to rule (18) is taken.
 """
 

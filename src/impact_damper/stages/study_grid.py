@@ -119,7 +119,7 @@ def blocks(first, last, shape):
 
 
 def _write_clearances(file, axes, oscillator):
-    """Write the clearance of least displacement and that of rule (18), by mass ratio."""
+    """Write the clearance of least displacement, and by mass ratio the clearance of rule (18)."""
     dims = tuple(name for name in AXES if name != "clearance")
     _define(file, "best_clearance", dims, float)
     _define(file, "rule_clearance", ("mass_ratio", "frequency"), float)

@@ -11,7 +11,7 @@ import numbers
 import reprlib
 from dataclasses import field, fields
 
-FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "work goes by forcing periods"}
+FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "runs are counted in forcing periods"}
 DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
 LINEAR_FREQUENCY_RANGE = {"least": 0.0, "most": 100.0}
 CUBIC_RANGE = {"least": -1e6, "most": 1e6}
@@ -38,7 +38,7 @@ PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "fewer periods decide noth
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 FURTHER_RANGE = {"least": 0, "most": 10**7}
-# Runs whose records are kept in memory together.
+# Number of runs whose records are in memory at the same time.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
 # Forcing periods of a run, and forcing periods for which the lifetimes of transients are watched.
@@ -52,12 +52,12 @@ SEED_RANGE = {"least": 0, "most": 2**63 - 1}
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance: its memory grows as N^2, its time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
-# Points of a grid.
+# Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
 # Largest load (dimensionless external acceleration in a contact, `contact.contact_law`) in a map.
 LOAD_RANGE = {"above": 0.0, "most": 1e3}
-# Settings with which integrators are compared: tolerances, steps in a forcing period, and the most
-# steps in a forcing period up to which the largest stable step is searched for.
+# Settings with which integrators are compared: tolerances; steps in a forcing period; and largest
+# number of steps in a forcing period with which a stable step is searched for.
 METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "below, rounding prevails"}
 STEPS_RANGE = {"least": 1, "most": 10**5}
 MOST_STEPS_RANGE = {"least": 1, "most": 10**7}

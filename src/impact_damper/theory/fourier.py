@@ -24,7 +24,7 @@ def samples(coefficients, harmonics, count) -> np.ndarray:
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Derivative of a series at angles; `order` is that of the derivative, 0 for the value."""
+    """Derivative of a series at angles; `order` is the order of the derivative, 0 for the value."""
     weights = np.where(harmonics == 0, 1, 2) * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 

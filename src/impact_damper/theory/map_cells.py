@@ -79,7 +79,7 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Harmonic balance in one cell, as `Cells` whose entries are those of this cell."""
+    """Harmonic balance in one cell, as `Cells` with one entry in place of each array."""
     free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
     if phase is not None:

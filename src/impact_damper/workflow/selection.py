@@ -48,7 +48,7 @@ def figure_data(config, name) -> dict:
 
 
 def _free_curves(config, chosen):
-    """Return the curves without a damper whose oscillator is that of one of the chosen curves."""
+    """Return the curves without a damper whose oscillator is also in one of the chosen curves."""
     curves = config["curves"]
     wanted = {curves[name]["oscillator"] for name in chosen}
     return [

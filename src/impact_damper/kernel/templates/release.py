@@ -78,9 +78,9 @@ def predict_release(a):
 def find_release(a):
     """Move T to the first time in [0, LENGTH] at which the penetration returns to zero.
 
-    At the call T is a guess. If there is a release, MODE becomes MET. If there is certainly none,
-    T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and their slopes are those of Z1 and
-    of the penetration q at T.
+    Before the call T is a guess. If there is a release, MODE becomes MET. If there is certainly none,
+    T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes receive
+    the values of Z1, of the penetration q and of both slopes at T.
 
     Let g be the part of the acceleration that does not come from the wall, |g| <= G = BOUND, for
     any spring and forcing, since the bound is a sum over the series of g. With the natural

@@ -56,8 +56,8 @@ def largest_tail(a, i):
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' slope stay below `largest_tail`.
 
-    Only in lanes whose TAIL exceeds it by the factor `excess`. Roots are computed by division of
-    the bits, that is of logarithms, with an error of a few per cent.
+    This is done only in lanes whose TAIL exceeds `largest_tail` by the factor `excess`. Roots are
+    computed by division of the bits, that is of logarithms, with an error of a few per cent.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))

@@ -90,7 +90,7 @@ class MissedContacts(WithOscillator):
     frequency: FREQUENCY
     passages: count("random free flights of a forcing period", **RUNS_RANGE)
     implicit_passages: count(
-        "the first of them, on which alone the implicit Radau method is run",
+        "number of passages, the first ones, on which the implicit Radau method is run",
         **RUNS_RANGE,
     )
     radius: RADIUS
@@ -103,7 +103,7 @@ class MissedContacts(WithOscillator):
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)
         if self.implicit_passages > self.passages:
-            reason = f"must be at most passages = {self.passages} (it is some of them)"
+            reason = f"must be at most passages = {self.passages} (it counts the first of them)"
             yield problem((*path, "implicit_passages"), self.implicit_passages, reason)
         yield from close_steps(path, self)
 

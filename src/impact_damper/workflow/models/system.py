@@ -30,7 +30,7 @@ MASS_RATIO, CLEARANCE, RESTITUTION, CONTACT_STIFFNESS, FREQUENCY = (
 RUN_PERIODS = count("forcing periods of a run", **PERIODS_RANGE)
 CLEARANCE_OR_RULE = number_or_word(
     "rule",
-    f"{MEANINGS['clearance']}; the word `rule` stands for that of equation (19)",
+    f"{MEANINGS['clearance']}; the word `rule` stands for the clearance by equation (19)",
     **BOUNDS["clearance"],
 )
 
@@ -92,7 +92,7 @@ class WithOscillator(Section):
             yield problem((*path, "oscillator"), self.oscillator, reason)
 
 
-# A damper's contact stiffness is that of the whole configuration, `contact_stiffness`.
+# The key of the contact stiffness, which is the same for all dampers of a configuration.
 COMMON = "contact_stiffness"
 NEEDED = ("mass_ratio", "clearance", "restitution")
 

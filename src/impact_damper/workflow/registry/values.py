@@ -16,7 +16,7 @@ def damper(config, entry) -> dict | None:
 
 
 def settling(config) -> dict:
-    """Arguments of `Settling`; the tolerance is that of the test case `settling.scene`."""
+    """Arguments of `Settling`; the tolerance is taken from the test case `settling.scene`."""
     given = {key: value for key, value in config["settling"].items() if key != "scene"}
     return given | {"tolerance": config["scenes"][config["settling"]["scene"]]["tolerance"]}
 
