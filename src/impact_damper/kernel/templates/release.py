@@ -78,7 +78,7 @@ def predict_release(a):
 def find_release(a):
     """Move T to the first time in [0, LENGTH] at which the penetration returns to zero.
 
-    Before the call T is a guess. If there is a release, MODE becomes MET. If there is certainly none,
+    At the call T is a guess. If there is a release, MODE becomes MET. If there is certainly none,
     T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes receive
     the values of Z1, of the penetration q and of both slopes at T.
 
