@@ -14,11 +14,11 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Components of the state.
 SIZE = 4
-# Operations for each evaluation of the rate, beside those of the rate. A stage of DOP853 adds on
-# average 6 products to each of the 4 components, and a twelfth of its 12 new values and 2 estimates
-# 4 more. LSODA updates and predicts an array of about 6 derivatives, 21 additions per component,
-# and solves with the factors, 2 n^2. An iteration of Radau has 3 evaluations, 9 products per
-# component to transform them and 9 back, and solves a real and a complex system.
+# Operations for each evaluation of the rate, in addition to the rate itself. A stage of DOP853 adds
+# on average 6 products to each of the 4 components, and a twelfth of its 12 new values and 2
+# estimates 4 more. LSODA updates and predicts an array of about 6 derivatives, 21 additions per
+# component, and solves with the factors, 2 n^2. An iteration of Radau has 3 evaluations, 9 products
+# per component to transform them and 9 back, and solves a real and a complex system.
 COMBINING = {
     "DOP853": SIZE * 2 * (6 + 4),
     "LSODA": SIZE * 2 * 21 + 2 * SIZE**2,
@@ -51,7 +51,7 @@ def derivative(t, y, p, side, left):
 
 @kernel
 def ahead(t, y, p, side, left):
-    """Return what is zero when a contact begins or ends: gap in flight, penetration in contact."""
+    """Return the gap in flight or the penetration in contact, 0 when a contact begins or ends."""
     return p[CLEARANCE] - abs(y[2]) if side == 0 else side * y[2] - p[CLEARANCE]
 
 
@@ -63,11 +63,11 @@ _event.terminal, _event.direction = True, -1
 
 
 def pieces(method, p, start, t, end, tolerance, locate, left, times=None):
-    """Yield results of `solve_ivp`, one after the other in time; only one without `locate`.
+    """Yield the results of `solve_ivp` for successive parts of a run.
 
     With `locate` the beginning or end of a contact is an event, which ends a result; the next
-    result begins at the event, and its wall in contact is fixed. Without `locate` each evaluation
-    of the rate chooses the wall by its position Z2.
+    result begins at the event, and its wall in contact is fixed. Without `locate` there is one
+    result only, and each evaluation of the rate chooses the wall by the position Z2.
 
     Parameters
     ----------
@@ -128,8 +128,8 @@ class SciPy(Integrator):
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations):
         """Return the run.
 
-        Its work counts all evaluations of the rate, also those for Jacobians by differences;
-        of combining them (`COMBINING` for each evaluation); and of factorisations (`FACTORISING`).
+        Its work counts all evaluations of the rate, also those for Jacobians by differences; for
+        each evaluation the combination of rates (`COMBINING`); and factorisations (`FACTORISING`).
         """
         left, factorisations = np.array([most_evaluations]), 0
         times, ends, status = [np.array([begin])], [start[None]], "failed"

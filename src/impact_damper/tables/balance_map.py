@@ -22,7 +22,7 @@ AMPLITUDES = {
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Count the cells of each map with each verdict, and those with chaos or accurate amplitudes.
+    """Count the cells of each map with each verdict, with chaos, and with accurate amplitudes.
 
     Each share of cells has the 95 % interval of a binomial share, as if cells were drawn at random.
     """

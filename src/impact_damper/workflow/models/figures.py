@@ -17,7 +17,7 @@ class Figure(Section):
     kind: choice("kind of drawing", *KINDS)
     data: several(
         text("name of an entry"),
-        "entries to draw, as many as a figure has distinct lines for",
+        "entries to draw, at most one for each distinct line style",
         least=1,
         most=max(kind.most for kind in KINDS.values()),
         distinct=True,
