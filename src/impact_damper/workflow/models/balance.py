@@ -42,7 +42,7 @@ class DesignRules(WithOscillator):
 
     mass_ratios: several(
         MASS_RATIO,
-        "rm, increasing, as many as a figure has distinct lines for",
+        "rm, increasing, at most one for each distinct line style",
         least=1,
         most=5,
     )
