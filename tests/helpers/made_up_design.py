@@ -37,7 +37,10 @@ def made_up_design(choice="robust", promise="robust_kept", **changed):
         competitor=["bare", "tuned", "nonlinear", "best"],
         detuning=[-0.1, 0.0, 0.1],
     )
-    data = data.merge(labelled(_motions())).merge(labelled(_branches())).assign(_transients())
+    data = data.merge(labelled(_motions()))
+    data = data.merge(labelled(_branches(), changed=["force", "gap", "unbalance"])).assign(
+        _transients()
+    )
     data = data.merge(labelled(_absorbers()))
     data["followed_value"] = ("point", np.linspace(*FREQUENCY[[0, -1]], 6))
     for name, values in changed.items():
@@ -88,6 +91,8 @@ def _comparison(choice):
         "start_quiet_share": shares,
         "start_quiet_interval": ends,
         "worst_displacement": worst,
+        "quiet_time_median": np.full((4, 5), 80.0),
+        "quiet_time_late": np.full((4, 5), [100.0, 120.0, 110.0, 100.0, 90.0]),
         "compared_motions": 1000,
         "design_gap": 7.0,
         "design_choice": flag("design_choice", choice),
@@ -174,6 +179,8 @@ def _branches():
         "bare_displacement": [6.0, 8.0, 10.0, 5.0, 7.0, 9.0],
         "bare_stability": [1, 1, 1, -1, -1, -1],
         "branch_frequency": 30.0,
+        "displacement_change": [2.6, -1.6, 0.0],
+        "modulus_change": [0.2, -0.2, 0.0],
         "gap_of_orbit": [6.0, 7.0, 8.0, 9.0],
         "displacement_by_gap": [0.8, 0.7, 0.5, 0.4],
         "modulus_by_gap": [1.2, 0.9, 0.8, 1.1],

@@ -87,6 +87,19 @@ def test_numbers_are_those_of_the_dataset():
     )
 
 
+def test_times_margins_and_derivatives_are_on_the_page():
+    found = numbers()
+    what = "periods until a start is on a periodic quiet motion, there: median / 95 %, at the "
+    assert found[f"{what}slowest frequency"] == "80 / 120"
+    what = "largest multiplier of the quiet orbit at the gap to build, at 30 Hz (stable below 1)"
+    assert found[what] == "0.9"
+    markdown = texts()[1]
+    assert "| force | 2.6 % | 0.2 % |" in markdown and "| gap | -1.6 % | -0.2 % |" in markdown
+    assert "| unbalance |" not in markdown
+    chaos = numbers(quiet_time_median=np.full((4, 5), np.nan))
+    assert "not known: the quiet motions found never repeat" in chaos.values()
+
+
 def test_a_motion_that_the_damper_does_not_touch_has_a_row_of_its_own():
     what = "not counted: largest displacement while the loose mass floats and touches no stop"
     assert what not in numbers()

@@ -97,6 +97,26 @@ def test_ctrl_c_is_heard_while_motions_run(tmp_path):
     assert kept(tmp_path) < STEPS
 
 
+def test_a_free_restitution_is_the_best_of_several(tmp_path):
+    data = design(restitution=(0.4, 0.8), folder=tmp_path)
+    tried = data["tried_restitution"].values
+    assert tried == pytest.approx([0.4, 0.5, 0.6, 0.7, 0.8])
+    used = json.loads(data.attrs["machine"])["restitution"]
+    kinds, worst = data["tried_choice"].values, data["tried_displacement"].values
+    assert used == tried[np.argmin(np.where(kinds == kinds.min(), worst, np.inf))]
+    assert kept(tmp_path) == STEPS | {"restitutions"}
+    assert f"{used:.3g} does best" in data.attrs["conclusion"]
+    # the gap it was chosen for is the one around which the design looks
+    gap = data["tried_gap"].values[list(tried).index(used)]
+    assert data["candidate_gap"].min() < gap < data["candidate_gap"].max()
+
+
+@pytest.mark.parametrize("ends", [(0.8, 0.4), (0.5,), (0.4, 1.2), ("x", 0.5)])
+def test_a_range_of_restitutions_ascends_within_bounds(ends):
+    with pytest.raises(ValueError, match="restitution = "):
+        design(restitution=ends)
+
+
 def test_the_dataset_agrees_with_itself(finished):
     """What is derived follows from what is stored beside it."""
     data, _ = finished

@@ -43,6 +43,16 @@ def screening_dataset(task, screening) -> xr.Dataset:
     return labelled(values, frequency=task.grid, screened_gap=screening.gaps)
 
 
+def restitutions_dataset(trials) -> xr.Dataset:
+    """Return a `restitutions.Trials` as a dataset."""
+    values = {
+        "tried_gap": trials.gap,
+        "tried_displacement": trials.worst,
+        "tried_choice": [flag("tried_choice", kind) for kind in trials.kind],
+    }
+    return labelled(values, tried_restitution=trials.restitution)
+
+
 def comparison_dataset(coarse, candidates) -> xr.Dataset:
     """Return both comparisons of gaps as a dataset."""
     values = {

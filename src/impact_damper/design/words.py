@@ -4,6 +4,7 @@ import numpy as np
 
 from impact_damper.data.datasets import flag
 from impact_damper.design.cliff import LEAD, LONGEST
+from impact_damper.design.restitutions import best_of
 
 SUMMARY = {
     "robust": (
@@ -57,7 +58,7 @@ def conclusion(task, kind, data) -> list[str]:
         found.append(_help(task, data))
     else:
         found += [_untouched(data, gap), _margins(data, gap), _lives(data), _amplitudes(data)]
-    found.append(_competition(data))
+    found += [_restitutions(data), _competition(data)]
     return [sentence for sentence in found if sentence]
 
 
@@ -206,6 +207,18 @@ def _help(task, data):
             "quiet over the band."
         )
     return f"What would help: {'; or '.join(texts)}."
+
+
+def _restitutions(data):
+    """Return which restitution does best, where it is free within a range."""
+    if "tried_restitution" not in data:
+        return ""
+    *others, last = (f"{value:.3g}" for value in data["tried_restitution"].values)
+    k = best_of(data["tried_displacement"].values, data["tried_choice"].values)
+    return (
+        f"Of the restitutions {', '.join(others)} and {last}, each with its best gap, "
+        f"{float(data['tried_restitution'][k]):.3g} does best, by few starts."
+    )
 
 
 def _competition(data):

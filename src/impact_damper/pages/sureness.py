@@ -8,6 +8,7 @@ from impact_damper.pages.blocks import (
     Numbers,
     Picture,
     Section,
+    Table,
     Words,
     percent,
     share_with_interval,
@@ -29,6 +30,10 @@ TIME = (
     "periods ({seconds}), the other shares after at most {limit}; a motion that is chaotic for "
     "certain was stopped after {early} and {patience} periods."
 )
+DEPENDENCE = (
+    "What the quiet orbit at {frequency} depends on: its change if one value grows by 1 %, by "
+    "exact derivatives. The orbit is stable while its largest multiplier is below 1."
+)
 TRAP = (
     "The gap of the smallest stable quiet orbit is {best}: that is not the gap to build, because "
     "the share of starts that reach this orbit decides, and not its size or its stability."
@@ -42,6 +47,7 @@ def section(data) -> Section:
         Words(_meaning(data, asked)),
         Numbers([*_shares(data, asked), *_edges(data)]),
         Words(_time(data, asked)),
+        *_dependence(data),
     ]
     best = float(data["best_orbit_gap"])
     if np.isfinite(best):
@@ -91,6 +97,12 @@ def _shares(data, asked):
         share_with_interval(chosen),
         "start_quiet_share, start_quiet_interval",
     )
+    yield (
+        "periods until a start is on a periodic quiet motion, there: median / 95 %, at the slowest "
+        "frequency",
+        _times(data, row),
+        "quiet_time_median, quiet_time_late",
+    )
     shares = data["reached_quiet_share"].values
     k = int(np.argmin(shares))
     yield (
@@ -127,6 +139,31 @@ def _shares(data, asked):
     )
 
 
+def _times(data, row):
+    """Return the longest median and the longest 95 % of times to a quiet motion, as text."""
+    median, late = (
+        np.fmax.reduce(data[f"quiet_time_{name}"].values[row]) for name in ("median", "late")
+    )
+    if np.isnan(median):
+        return "not known: the quiet motions found never repeat"
+    return f"{shown(median)} / {shown(late)}"
+
+
+def _dependence(data):
+    """Yield what the quiet orbit depends on, if there is one."""
+    size, modulus = data["displacement_change"].values, data["modulus_change"].values
+    if not np.isfinite(size).any():
+        return
+    yield Words(DEPENDENCE.format(frequency=shown(data["branch_frequency"], "Hz", 4)))
+    rows = [
+        [str(name).replace("_", " "), *(shown(value, "%", 2) for value in changes)]
+        for name, *changes in zip(data["changed"].values, size, modulus, strict=True)
+        if any(changes)
+    ]
+    columns = ["1 % more", "displacement", "largest multiplier"]
+    yield Table(columns, rows, "displacement_change, modulus_change")
+
+
 def _edges(data):
     """Yield the ends of the ranges of quiet gaps and of stability of the quiet orbit."""
     gap = float(data["design_gap"])
@@ -147,6 +184,13 @@ def _edges(data):
         yield f"cliff {side}: last quiet gap", value, "cliff_gap, cliff_frequency"
     low, high = data["stability_gap"].values
     if np.isfinite(low):
+        k = int(np.argmin(np.abs(data["gap_of_orbit"].values - gap)))
+        yield (
+            f"largest multiplier of the quiet orbit at the gap to build, at "
+            f"{shown(data['branch_frequency'], 'Hz', 4)} (stable below 1)",
+            shown(data["modulus_by_gap"].values[k]),
+            "modulus_by_gap, gap_of_orbit, branch_frequency",
+        )
         yield (
             f"gaps at which the quiet orbit is stable, at "
             f"{shown(data['branch_frequency'], 'Hz', 4)}",

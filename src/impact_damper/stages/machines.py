@@ -19,6 +19,7 @@ from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.masses import alternatives, judge
 from impact_damper.design.motions import reached_motions
 from impact_damper.design.refine import dependence
+from impact_damper.design.restitutions import free_restitution
 from impact_damper.design.screen import screen
 from impact_damper.design.task import TOLERANCES, Task
 from impact_damper.design.words import conclusion
@@ -78,7 +79,8 @@ def design_damper(
     ----------
     machine : Machine
     mass, band, restitution, contact_stiffness, frequencies, candidates, starts
-        As of `design.task.Task`, in SI units.
+        As of `design.task.Task`, in SI units. Two restitutions are the ends of a range in which it
+        is free: a coarse comparison of gaps at each of five values chooses it.
     contact : HertzContact, optional
         Radius and materials of the contact, for its pressure. If no contact stiffness is given, it
         also determines the stiffness: that of an impact at the speed with which the loose mass
@@ -107,22 +109,24 @@ def design_damper(
         If an argument is out of range; the message names it, in SI units.
     """
     asked = {"machine": machine, "mass": mass, "band": band}
-    task = Task(
-        **asked,
-        restitution=restitution,
-        contact_stiffness=_stiffness(contact_stiffness, contact, asked),
-        frequencies=frequencies,
-        candidates=candidates,
-        starts=starts,
-        tolerances=TOLERANCES if tolerances is None else tolerances,
-        displacement_limit=displacement_limit,
-        share=share,
-        seed=seed,
-        settling=settling,
-    )
+    given = asked | {
+        "contact_stiffness": _stiffness(contact_stiffness, contact, asked),
+        "frequencies": frequencies,
+        "candidates": candidates,
+        "starts": starts,
+        "tolerances": TOLERANCES if tolerances is None else tolerances,
+        "displacement_limit": displacement_limit,
+        "share": share,
+        "seed": seed,
+        "settling": settling,
+    }
+    running = {"workers": workers, "progress": "Restitutions" if progress else None}
+    restitution, tried = free_restitution(given, restitution, folder, running)
+    task = Task(**given, restitution=restitution)
     made = task.describe() | {"machine": describe_si(machine), "contact": repr(contact)}
     design = _Design(task, contact, KeptSteps(folder, made), workers, progress)
     choice, parts = design.run()
+    parts = [tried, *parts]
     data = xr.merge(parts, compat="override", join="outer", combine_attrs="drop")
     damper = describe_si(machine, task.damper(1e-3 * choice.gap))
     return data.assign_attrs(

@@ -109,6 +109,20 @@ VARIABLES = {
         "why this gap was chosen",
         flags={"robust": 0, "needs_tolerance": 1, "least_worst": 2},
     ),
+    "tried_restitution": Variable(
+        ("tried",), "restitution that was tried, where it is free within a range"
+    ),
+    "tried_gap": Variable(("tried",), "its best gap", quantity="displacement"),
+    "tried_displacement": Variable(
+        ("tried",),
+        "largest displacement with it over band, starts and tolerated gaps",
+        quantity="displacement",
+    ),
+    "tried_choice": Variable(
+        ("tried",),
+        "why this gap was chosen",
+        flags={"robust": 0, "needs_tolerance": 1, "least_worst": 2},
+    ),
     "compared_motions": Variable((), "motions that the comparison of gaps ran"),
     # cliff
     "side": Variable(("side",), "lower or upper end"),

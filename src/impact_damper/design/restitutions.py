@@ -1,0 +1,111 @@
+"""A restitution that is free within a range: its best value by coarse comparisons of gaps."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.design.choose import coarse_comparison, largest_within
+from impact_damper.design.kept_steps import KeptSteps
+from impact_damper.design.labelled import restitutions_dataset
+from impact_damper.design.screen import gap_span
+from impact_damper.design.task import Task
+from impact_damper.machine.machine import describe_si
+from impact_damper.system.bounds import shown
+
+# Restitutions that are tried, evenly over the range.
+COUNT = 5
+
+
+class Trials(NamedTuple):
+    """The best gap for each of several restitutions.
+
+    Attributes
+    ----------
+    restitution : numpy.ndarray, shape (n,)
+    gap : numpy.ndarray, shape (n,)
+        mm.
+    worst : numpy.ndarray, shape (n,)
+        Largest displacement over the band, the starts and the tolerated deviation of the gap, mm.
+    kind : list of str
+        Of `choose.Choice`.
+    """
+
+    restitution: np.ndarray
+    gap: np.ndarray
+    worst: np.ndarray
+    kind: list
+
+
+def best_of(worst, kinds) -> int:
+    """Return the index of the best kind of choice and, of these, the least worst displacement.
+
+    Parameters
+    ----------
+    worst : array, shape (n,)
+    kinds : array, shape (n,)
+        Flags of `tried_choice`, which ascend from the best kind on.
+    """
+    return int(np.lexsort((worst, kinds))[0])
+
+
+def try_restitutions(task, ends, **running) -> Trials:
+    """Return the best gap for restitutions between two ends, with the few starts of a first look.
+
+    Parameters
+    ----------
+    task : Task
+        Its restitution has no effect.
+    ends : tuple of float
+        Least and greatest restitution.
+    running
+        `workers` and `progress` of `outcomes.run`.
+    """
+    tolerance = task.tolerances.get("gap", 0.0)
+    limit = 1e3 * task.displacement_limit if task.displacement_limit else task.bare.max() / 2
+    values = np.linspace(*ends, COUNT)
+    gaps, worst, kinds = [], [], []
+    for value in values:
+        each = replace(task, restitution=float(value))
+        found = coarse_comparison(each, gap_span(each), limit, **running)
+        choice = found.choose(tolerance)
+        low, high = (choice.gap * (1 + sign * tolerance) for sign in (-1, 1))
+        gaps.append(choice.gap)
+        worst.append(float(largest_within(found.gaps, found.worst, [low], [high])[0]))
+        kinds.append(choice.kind)
+    return Trials(values, np.array(gaps), np.array(worst), kinds)
+
+
+def free_restitution(given, restitution, folder, running):
+    """Return the restitution to design with and, if it is free, a dataset of those tried.
+
+    Parameters
+    ----------
+    given : dict
+        All other arguments of `Task`.
+    restitution : float or sequence of 2 floats
+        A value, which is returned with an empty dataset, or the ends of a range.
+    folder : str, pathlib.Path or None
+        Where the dataset is kept.
+    running : dict
+        `workers` and `progress` of `outcomes.run`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    if isinstance(restitution, str) or not isinstance(restitution, Sequence | np.ndarray):
+        return restitution, xr.Dataset()
+    tasks = [Task(**given, restitution=end) for end in restitution]
+    ends = [task.restitution for task in tasks]
+    if len(ends) != 2 or not ends[0] < ends[1]:
+        raise ValueError(f"restitution = {shown(restitution)}: must be a number or two that ascend")
+    made = tasks[0].describe() | {"machine": describe_si(given["machine"]), "restitution": ends}
+    tried = KeptSteps(folder, made).step(
+        "restitutions", lambda: restitutions_dataset(try_restitutions(tasks[0], ends, **running))
+    )
+    k = best_of(tried["tried_displacement"].values, tried["tried_choice"].values)
+    return float(tried["tried_restitution"][k]), tried
