@@ -33,6 +33,7 @@ FLOORS = (
     "claims",
     "tables",
     "figures",
+    "plot",
     "pages",
     "workflow",
 )

@@ -33,6 +33,7 @@ Design
 
 Reading results
     decode                      words for the numbers of a flag, such as an outcome
+    plot                        plot.response, plot.orbit and others
 """
 
 from importlib import import_module
@@ -87,6 +88,8 @@ __all__ = list(_HOMES)
 
 
 def __getattr__(name):
+    if name == "plot":
+        return import_module("impact_damper.plot")
     if name not in _HOMES:
         from impact_damper.system.names import nearest
 
@@ -103,4 +106,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return [*__all__, "__version__"]
+    return [*__all__, "plot", "__version__"]

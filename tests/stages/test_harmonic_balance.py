@@ -41,7 +41,7 @@ def test_response_holds_every_solution(response):
         row = response.isel(frequency=k)
         impacting = row.amplitude.values[row.kind.values == flag("kind", "impacting")]
         expected = impacting_solutions(CUBIC, PAPER, float(row.frequency)).amplitude
-        assert_allclose(impacting, expected)
+        assert_allclose(np.sort(impacting), np.sort(expected))
         assert np.sum(np.isfinite(row.amplitude.values)) == row.solution_count
         assert np.sum(row.stability.values != flag("stability", "absent")) == row.solution_count
     assert np.all(response.balance_status == flag("balance_status", "solved"))

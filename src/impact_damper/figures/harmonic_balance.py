@@ -6,7 +6,6 @@ Figure kind `harmonic_balance`.
 import numpy as np
 
 from impact_damper.data.datasets import flag, parameters_of
-from impact_damper.figures.motion_lines import draw_lines, lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 CAPTION = """
@@ -36,9 +35,7 @@ def draw_harmonic_balance(*, harmonic_balance):
     panels = drawn.subplots(1, len(harmonic_balance), sharey=True, squeeze=False)[0]
     for axes, balance in zip(panels, harmonic_balance, strict=True):
         draw_band(axes, balance)
-        stable = balance["free_stability"].values == flag("free_stability", "stable")
-        draw_amplitudes(axes, balance, "free_amplitude", stable, ROLES["free_stable"])
-        draw_unstable(axes, balance)
+        draw_free(axes, balance)
         draw_balance(axes, balance)
         axes.set(
             title=f"$d_0 = {parameters_of(balance)['clearance']:.3g}$",
@@ -51,6 +48,13 @@ def draw_harmonic_balance(*, harmonic_balance):
     return drawn
 
 
+def draw_free(axes, balance):
+    """Draw the solutions without the damper, stable and unstable."""
+    stable = balance["free_stability"].values == flag("free_stability", "stable")
+    draw_amplitudes(axes, balance, "free_amplitude", stable, ROLES["free_stable"])
+    draw_unstable(axes, balance)
+
+
 def draw_balance(axes, balance):
     """Draw the stable impacting solutions of (7)."""
     stable = balance["stability"].values == flag("stability", "stable")
@@ -60,14 +64,14 @@ def draw_balance(axes, balance):
 
 def draw_amplitudes(axes, balance, name, chosen, role):
     """Draw |a| of the chosen solutions; `role` has the keywords of `plot`, as in `style.ROLES`."""
-    group = np.where(chosen, 0, -1)
-    joined = lines(balance["frequency"].values, balance[name].values, group)
-    draw_lines(axes, [(at, abs(values)) for _, at, values in joined], role)
+    size = np.where(chosen, abs(balance[name].values), np.nan)
+    for branch in size.T[np.isfinite(size).any(axis=0)]:
+        axes.plot(balance["frequency"].values, branch, **role)
 
 
 def draw_band(axes, balance):
     """Shade the suppression band, if it exists."""
-    if balance["band_status"] == flag("band_status", "found"):
+    if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **ROLES["band"])
 
 

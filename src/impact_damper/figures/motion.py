@@ -5,6 +5,7 @@ import numpy as np
 from impact_damper.figures.style import (
     BLACK,
     BLUE,
+    GREY,
     ORANGE,
     axis_label,
     figure,
@@ -41,15 +42,38 @@ def draw_motion(*, motion):
     drawn = figure("single" if len(motion) == 1 else "double", 3.2)
     panels = drawn.subplots(1, len(motion), squeeze=False)[0]
     for axes, traced in zip(panels, motion, strict=True):
-        axes.plot(traced["displacement"], traced["velocity"], color=BLACK, linewidth=0.8)
-        for wall, look in WALLS.items():
-            velocity = np.where(in_contact(traced, wall), traced["velocity"], np.nan)
-            axes.plot(traced["displacement"], velocity, linewidth=3, **look)
-        axes.set(xlabel=axis_label(traced["displacement"]), ylabel=axis_label(traced["velocity"]))
+        phase_panel(axes, traced)
     if len(panels) > 1:
         letter_panels(panels)
     legend(drawn, 2)
     return drawn
+
+
+def phase_panel(axes, traced):
+    """Draw velocity against displacement of the primary mass, thick in contact."""
+    axes.plot(traced["displacement"], traced["velocity"], color=BLACK, linewidth=0.8)
+    for wall, look in WALLS.items():
+        velocity = np.where(in_contact(traced, wall), traced["velocity"], np.nan)
+        axes.plot(traced["displacement"], velocity, linewidth=3, **look)
+    axes.set(xlabel=axis_label(traced["displacement"]), ylabel=axis_label(traced["velocity"]))
+
+
+def time_panel(axes, traced):
+    """Draw both displacements against time, that of the loose mass thick in contact."""
+    axes.plot(traced["time"], traced["displacement"], color=BLACK, label="primary mass, $Z_1$")
+    relative = traced["relative_displacement"]
+    if len(traced["contact_wall"]):
+        words = "relative to the loose mass, $Z_2$"
+        axes.plot(traced["time"], relative, color=GREY, linewidth=0.8, label=words)
+    for wall, look in WALLS.items():
+        chosen = in_contact(traced, wall)
+        if chosen.any():
+            axes.plot(traced["time"], np.where(chosen, relative, np.nan), linewidth=3, **look)
+    units = traced["displacement"].attrs["units"]
+    axes.set(
+        xlabel=axis_label(traced["time"]),
+        ylabel="Displacement" if units == "1" else f"Displacement ({units})",
+    )
 
 
 def in_contact(traced, wall):

@@ -7,6 +7,7 @@ import numpy as np
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.style import (
+    BLACK,
     ROLES,
     axis_label,
     curve,
@@ -27,6 +28,8 @@ curve ends where the quiet motion ends. The paper draws one motion at each clear
 that coexist with the quiet one are in the data but not drawn.
 """
 
+# Label of the first line by harmonic balance, and with it of all.
+BALANCE = "lines: $|a|$ by equations (7)"
 # Parameters named in the legend, if they differ between the curves.
 VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
@@ -46,23 +49,33 @@ def draw_optimum(*, optimum):
     """
     drawn = figure("double", 4.4)
     axes = drawn.subplots()
-    elastic = [np.isfinite(sweep["analytical_optimum"].item()) for sweep in optimum]
-    for index, (sweep, words) in enumerate(zip(optimum, titles(optimum), strict=True)):
-        axes.plot(sweep["clearance"], sweep["quiet_displacement"], **points(index), label=words)
-        axes.plot(*line_of(sweep, elastic[index]), **curve(index))
-    for sweep in optimum:
-        best = sweep["optimum_clearance"], sweep["optimum_displacement"]
-        axes.plot(*best, **ROLES["optimum"])
-        axes.plot(sweep["near_clearance"], best[1].values.repeat(2), **ROLES["near_optimum"])
-    first = optimum[0]
-    label = axis_label(first["quiet_displacement"])
-    axes.set(
-        xlabel=axis_label(first["clearance"]),
-        ylabel=f"{label} (points), $|a|$ (lines)" if any(elastic) else label,
-    )
-    axes.set_ylim(bottom=0)
+    sweeps_panel(axes, optimum)
     legend(drawn, 3)
     return drawn
+
+
+def sweeps_panel(axes, sweeps):
+    """Draw the quiet displacement of sweeps against clearance: points, lines of (7), optima."""
+    for index, (sweep, words) in enumerate(zip(sweeps, titles(sweeps), strict=True)):
+        axes.plot(sweep["clearance"], sweep["quiet_displacement"], **points(index), label=words)
+    lined = False
+    for index, sweep in enumerate(sweeps):
+        color = curve(index)["color"]
+        elastic = np.isfinite(sweep["analytical_optimum"].item())
+        line = {} if lined or not elastic else {"label": BALANCE}
+        lined |= bool(line)
+        axes.plot(*line_of(sweep, elastic), **curve(index), **line)
+        best = sweep["optimum_clearance"], sweep["optimum_displacement"]
+        near = ROLES["near_optimum"] | {"color": color}
+        axes.plot(sweep["near_clearance"], best[1].values.repeat(2), **near)
+        star = {"color": color, "markerfacecolor": color, "markeredgecolor": BLACK}
+        axes.plot(*best, **ROLES["optimum"] | star | {"markeredgewidth": 0.5, "markersize": 7.5})
+    first = sweeps[0]
+    axes.set(
+        xlabel=axis_label(first["clearance"]),
+        ylabel=axis_label(first["quiet_displacement"]),
+    )
+    axes.set_ylim(bottom=0)
 
 
 def line_of(sweep, elastic):

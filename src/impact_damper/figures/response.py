@@ -22,6 +22,10 @@ several motions coexist at most frequencies, and all are drawn.
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
 STATUSES = ("chaotic", "quasi_periodic", "non_colliding", "drifting", "unresolved")
+FREE = {
+    "chaotic": ROLES["chaotic"] | {"label": "free, chaotic"},
+    "unresolved": ROLES["unresolved"] | {"label": "free, unresolved"},
+}
 
 
 @style()
@@ -45,16 +49,7 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
     """
     drawn = figure("double", 5.0)
     axes = drawn.subplots()
-    free = [orbits for orbits in branches if not has_damper(orbits)]
-    for orbits in free:
-        draw_free_orbits(axes, orbits)
-    for orbits in filter(has_damper, branches):
-        draw_unstable_orbits(axes, orbits)
-    for balance in harmonic_balance:
-        draw_band(axes, balance)
-        draw_balance(axes, balance)
-    for motions in response:
-        draw_motions(axes, motions)
+    response_panel(axes, response, harmonic_balance, branches)
     for motions in subharmonic:
         draw_settled(axes, motions, ["subharmonic_damped"])
     first = response[0]
@@ -68,19 +63,49 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
     return drawn
 
 
+def response_panel(axes, response, harmonic_balance, branches):
+    """Draw motions, solutions of harmonic balance and exact orbits, with and without a damper."""
+    for orbits in branches:
+        if has_damper(orbits):
+            draw_unstable_orbits(axes, orbits)
+        else:
+            draw_free_orbits(axes, orbits)
+    for balance in harmonic_balance:
+        if has_damper(balance):
+            draw_band(axes, balance)
+            draw_balance(axes, balance)
+    for motions in response:
+        if has_damper(motions):
+            draw_motions(axes, motions)
+        else:
+            draw_free_motions(axes, motions)
+
+
+def draw_free_motions(axes, motions):
+    """Draw the motions without a damper: settled ones joined along branches, others as points."""
+    settled = is_settled(motions)
+    period = motions["period"].values
+    for role, chosen in (("free_stable", period == 1), ("free_higher", period != 1)):
+        draw_lines(axes, branch_lines(motions, settled & chosen), ROLES[role])
+    draw_unsettled(axes, motions, FREE)
+
+
 def draw_motions(axes, motions):
     """Draw the motions with a damper: settled ones joined along branches, others as points."""
     prefix = prefix_of(motions)
     draw_settled(axes, motions, ["period_1", "higher_period", "subharmonic_damped"], prefix)
-    outcome = motions["outcome"].values
-    chosen = {status: outcome == flag("outcome", status) for status in STATUSES}
-    for status in STATUSES:
-        row, column = chosen[status].nonzero()
+    draw_unsettled(axes, motions, {status: ROLES[f"{prefix}{status}"] for status in STATUSES})
+
+
+def draw_unsettled(axes, motions, roles):
+    """Draw the motions that have not settled on an orbit as points; a role for each outcome."""
+    for status, role in roles.items():
+        row, column = (motions["outcome"].values == flag("outcome", status)).nonzero()
         if len(row):
             axes.plot(
                 motions["frequency"].values[row],
                 motions["maximum_displacement"].values[row, column],
-                **ROLES[f"{prefix}{status}"],
+                **role,
             )
 
 

@@ -62,13 +62,14 @@ def steady_motion(
     record = ensemble.settle(p[None], y[None], settling, start=begin)[0]
     data = {name: ((), value) for name, value in tabulate(record).items()}
     data["state"] = (("component",), record["state"])
-    data["state_phase"] = STROBE
+    data |= {"state_phase": STROBE}
     made = describe(oscillator, damper, settling) | {
         "frequency": float(frequency),
         "state": y.tolist(),
         "start": start,
     }
-    return dataset(data, {"component": list(COMPONENTS)}, made, "Steady motion of the oscillator")
+    coordinates = {"component": list(COMPONENTS), "frequency": ((), float(frequency))}
+    return dataset(data, coordinates, made, "Steady motion of the oscillator")
 
 
 def before_strobe(start, frequency) -> float:

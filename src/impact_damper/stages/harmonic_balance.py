@@ -13,13 +13,10 @@ from impact_damper.system.bounds import MASS_RATIO_RANGE, check_number
 from impact_damper.system.checks import check_frequencies
 from impact_damper.system.parameters import check_oscillator, describe
 from impact_damper.theory import single_harmonic
+from impact_damper.theory.branch_order import branches_over
 from impact_damper.theory.design_rule import rule_clearance
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
-
-# Largest numbers, per frequency, for which the dataset has room: of solutions, free motions and
-# roots of (14). No more than six solutions with impacts have been found at a frequency.
-MOST_SOLUTIONS, MOST_FREE, MOST_ROOTS = 12, 3, 6
 
 
 def optimum_clearance(oscillator, mass_ratio) -> float:
@@ -72,8 +69,10 @@ def harmonic_balance_response(oscillator, damper, frequencies):
         For each (frequency, free_solution) a motion without the damper. With a damper also, for
         each (frequency, solution), a solution of (7) or a motion in which the loose mass rests,
         whose stability follows from the free slow flow because the place of the loose mass is
-        neutral; and for each (frequency, root) a root of (14). Unused entries are NaN or flagged
-        absent; the number of used entries is given for each frequency.
+        neutral; and for each (frequency, root) a root of (14). Each index of these dimensions is a
+        branch, continuous over frequency from fold to fold, so that
+        `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not exist,
+        entries are NaN or flagged absent; the number of solutions is given for each frequency.
 
     Raises
     ------
@@ -97,12 +96,18 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     )
 
 
-def _padded(rows, size, fill=np.nan):
-    """Rows of unequal length as one array of shape (len(rows), size)."""
-    table = np.full((len(rows), size), fill)
-    for target, row in zip(table, rows, strict=True):
-        target[: len(row)] = row
+def _table(columns, rows, fill=np.nan):
+    """Return rows of unequal length as one array, each entry in the column of its branch."""
+    width = max((1 + row.max() for row in columns if len(row)), default=1)
+    table = np.full((len(rows), width), fill)
+    for target, place, row in zip(table, columns, rows, strict=True):
+        target[place] = row
     return table
+
+
+def _plane(amplitude, phase):
+    """Return the components of a harmonic in phase with the forcing and a quarter period later."""
+    return np.stack([amplitude * np.cos(phase), amplitude * np.sin(phase)], axis=-1)
 
 
 def _free_table(oscillator, frequencies):
@@ -111,10 +116,11 @@ def _free_table(oscillator, frequencies):
         stability(growth_rate(fixed_points(each), oscillator, None, frequency))
         for each, frequency in zip(free, frequencies, strict=True)
     ]
+    columns = branches_over([_plane(each.amplitude, each.phase) for each in free])
     return {
-        "free_amplitude": _padded([each.amplitude for each in free], MOST_FREE),
-        "free_phase": _padded([each.phase for each in free], MOST_FREE),
-        "free_stability": _padded(signs, MOST_FREE, flag("free_stability", "absent")),
+        "free_amplitude": _table(columns, [each.amplitude for each in free]),
+        "free_phase": _table(columns, [each.phase for each in free]),
+        "free_stability": _table(columns, signs, flag("free_stability", "absent")),
         "free_count": [len(each.phase) for each in free],
     }
 
@@ -141,18 +147,36 @@ def _solution_table(oscillator, damper, frequencies):
         )
         rows.append([*map(np.concatenate, zip(impacting, resting, strict=True)), growth, kinds])
     amplitude, relative, phase, growth, kinds = zip(*rows, strict=True)
+    columns = _solution_branches(amplitude, relative, phase, kinds)
     return {
-        "amplitude": _padded(amplitude, MOST_SOLUTIONS),
-        "relative_amplitude": _padded(relative, MOST_SOLUTIONS),
-        "phase": _padded(phase, MOST_SOLUTIONS),
-        "growth_rate": _padded(growth, MOST_SOLUTIONS),
-        "stability": _padded(
-            [stability(row) for row in growth], MOST_SOLUTIONS, flag("stability", "absent")
+        "amplitude": _table(columns, amplitude),
+        "relative_amplitude": _table(columns, relative),
+        "phase": _table(columns, phase),
+        "growth_rate": _table(columns, growth),
+        "stability": _table(
+            columns, [stability(row) for row in growth], flag("stability", "absent")
         ),
-        "kind": _padded(kinds, MOST_SOLUTIONS, flag("kind", "absent")),
+        "kind": _table(columns, kinds, flag("kind", "absent")),
         "solution_count": [len(row) for row in amplitude],
         "balance_status": status,
     }
+
+
+def _solution_branches(amplitude, relative, phase, kinds):
+    """Return the branches of solutions with a damper; those at rest come after all others."""
+    resting = flag("kind", "resting")
+    found, begun = [np.empty(len(row), int) for row in kinds], 0
+    for chosen in ([row != resting for row in kinds], [row == resting for row in kinds]):
+        columns = branches_over(
+            [
+                np.hstack([_plane(a, t), _plane(b, t)])[where]
+                for a, b, t, where in zip(amplitude, relative, phase, chosen, strict=True)
+            ]
+        )
+        for row, where, column in zip(found, chosen, columns, strict=True):
+            row[where] = begun + column
+        begun += max((1 + row.max() for row in columns if len(row)), default=0)
+    return found
 
 
 def _rigid_table(oscillator, damper, frequencies):
@@ -163,11 +187,17 @@ def _rigid_table(oscillator, damper, frequencies):
         np.where(each.pulling, flag("rigid_wall", "pulls"), flag("rigid_wall", "pushes"))
         for each in rigid
     ]
+    columns = branches_over(
+        [
+            np.hstack([_plane(each.amplitude, each.phase), _plane(damper.clearance, each.phase)])
+            for each in rigid
+        ]
+    )
     return {
-        "rigid_tangent": _padded([each.tangent for each in rigid], MOST_ROOTS),
-        "rigid_amplitude": _padded([each.amplitude for each in rigid], MOST_ROOTS),
-        "rigid_phase": _padded([each.phase for each in rigid], MOST_ROOTS),
-        "rigid_residual": _padded([each.residual for each in rigid], MOST_ROOTS),
-        "rigid_wall": _padded(walls, MOST_ROOTS, flag("rigid_wall", "absent")),
+        "rigid_tangent": _table(columns, [each.tangent for each in rigid]),
+        "rigid_amplitude": _table(columns, [each.amplitude for each in rigid]),
+        "rigid_phase": _table(columns, [each.phase for each in rigid]),
+        "rigid_residual": _table(columns, [each.residual for each in rigid]),
+        "rigid_wall": _table(columns, walls, flag("rigid_wall", "absent")),
         "rigid_count": [len(each.phase) for each in rigid],
     }

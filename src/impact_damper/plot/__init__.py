@@ -1,0 +1,12 @@
+"""Plots of one's own results: `impact_damper.plot.response(data)`, and likewise the others.
+
+Each function takes what the public functions of the package return, alone or in a list, draws it
+with the functions that draw the figures of the paper, and returns the Axes. `ax` is where to draw;
+without it a figure is made.
+"""
+
+from impact_damper.plot.designs import design, sweep
+from impact_damper.plot.motions import migration, orbit
+from impact_damper.plot.responses import branch, response, shares
+
+__all__ = ["branch", "design", "migration", "orbit", "response", "shares", "sweep"]

@@ -1,0 +1,80 @@
+"""What all plots share: checks of datasets, new figures, and legends."""
+
+from contextlib import nullcontext
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot
+
+from impact_damper.figures.style import COLUMNS, style
+from impact_damper.system.bounds import shown
+
+
+def datasets_in(data, takes, words) -> list[xr.Dataset]:
+    """Return a dataset, or those in a list, as a list.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or sequence of xarray.Dataset
+    takes : callable
+        Maps a dataset to whether it can be drawn.
+    words : str
+        The functions whose results can be drawn.
+
+    Raises
+    ------
+    TypeError
+        If there is none, or one cannot be drawn.
+    """
+    found = [data] if isinstance(data, xr.Dataset) else data
+    if not isinstance(found, (list, tuple)) or not found:
+        raise TypeError(f"data = {shown(data)}: must be a result of {words}, or a list of them")
+    for each in found:
+        if not isinstance(each, xr.Dataset) or not takes(each):
+            title = getattr(each, "attrs", {}).get("title", shown(each))
+            raise TypeError(f"data = {title!r}: must be a result of {words}, or a list of them")
+    units = {each.attrs.get("scales") for each in found}
+    if len(units) > 1:
+        raise TypeError("data = several: must be of one machine, or all dimensionless")
+    return list(found)
+
+
+def looks(ax):
+    """Return a context with the style of the paper's figures for new axes only."""
+    return style() if ax is None else nullcontext()
+
+
+def axes_for(ax, count=1, height=3.6):
+    """Return the axes to draw on as a list, made if `ax` is None.
+
+    Raises
+    ------
+    TypeError
+        If `ax` is not as many axes.
+    """
+    if ax is None:
+        width = COLUMNS["double"]
+        _, made = pyplot.subplots(
+            1, count, figsize=(width, height), layout="constrained", squeeze=False
+        )
+        return list(made[0])
+    given = list(np.ravel(np.array(ax, object)))
+    if len(given) != count or not all(hasattr(each, "plot") for each in given):
+        raise TypeError(f"ax = {shown(ax)}: must be {count} Axes of matplotlib")
+    return given
+
+
+def key(axes, columns=2):
+    """Add a legend above the axes, in which each label is listed once."""
+    handles, labels = axes.get_legend_handles_labels()
+    entries = dict(reversed(list(zip(labels, handles, strict=True))))
+    if entries:
+        order = [label for label in dict.fromkeys(labels)]
+        axes.legend(
+            [entries[label] for label in order],
+            order,
+            loc="lower left",
+            bbox_to_anchor=(0.0, 1.01),
+            borderaxespad=0.0,
+            ncols=columns,
+        )

@@ -1,0 +1,108 @@
+"""Plots of single motions: an orbit, and a run of migration control."""
+
+import json
+from dataclasses import fields
+
+import numpy as np
+
+from impact_damper.data.datasets import damper_of, has_damper, oscillator_of, parameters_of
+from impact_damper.figures.migration import draw_run
+from impact_damper.figures.motion import phase_panel, time_panel
+from impact_damper.figures.style import axis_label
+from impact_damper.machine.arguments import takes_machine
+from impact_damper.machine.machine import Machine
+from impact_damper.motions.simulate import simulate
+from impact_damper.plot.drawing import axes_for, datasets_in, key, looks
+
+
+def orbit(data, *, ax=None):
+    """Draw a motion: its phase portrait, and its course in time with its contacts.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A result of `simulate`; or of `steady_motion` or `periodic_orbit`, of which one period is
+        simulated from the state that it holds.
+    ax : sequence of 2 matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    list of matplotlib.axes.Axes
+        Those of the phase portrait and of the course in time.
+
+    Raises
+    ------
+    TypeError
+        If something else is given.
+    """
+    words = "simulate, steady_motion or periodic_orbit"
+    given = datasets_in(data, _is_motion, words)
+    if len(given) > 1:
+        raise TypeError(f"data = {len(given)} datasets: must be one result of {words}")
+    (found,) = given
+    run = found if "time" in found.coords else _one_period(found)
+    with looks(ax):
+        left, right = axes_for(ax, 2)
+        phase_panel(left, run)
+        time_panel(right, run)
+        key(right, 1)
+    return [left, right]
+
+
+def _is_motion(data):
+    run = {"displacement", "velocity", "contact_begin"} <= data.keys() and "time" in data.coords
+    single = data["state"].dims == ("component",) if "state" in data else False
+    return run or single or data.get("orbit_state", np.empty(0)).shape == (1, 4)
+
+
+def _one_period(data):
+    """Return a run over one period of a steady motion or an orbit."""
+    state = data["state"] if "state" in data else data["orbit_state"]
+    made = parameters_of(data)
+    periods = max(1, int(data["period"]) if "period" in data else made["period"])
+    if "machine" not in data.attrs:
+        damper = damper_of(data) if has_damper(data) else None
+        return simulate(oscillator_of(data), damper, made["frequency"], state, periods=periods)
+    machine, damper = _machine_of(data)
+    frequency = machine.scales.to_si(made["frequency"], "frequency")
+    return takes_machine(simulate)(machine, damper, frequency, state, periods=periods)
+
+
+def _machine_of(data):
+    """Return the machine that a dataset in SI units is of, and its damper or None."""
+    made = json.loads(data.attrs["machine"])
+    machine = Machine(**{each.name: made.get(each.name, each.default) for each in fields(Machine)})
+    if "damper_mass" not in made:
+        return machine, None
+    contact = {name: made[name] for name in ("gap", "restitution", "contact_stiffness")}
+    return machine, machine.damper(mass=made["damper_mass"], **contact)
+
+
+def migration(data, *, ax=None):
+    """Draw a run of migration control: displacement against time, and when the damper is on.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A result of `migrate`.
+    ax : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If something else is given.
+    """
+    given = datasets_in(data, lambda each: {"on_time", "displacement"} <= each.keys(), "migrate")
+    if len(given) > 1:
+        raise TypeError(f"data = {len(given)} datasets: must be one result of migrate")
+    (run,) = given
+    with looks(ax):
+        (axes,) = axes_for(ax)
+        draw_run(axes, run, run["time"].values[[0, -1]], 0.4)
+        axes.set(xlabel=axis_label(run["time"]), ylabel=axis_label(run["displacement"]))
+        key(axes, 3)
+    return axes

@@ -1,0 +1,260 @@
+"""Plots over a parameter: motions, harmonic balance, exact orbits, and shares of random starts."""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag, has_damper, parameters_of
+from impact_damper.figures.branches import PERIODS, mark_events, mark_open_ends, runs
+from impact_damper.figures.harmonic_balance import draw_band, draw_free
+from impact_damper.figures.response import response_panel
+from impact_damper.figures.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PALE,
+    PURPLE,
+    ROLES,
+    SKY,
+    axis_label,
+    tex,
+)
+from impact_damper.plot.drawing import axes_for, datasets_in, key, looks
+from impact_damper.system.parameters import SYMBOLS
+
+# A sweep of steady motions.
+SETTLED = {
+    "label": "settled",
+    "color": BLUE,
+    "marker": "o",
+    "markerfacecolor": "none",
+    "linewidth": 0.5,
+}
+
+
+def response(data, *, ax=None):
+    """Draw displacement against forcing frequency.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or list of xarray.Dataset
+        Results of `frequency_response`, `subharmonic_suppression`, `steady_motion`,
+        `harmonic_balance_response`, `orbit_branch` or `complete_branches` over frequency, with and
+        without a damper, in any mixture; beside them of `suppression_band`.
+    ax : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> free = idm.harmonic_balance_response(idm.Oscillator(0.215), None, [1.8, 1.9, 2.0])
+    >>> axes = idm.plot.response(free)
+    """
+    given = datasets_in(
+        data,
+        lambda each: bool(_kind(each)),
+        "frequency_response, subharmonic_suppression, steady_motion, harmonic_balance_response, "
+        "orbit_branch or complete_branches (over frequency)",
+    )
+    parts = {"motions": [], "balance": [], "orbits": [], "steady": [], "bands": []}
+    for each in given:
+        parts[_kind(each)].append(each)
+    with looks(ax):
+        (axes,) = axes_for(ax)
+        response_panel(axes, parts["motions"], parts["balance"], parts["orbits"])
+        for balance in parts["balance"]:
+            if not has_damper(balance) or not parts["motions"] + parts["orbits"]:
+                draw_free(axes, balance)
+        for orbits in filter(has_damper, parts["orbits"]):
+            _stable_orbits(axes, orbits)
+        for band in parts["bands"]:
+            draw_band(axes, band)
+        _steady(axes, parts["steady"])
+        shown = [each for each in given if _kind(each) != "bands"] or given
+        axes.set(xlabel=_frequency_label(shown[0]), ylabel=_size_label(shown))
+        axes.set_ylim(bottom=0)
+        key(axes, 3)
+    return axes
+
+
+def _kind(data):
+    """Return what kind of response a dataset is, or "" if none."""
+    if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
+        return "orbits"
+    if "free_amplitude" in data:
+        return "balance"
+    if "band_status" in data:
+        return "bands"
+    if "maximum_displacement" in data and "frequency" in data.coords:
+        return {("frequency", "motion"): "motions", (): "steady", ("frequency",): "steady"}.get(
+            data["maximum_displacement"].dims, ""
+        )
+    return ""
+
+
+def _stable_orbits(axes, orbits):
+    for value, size, stable in runs(orbits, lambda period: True):
+        if stable:
+            axes.plot(value, size, color=BLUE, label="stable orbit")
+
+
+def _steady(axes, motions):
+    """Draw steady motions, the settled ones joined in the order in which they are given."""
+    if not motions:
+        return
+    frequency, size, outcome = (
+        np.concatenate([np.ravel(each[name]) for each in motions])
+        for name in ("frequency", "maximum_displacement", "outcome")
+    )
+    settled = outcome == flag("outcome", "settled")
+    still = outcome == flag("outcome", "non_colliding")
+    if settled.any():
+        axes.plot(frequency, np.where(settled, size, np.nan), **SETTLED)
+    for chosen, role, words in (
+        (still, "non_colliding", "no contact"),
+        (~settled & ~still, "chaotic", "not settled"),
+    ):
+        if chosen.any():
+            axes.plot(frequency[chosen], size[chosen], **ROLES[role] | {"label": words})
+
+
+def _frequency_label(data):
+    if "frequency" in data.coords:
+        return axis_label(data["frequency"])
+    values = data["followed_value" if "followed_value" in data else "edge_frequency"]
+    units = values.attrs["units"]
+    return "Forcing frequency, $\\Omega$" if units == "1" else f"Forcing frequency ({units})"
+
+
+def _size_label(given):
+    """Return the label of displacements; of amplitudes, if only those are drawn."""
+    for name in ("maximum_displacement", "orbit_displacement"):
+        for each in given:
+            if name in each:
+                return axis_label(each[name])
+    units = next((each["free_amplitude"].units for each in given if "free_amplitude" in each), "1")
+    return "Amplitude, $|a|$" if units == "1" else f"Amplitude ({units})"
+
+
+def branch(data, *, ax=None):
+    """Draw the largest displacement in periodic orbits against the parameter that varies.
+
+    Stable orbits are full, unstable ones dotted. Colours stand for periods, markers for
+    bifurcations and changes of contact.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or list of xarray.Dataset
+        Results of `orbit_branch` or `complete_branches`, over the same parameter.
+    ax : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If something else is given.
+    """
+    given = datasets_in(
+        data, lambda each: "event_kind" in each, "orbit_branch or complete_branches"
+    )
+    with looks(ax):
+        (axes,) = axes_for(ax)
+        for each in given:
+            for label, color, chosen in PERIODS:
+                for value, size, stable in runs(each, chosen):
+                    look = {"label": label} if stable else {"linestyle": ":"}
+                    axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.8, **look)
+            mark_events(axes, each)
+            mark_open_ends(axes, each)
+        axes.set(
+            xlabel=_followed_label(given[0]), ylabel=axis_label(given[0]["orbit_displacement"])
+        )
+        key(axes, 3)
+    return axes
+
+
+def _followed_label(data):
+    name, units = parameters_of(data)["parameter"], data["followed_value"].attrs["units"]
+    if name == "frequency":
+        return _frequency_label(data)
+    words = name.replace("_", " ").capitalize()
+    if name == "mass_ratio" and units == "kg":
+        words = "Mass of the damper"
+    return f"{words}, ${tex(SYMBOLS[name])}$" if units == "1" else f"{words} ({units})"
+
+
+# Outcomes of random starts: label, colour and hatching.
+OUTCOMES = {
+    "period 1": (BLUE, ""),
+    "other periods": (GREEN, "///"),
+    "no contact": (GREY, ""),
+    "quasi-periodic": (SKY, "\\\\\\"),
+    "chaotic": (ORANGE, "..."),
+    "others": (PURPLE, "xxx"),
+}
+
+
+def shares(data, *, ax=None):
+    """Draw the shares of random starts that lead to each kind of motion, stacked.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A result of `frequency_response`, `subharmonic_suppression` or `clearance_sweep`.
+    ax : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If something else is given.
+    """
+    words = "frequency_response, subharmonic_suppression or clearance_sweep"
+    given = datasets_in(data, lambda each: "run_outcome" in each, words)
+    if len(given) > 1:
+        raise TypeError(f"data = {len(given)} datasets: must be one result of {words}")
+    (found,) = given
+    name = found["run_outcome"].dims[0]
+    with looks(ax):
+        (axes,) = axes_for(ax)
+        part = _shares(found)
+        places = found[name].values
+        below = np.zeros(len(places))
+        width = np.diff(places).min() if len(places) > 1 else 0.1
+        for label, (color, hatch) in OUTCOMES.items():
+            if part[label].any():
+                look = {"color": color, "hatch": hatch, "edgecolor": PALE, "linewidth": 0}
+                axes.bar(places, part[label], width, below, label=label, **look)
+                below = below + part[label]
+        axes.set(xlabel=axis_label(found[name]), ylabel="Share of random starts", ylim=(0, 1))
+        key(axes, 3)
+    return axes
+
+
+def _shares(data):
+    """Return the share of starts with each outcome, arrays over the sweep keyed by label."""
+    outcome = data["run_outcome"].values
+    reached = np.take_along_axis(data["period"].values, data["run_motion"].values, axis=1)
+    settled = outcome == flag("outcome", "settled")
+    chosen = {
+        "period 1": settled & (reached == 1),
+        "other periods": settled & (reached != 1),
+        "no contact": outcome == flag("outcome", "non_colliding"),
+        "quasi-periodic": outcome == flag("outcome", "quasi_periodic"),
+        "chaotic": outcome == flag("outcome", "chaotic"),
+    }
+    chosen["others"] = ~np.any(list(chosen.values()), axis=0)
+    return {label: where.mean(axis=1) for label, where in chosen.items()}
