@@ -148,14 +148,21 @@ def _report_file_errors():
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):
-        if not issubclass(kind, OSError):
-            return show(kind, error, trace)
+        # on a full disk, closing a figure's file may raise another error, which hides the first one
+        cause = error
+        while not isinstance(cause, OSError) and cause is not None:
+            cause = cause.__cause__ or cause.__context__
+        if cause is not error:
+            with suppress(OSError):
+                show(kind, error, trace)
+        if cause is None:
+            return
         from impact_damper.data.whole_files import DELETE, BrokenFileError
 
-        advice = f": {DELETE}." if issubclass(kind, BrokenFileError) else ""
+        advice = f": {DELETE}." if isinstance(cause, BrokenFileError) else ""
         for place in (terminal, sys.stderr):
             with suppress(OSError):
-                print(f"Error: {error}{advice}", file=place)
+                print(f"Error: {cause}{advice}", file=place)
 
     sys.excepthook = report
 
