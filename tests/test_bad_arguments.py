@@ -187,6 +187,13 @@ FUNCTIONS = {
         | {"starts": count | st.just(1), "damper": no_damper | st.none()}
         | {"frequencies": increasing | st.just([2.0])},
     ),
+    "basins": (
+        GOOD | {"frequency": 1.95, "cells": 2},
+        motion
+        | {"displacement": radius, "velocity": radius, "cells": count, "settling": no_settling}
+        | {"phase": no_numbers | not_finite | negative | huge, "workers": count}
+        | {"loose": st.sampled_from([1.0, "12", (1,), (1, 2, 3), (math.nan, 0), ("1", 0)])},
+    ),
     "migrate": (
         GOOD | {"frequency": 1.95},
         motion

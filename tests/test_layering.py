@@ -24,6 +24,7 @@ FLOORS = (
     "orbits",
     "edges",
     "absorbers",
+    "basins",
     "migration",
     "rivals",
     "comparisons",

@@ -53,6 +53,7 @@ _HOMES = {
     "steady_motion": "motions.steady",
     "frequency_response": "stages.response",
     "subharmonic_suppression": "stages.subharmonic",
+    "basins": "stages.basins",
     "migrate": "stages.migration",
     "periodic_orbit": "stages.branches",
     "orbit_branch": "stages.branches",

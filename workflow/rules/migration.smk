@@ -35,3 +35,22 @@ rule release_scan:
         "Motions that releases lead to over frequency, the scan {wildcards.name}"
     script:
         "../scripts/release_scan.py"
+
+
+rule basins:
+    input:
+        code=code("basins"),
+        kernels=KERNELS,
+    output:
+        "<results>/basins/{name}.nc",
+    log:
+        "<logs>/basins/{name}.log",
+    cache: SHARED
+    conda:
+        ENVIRONMENT
+    params:
+        **parameters("basins"),
+    message:
+        "Motions that states of a plane lead to, the plane {wildcards.name}"
+    script:
+        "../scripts/basins.py"

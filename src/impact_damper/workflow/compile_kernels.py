@@ -85,10 +85,12 @@ def warm_up_settling() -> None:
     p, tangent, stop = pack(OSCILLATOR, DAMPER, FREQUENCY), np.ones((1, 4)), np.zeros(1, bool)
     undecided.run_block(p, np.zeros(4), tangent, np.empty((1, 4)), np.empty(1), stop)
 
+    from impact_damper.stages.basins import basins
     from impact_damper.stages.response import frequency_response
     from impact_damper.system.settling import Settling
 
     settling = Settling(patience=100, limit=100, watched=1)
+    basins(OSCILLATOR, None, FREQUENCY, cells=2, settling=settling)
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
     )

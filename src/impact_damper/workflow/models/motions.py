@@ -1,6 +1,6 @@
 """Motions with and without a damper: curves over frequency, single motions, and migration."""
 
-from impact_damper.system.bounds import PERIODS_RANGE, SCAN_LIFETIME_RANGE
+from impact_damper.system.bounds import FARTHEST, FASTEST, PERIODS_RANGE, SCAN_LIFETIME_RANGE
 from impact_damper.workflow.models.messages import dotted, problem
 from impact_damper.workflow.models.system import (
     CLEARANCE,
@@ -16,7 +16,7 @@ from impact_damper.workflow.models.system import (
     keys_of,
     range_of,
 )
-from impact_damper.workflow.models.values import choice, count, several
+from impact_damper.workflow.models.values import choice, count, number, several
 from impact_damper.workflow.registry import STAGES
 
 # Stages of an entry of `curves`, and which of them need a damper.
@@ -93,6 +93,15 @@ class ReleaseScan(WithDamper):
     )
 
 
+class Basins(MaybeWithDamper):
+    """Planes of states of the primary mass, and the motions that they lead to."""
+
+    frequency: FREQUENCY
+    displacement: number("half width of the plane in Z1", above=0, most=FARTHEST)
+    velocity: number("half width of the plane in Z1'", above=0, most=FASTEST)
+    cells: count("states on each axis of the plane", least=2, most=10**4)
+
+
 SECTIONS = {
     "curves": Curve,
     "motion": Motion,
@@ -100,4 +109,5 @@ SECTIONS = {
     "optimum": Optimum,
     "migration": Migration,
     "release_scan": ReleaseScan,
+    "basins": Basins,
 }

@@ -25,14 +25,25 @@ def release_scan(config, name):
     }
 
 
+def basins(config, name):
+    entry = config["basins"][name]
+    return system(config, entry) | {
+        "frequency": entry["frequency"],
+        "plane": {key: entry[key] for key in ("displacement", "velocity", "cells")},
+        "settling": settling(config),
+    }
+
+
 TITLE = "Migration control"
 STAGES = (
     Stage("migration", "migration", migration),
     Stage("release_scan", "release_scan", release_scan),
+    Stage("basins", "basins", basins),
 )
 KINDS = (
     Kind("migration", ("migration",)),
     Kind("release", ("migration",)),
+    Kind("basins", ("basins",), damper=False, most=4),
 )
 TABLES = (
     Table(

@@ -1,0 +1,1 @@
+"""Basins of attraction: what each state leads to, and where the boundaries between basins lie."""

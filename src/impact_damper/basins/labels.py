@@ -1,0 +1,144 @@
+"""Label states of the free oscillator by the motion that they lead to.
+
+A motion is run from strobe to strobe until it lies in a proven neighbourhood of an attracting orbit
+(`basins.attractors`).
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.kernel.batch import LANES, RESIDENT, STATE, advance_some, enter, make_pool, send
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import has_escaped
+from impact_damper.motions import ensemble
+from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.system.packed import FREQUENCY
+
+ESCAPED, UNRESOLVED = BASIN_LABEL["escaped"], BASIN_LABEL["unresolved"]
+# States that a thread labels at once, a fraction of a second.
+CHUNK = 4096
+
+
+@kernel
+def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels, periods, stop):
+    """Label states by the orbit whose neighbourhood their motions reach at a strobe.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    states : array, shape (n, 2)
+        Z1 and Z1' at the time `begin`.
+    begin : float
+        Time T, at most a forcing period before the first strobe.
+    tolerance : float
+        Local error allowed.
+    limit : int
+        Forcing periods after which a motion counts as unresolved.
+    owner, centre, shape : array
+        Of `Attractors`.
+    labels, periods : array of int, shape (n,)
+        Get the index of the orbit, or UNRESOLVED or ESCAPED, and the strobes passed until then.
+    stop : array of bool, shape (1,)
+        Set to true by another thread, it ends the run; labels are then incomplete.
+    """
+    size = min(len(states), RESIDENT)
+    pool = make_pool(size)
+    chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
+    taken, strobes = np.zeros(size, np.int64), np.zeros(size, np.int64)
+    y = np.empty(4)
+    first, period = strobe_time(p), 2.0 * math.pi / p[FREQUENCY]
+    following, left = size, len(states)
+    for m in range(size):
+        take(pool, m, m, p, states, begin, first, tolerance, y, taken, strobes)
+    while left > 0 and not stop[0]:
+        for j in range(advance_some(pool, chosen, arrived)):
+            m = arrived[j]
+            i = taken[m]
+            x, v = pool.numbers[m, STATE], pool.numbers[m, STATE + 1]
+            label = which(x, v, owner, centre, shape)
+            if has_escaped(p, x, v):
+                label = ESCAPED
+            if label != UNRESOLVED or strobes[m] == limit:
+                labels[i], periods[i] = label, strobes[m]
+                left -= 1
+                take(pool, m, following, p, states, begin, first, tolerance, y, taken, strobes)
+                following += 1
+            else:
+                strobes[m] += 1
+                send(pool, m, first, first + period, False)
+
+
+@kernel_only
+def take(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
+    """Put state i, if it exists, into place m of the pool of motions that run together."""
+    if i < len(states):
+        taken[m], strobes[m] = i, 0
+        y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
+        enter(pool, m, p, y, 0, tolerance)
+        send(pool, m, begin, first, False)
+
+
+@kernel_only
+def which(x, v, owner, centre, shape):
+    """Return the orbit in whose neighbourhood a state at a strobe lies, or UNRESOLVED."""
+    for k in range(len(owner)):
+        dx, dv = x - centre[k, 0], v - centre[k, 1]
+        first = shape[k, 0, 0] * dx + shape[k, 0, 1] * dv
+        second = shape[k, 1, 0] * dx + shape[k, 1, 1] * dv
+        if first * first + second * second < 1.0:
+            return owner[k]
+    return UNRESOLVED
+
+
+def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
+    """Return the label of each state of the free oscillator, and the periods until it was known.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    states : array, shape (n, 2)
+        Z1 and Z1' at the phase.
+    phase : float
+        Phase W T of the forcing, radian.
+    attractors : Attractors
+    tolerance : float
+        Local error allowed.
+    limit : int
+        Forcing periods after which a motion counts as unresolved.
+    workers, progress
+        As in `ensemble.settle`.
+
+    Returns
+    -------
+    labels, periods : numpy.ndarray of int, shape (n,)
+        Indices of `attractors.records`, or ESCAPED or UNRESOLVED.
+    """
+    states = np.ascontiguousarray(states, float)
+    strobe = 0.5 * math.pi
+    begin = (strobe - (strobe - phase) % (2 * math.pi)) / p[FREQUENCY]
+    labels, periods = np.full(len(states), UNRESOLVED), np.zeros(len(states), np.int64)
+    stop = np.zeros(1, bool)
+
+    def work(part):
+        label_many(
+            p,
+            states[part],
+            begin,
+            tolerance,
+            limit,
+            attractors.owner,
+            attractors.centre,
+            attractors.shape,
+            labels[part],
+            periods[part],
+            stop,
+        )
+
+    # Compiles in this thread, where Ctrl-C is heard.
+    work(slice(0, 0))
+    ensemble.run_chunks(work, len(states), workers, progress, stop, size=CHUNK)
+    return labels, periods

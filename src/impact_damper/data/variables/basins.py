@@ -1,0 +1,101 @@
+"""Basins of attraction: which motion each state of a plane leads to, and boundaries of basins.
+
+An attractor is a motion that settles. Negative labels are in BASIN_LABEL.
+"""
+
+from impact_damper.data.variables.variable import Variable
+
+# Labels of states that lead to no attractor; a state of the primary is `mixed` if where it leads
+# depends on the place of the loose mass.
+BASIN_LABEL = {"unresolved": -1, "escaped": -2, "chaotic": -3, "no_contact": -4, "mixed": -5}
+CURVE = {"complete": 0, "cut": 1}
+
+VARIABLES = {
+    "basin_displacement": Variable(
+        ("basin_displacement",),
+        "displacement of the primary mass at first",
+        "Z1",
+        quantity="displacement",
+    ),
+    "basin_velocity": Variable(
+        ("basin_velocity",), "velocity of the primary mass at first", "Z1'", quantity="velocity"
+    ),
+    "basin_phase": Variable((), "phase Omega T of the forcing at first", units="radian"),
+    "basin_label": Variable(
+        ("basin_velocity", "basin_displacement"),
+        "attractor that a state leads to, or a negative number: -1 unresolved, -2 escaped, "
+        "-3 chaotic, -4 settled without contact, -5 depends on the place of the loose mass",
+    ),
+    "basin_periods": Variable(
+        ("basin_velocity", "basin_displacement"),
+        "forcing periods after which it is known where a state leads",
+    ),
+    "basin_share": Variable(
+        ("attractor", "basin_velocity", "basin_displacement"),
+        "share of the places of the loose mass from which a state leads to an attractor",
+    ),
+    "attractor": Variable(("attractor",), "index of an attractor, by rising max |Z1|"),
+    "attractor_period": Variable(("attractor",), "period in forcing periods", "n"),
+    "attractor_displacement": Variable(
+        ("attractor",), "largest displacement", "max |Z1|", quantity="displacement"
+    ),
+    "attractor_amplitude": Variable(
+        ("attractor",),
+        "amplitude of the first harmonic of the displacement",
+        quantity="displacement",
+    ),
+    "attractor_phase": Variable(
+        ("attractor",), "phase of the first harmonic relative to the forcing", units="radian"
+    ),
+    "attractor_share": Variable(("attractor",), "share of the states that lead to an attractor"),
+    "attractor_point": Variable(
+        ("attractor", "passage"),
+        "displacement of an attractor each time the forcing has the phase of the plane",
+        "Z1",
+        quantity="displacement",
+    ),
+    "attractor_speed": Variable(
+        ("attractor", "passage"),
+        "velocity of an attractor each time the forcing has the phase of the plane",
+        "Z1'",
+        quantity="velocity",
+    ),
+    "label_count": Variable(
+        ("without_attractor",), "number of states that lead to no attractor, by reason"
+    ),
+    "without_attractor": Variable(
+        ("without_attractor",), "reason why a state leads to no attractor"
+    ),
+    "saddle_period": Variable(("saddle",), "period of an unstable orbit in forcing periods", "n"),
+    "saddle_displacement": Variable(
+        ("saddle",),
+        "displacement of an unstable orbit at the phase of the plane",
+        "Z1",
+        quantity="displacement",
+    ),
+    "saddle_velocity": Variable(
+        ("saddle",),
+        "velocity of an unstable orbit at the phase of the plane",
+        "Z1'",
+        quantity="velocity",
+    ),
+    "saddle_multiplier": Variable(
+        ("saddle", "multiplier"), "Floquet multipliers of an unstable orbit"
+    ),
+    "saddle_curve": Variable(
+        ("saddle",), "whether the stable manifold is complete in the plane", flags=CURVE
+    ),
+    "boundary_displacement": Variable(
+        ("boundary",),
+        "displacement on the stable manifold of an unstable orbit; NaN between pieces",
+        "Z1",
+        quantity="displacement",
+    ),
+    "boundary_velocity": Variable(
+        ("boundary",),
+        "velocity on the stable manifold of an unstable orbit; NaN between pieces",
+        "Z1'",
+        quantity="velocity",
+    ),
+    "boundary_saddle": Variable(("boundary",), "index of the unstable orbit"),
+}

@@ -1,0 +1,144 @@
+"""Basins of attraction in a plane of states (figure kind `basins`)."""
+
+import numpy as np
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
+from matplotlib.patches import Patch
+
+from impact_damper.data.datasets import has_damper, parameters_of
+from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.figures.style import (
+    BLACK,
+    GREY,
+    ORANGE,
+    PALE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    WHITE,
+    axis_label,
+    figure,
+    letter_panels,
+    parameter_label,
+    style,
+)
+
+CAPTION = """
+Basins of attraction: each state of the primary mass at the phase of the forcing that is named has
+the colour of the motion that it leads to. Circles are the motions at this phase. Without a damper
+crosses are unstable orbits and black lines their stable manifolds, computed apart, on which the
+boundaries lie; a manifold that winds without end is drawn in part. With the damper the loose mass
+is first at rest relative to the primary, at five places in the gap, and the shade is the share of
+these places from which the smallest motion is reached. Shares of all states are in the legends.
+"""
+
+# Colours of attractors by rising max |Z1|, with the largest in the last one; of chaos, and of
+# states that lead to no attractor or to several.
+COLOURS = (SKY, VERMILION, PURPLE, "#F7E7A6")
+CHAOS, NONE = ORANGE, PALE
+POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": BLACK, "markersize": 4.5}
+SADDLES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5}
+
+
+@style({"axes.titley": None})
+def draw_basins(*, basins):
+    """Draw the basins of each dataset, with its attractors and unstable orbits.
+
+    Parameters
+    ----------
+    basins : list of xarray.Dataset
+        Datasets of the stage basins.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    columns = min(len(basins), 2)
+    rows = -(-len(basins) // columns)
+    drawn = figure("double", 0.2 + (3.4 if columns == 2 else 4.6) * rows)
+    panels = drawn.subplots(rows, columns, squeeze=False).ravel()
+    for axes, data in zip(panels, basins, strict=False):
+        draw_plane(axes, data)
+    for axes in panels[len(basins) :]:
+        axes.remove()
+    letter_panels(panels[: len(basins)])
+    return drawn
+
+
+def colours_of(data):
+    """Return the colour of each attractor of a dataset."""
+    number = data.sizes["attractor"]
+    return [
+        COLOURS[-1] if k == number - 1 and number > 1 else COLOURS[k % 3] for k in range(number)
+    ]
+
+
+def draw_plane(axes, data):
+    """Draw the plane of one dataset."""
+    colours = colours_of(data)
+    labels = data["basin_label"].values
+    if "basin_share" in data:
+        draw_shares(axes, data)
+    else:
+        palette = ListedColormap([GREY, WHITE, CHAOS, WHITE, NONE, *colours])
+        # labels from -5 (mixed) to -1 (unresolved), then the attractors
+        norm = BoundaryNorm(np.arange(-5.5, len(colours)), len(colours) + 5)
+        fill(axes, data, labels, cmap=palette, norm=norm)
+    handles = [
+        Patch(facecolor=colour, edgecolor=BLACK, linewidth=0.4, label=words)
+        for colour, words in zip(colours, attractor_words(data), strict=True)
+    ]
+    if "basin_share" not in data and np.any(labels == BASIN_LABEL["chaotic"]):
+        handles.append(Patch(facecolor=CHAOS, edgecolor=BLACK, linewidth=0.4, label="chaotic"))
+    for index, colour in enumerate(colours):
+        axes.plot(
+            data["attractor_point"][index],
+            data["attractor_speed"][index],
+            **POINTS,
+            markerfacecolor=colour,
+        )
+    if "boundary_displacement" in data:
+        x, v = data["boundary_displacement"].values, data["boundary_velocity"].values
+        axes.plot(x, v, color=BLACK, linewidth=0.25)
+        saddles = data["saddle_displacement"], data["saddle_velocity"]
+        handles += axes.plot(*saddles, **SADDLES, label="unstable orbit")
+    made = parameters_of(data)
+    names = ("mass_ratio", "clearance") if has_damper(data) else ()
+    words = parameter_label(made, "frequency", *names)
+    turn = float(data["basin_phase"]) / np.pi
+    axes.set(
+        title=rf"{words}, phase ${turn:.3g}\pi$",
+        xlabel=axis_label(data["basin_displacement"]),
+        ylabel=axis_label(data["basin_velocity"]),
+        xlim=data["basin_displacement"].values[[0, -1]],
+        ylim=data["basin_velocity"].values[[0, -1]],
+    )
+    axes.legend(
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, fontsize=7
+    )
+
+
+def fill(axes, data, values, **look):
+    """Colour the states of a plane by values; return what is drawn."""
+    plane = data["basin_displacement"], data["basin_velocity"]
+    return axes.pcolormesh(*plane, values, rasterized=True, shading="nearest", **look)
+
+
+def draw_shares(axes, data):
+    """Colour each state by the share of places of the loose mass that lead to the first motion."""
+    shades = LinearSegmentedColormap.from_list("shares", [WHITE, SKY])
+    drawn = fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
+    words = "share of places of the loose mass"
+    axes.figure.colorbar(drawn, ax=axes, label=words, shrink=0.9, ticks=[0, 0.5, 1])
+
+
+def attractor_words(data):
+    """Return period, size and share of each attractor in words."""
+    return [
+        f"period {period:d}, max |$Z_1$| {size:.3g}: {share:.0%}"
+        for period, size, share in zip(
+            data["attractor_period"].values,
+            data["attractor_displacement"].values,
+            data["attractor_share"].values,
+            strict=True,
+        )
+    ]

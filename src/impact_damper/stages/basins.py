@@ -1,0 +1,256 @@
+"""Basins of attraction in a plane of states, without or with a damper."""
+
+import math
+
+import numpy as np
+
+from impact_damper.basins.attractors import Attractors, find_attractors, with_neighbourhoods
+from impact_damper.basins.boundary import saddles, stable_manifold
+from impact_damper.basins.damped_labels import label_damped, orbit_passages
+from impact_damper.basins.labels import label_states
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.motions.free_motions import free_motions
+from impact_damper.motions.simulate import check_state
+from impact_damper.system.bounds import FARTHEST, FASTEST, check_count, check_number, shown
+from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.parameters import describe
+from impact_damper.system.settling import check_settling
+
+# Half width of the plane over the largest displacement and speed of the free motions, if not given,
+# and of the region in which stable manifolds are followed.
+WIDTH, REACH = 1.5, 3.0
+# States on each axis of the grids from which attractors and unstable orbits are searched for.
+SEARCHED, NEWTON = 24, 16
+# Unresolved states of which the motions are run until they settle, to find further attractors.
+TRIED = 64
+# Places of the loose mass over which a plane is averaged: shares of the clearance.
+PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
+CELLS_RANGE = {"least": 2, "most": 10**4}
+STROBE = math.pi / 2
+
+
+def basins(
+    oscillator,
+    damper,
+    frequency,
+    *,
+    displacement=None,
+    velocity=None,
+    cells=400,
+    phase=STROBE,
+    loose=None,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """Find the motion that each state of a plane leads to.
+
+    Without a damper a motion is run until it lies in a neighbourhood of an attracting orbit for
+    which it is proven that all its motions tend to the orbit (`basins.attractors`). With a damper
+    each motion is run until it has settled.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        Forcing frequency W, dimensionless.
+    displacement, velocity : float, optional
+        Half widths of the plane of Z1 and Z1', dimensionless; without them WIDTH times the largest
+        displacement and speed of the motions without a damper.
+    cells : int
+        States on each axis.
+    phase : float
+        Phase W T of the forcing at which the states are given, radian.
+    loose : sequence of float, optional
+        With a damper: Z2 and Z2' of the loose mass in all states. Without it the loose mass is at
+        rest relative to the primary at five places in the gap, one after the other, and each state
+        gets the share of places that lead to each attractor.
+    settling : Settling, optional
+    workers : int
+        Threads; the result does not depend on it.
+    progress : str, optional
+        Title of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each state of the grid the label of the attractor that it leads to, or a negative number
+        with the reason why there is none; for each attractor its period, size, phase, points at
+        this phase, and share of the states. Without a damper also the unstable orbits that Newton's
+        method finds from a grid of states, of the periods of the attractors, and their stable
+        manifolds, which are the boundaries of the basins.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range.
+    """
+    settling = check_settling(settling)
+    p = pack(oscillator, damper, frequency)
+    check_count("cells", cells, **CELLS_RANGE)
+    phase = check_number("phase", phase, least=0, most=2 * math.pi)
+    free = free_motions(oscillator, p[FREQUENCY], settling)
+    sizes = np.array([free.displacement or 1.0, free.speed or 1.0])
+    window = _window(sizes, displacement, velocity)
+    grid = [np.linspace(-half, half, cells) for half in window]
+    plane = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    running = {"workers": workers, "progress": progress}
+    made = describe(oscillator, damper, settling) | {"frequency": float(frequency), "cells": cells}
+    if damper is None:
+        if loose is not None:
+            raise ValueError(f"loose = {shown(loose)}: must be None without a damper")
+        reach = np.maximum(REACH * sizes, 1.5 * window)
+        data, records = _free(p, plane, window, reach, phase, cells, settling, running)
+    else:
+        data, records = _damped(p, plane, damper, phase, cells, loose, settling, running)
+        made |= {"loose": None if loose is None else [float(value) for value in loose]}
+    data |= _attractor_data(p, records, phase, data)
+    coordinates = {
+        "basin_displacement": grid[0],
+        "basin_velocity": grid[1],
+        "basin_phase": ((), phase),
+        "without_attractor": list(BASIN_LABEL),
+    }
+    return dataset(data, coordinates, made, "Basins of attraction")
+
+
+def _window(sizes, displacement, velocity):
+    """Return half widths of the plane, shape (2,); `sizes` are those of the free motions."""
+    given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
+    return np.array(
+        [
+            check_number(name, WIDTH * size if value is None else value, above=0, most=most)
+            for (name, value, most), size in zip(given, sizes, strict=True)
+        ]
+    )
+
+
+def _free(p, plane, window, reach, phase, cells, settling, running):
+    """Return variables of the plane of the free oscillator, and the records of its attractors."""
+    attractors = free_attractors(p, reach / 2, settling)
+    labels, periods = label_states(
+        p, plane, phase, attractors, settling.tolerance, settling.limit, **running
+    )
+    lost = np.flatnonzero(labels == BASIN_LABEL["unresolved"])
+    if len(lost):
+        more = find_attractors(p, plane[lost[:: max(1, len(lost) // TRIED)]], settling)
+        attractors = _joined(p, attractors, more)
+        again = label_states(
+            p, plane[lost], phase, attractors, settling.tolerance, settling.limit, **running
+        )
+        labels[lost], periods[lost] = again
+        order = np.argsort(attractors.records["maximum_displacement"], kind="stable")
+        rank = np.argsort(order)
+        labels = np.where(labels >= 0, rank[np.maximum(labels, 0)] if len(rank) else labels, labels)
+        attractors = with_neighbourhoods(p, attractors.records[order])
+    data = {
+        "basin_label": labels.reshape(cells, cells).astype(np.int8),
+        "basin_periods": periods.reshape(cells, cells).astype(np.int32),
+    }
+    return data | boundary_data(
+        p, attractors, window, reach, phase, cells, settling
+    ), attractors.records
+
+
+def free_attractors(p, window, settling, workers=1) -> Attractors:
+    """Return the attractors that a grid of states in a window leads to."""
+    grid = [np.linspace(-half, half, SEARCHED) for half in window]
+    states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    return find_attractors(p, states, settling, workers)
+
+
+def _joined(p, attractors, more):
+    """Return attractors with those of `more` that are new."""
+    new = [
+        record
+        for index, record in enumerate(more.records)
+        if not any(
+            np.allclose(more.centre[more.owner == index][0], centre, atol=1e-6)
+            for centre in attractors.centre
+        )
+    ]
+    if not new:
+        return attractors
+    return with_neighbourhoods(p, np.concatenate([attractors.records, new]))
+
+
+def boundary_data(p, attractors, window, reach, phase, cells, settling):
+    """Return registered variables of the unstable orbits and of their stable manifolds."""
+    # unstable orbits lie closer together near the origin
+    even = np.linspace(-1, 1, NEWTON)
+    grid = [half * even * np.abs(even) for half in reach / 2]
+    states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    found = saddles(p, states, attractors.records["period"].tolist(), phase)
+    points, owner, cut = [], [], []
+    gap = np.full((1, 2), np.nan)
+    spacing = 2 * window / (cells - 1)
+    for index, orbit in enumerate(found):
+        pieces, complete = stable_manifold(orbit, settling.tolerance, window, spacing, reach)
+        cut.append(flag("saddle_curve", "complete" if complete else "cut"))
+        for piece in pieces:
+            points += [piece, gap]
+            owner += [index] * (len(piece) + 1)
+    curve = np.concatenate(points or [np.empty((0, 2))])
+    multipliers = np.array([orbit.multipliers[:2].real for orbit in found]).reshape(-1, 2)
+    return {
+        "saddle_period": np.array([orbit.periods for orbit in found], int),
+        "saddle_displacement": np.array([orbit.state[0] for orbit in found]),
+        "saddle_velocity": np.array([orbit.state[1] for orbit in found]),
+        "saddle_multiplier": multipliers,
+        "saddle_curve": np.array(cut, int),
+        "boundary_displacement": curve[:, 0],
+        "boundary_velocity": curve[:, 1],
+        "boundary_saddle": np.array(owner, int),
+    }
+
+
+def _damped(p, plane, damper, phase, cells, loose, settling, running):
+    """Return variables of a plane of states with the damper on, and records of the attractors."""
+    if loose is None:
+        places = [(place * damper.clearance, 0.0) for place in PLACES]
+    else:
+        if np.shape(loose) != (2,):
+            raise ValueError(f"loose = {shown(loose)}: must be two numbers, Z2 and Z2'")
+        places = [tuple(check_state((0.0, 0.0, *loose), damper)[2:])]
+    states = np.concatenate(
+        [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
+    )
+    labels, periods, records = label_damped(p, states, phase, settling, **running)
+    labels = labels.reshape(len(places), -1)
+    same = np.all(labels == labels[0], axis=0)
+    share = [np.mean(labels == index, axis=0) for index in range(len(records))]
+    data = {
+        "basin_label": np.where(same, labels[0], BASIN_LABEL["mixed"])
+        .reshape(cells, cells)
+        .astype(np.int8),
+        "basin_periods": periods.reshape(len(places), cells, cells).max(axis=0),
+    }
+    if len(places) > 1:
+        data["basin_share"] = np.array(share).reshape(len(records), cells, cells)
+    return data, records
+
+
+def _attractor_data(p, records, phase, plane):
+    """Return registered variables of the attractors, from those of the plane."""
+    labels = plane["basin_label"]
+    if "basin_share" in plane:
+        shares = plane["basin_share"].mean(axis=(1, 2))
+    else:
+        shares = [np.mean(labels == index) for index in range(len(records))]
+    points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
+    for row, record in zip(points, records, strict=True):
+        row[: record["period"]] = orbit_passages(p, record, phase)
+    harmonic = records["harmonic_displacement"]
+    return {
+        "attractor": np.arange(len(records)),
+        "attractor_period": records["period"],
+        "attractor_displacement": records["maximum_displacement"],
+        "attractor_amplitude": np.abs(harmonic),
+        "attractor_phase": np.angle(harmonic),
+        "attractor_share": shares,
+        "attractor_point": points[..., 0],
+        "attractor_speed": points[..., 1],
+        "label_count": [np.sum(labels == value) for value in BASIN_LABEL.values()],
+    }
