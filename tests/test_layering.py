@@ -24,7 +24,7 @@ FLOORS = (
     "orbits",
     "edges",
     "absorbers",
-    "basins",
+    "attraction",
     "migration",
     "rivals",
     "comparisons",

@@ -163,7 +163,7 @@ def test_an_unknown_key_is_answered_with_the_nearest_known_one(path, told):
 @pytest.mark.parametrize(
     ("path", "value", "allowed"),
     [
-        ("tolerance", 1.0e-9, "unknown key; known: balance_map, chunks, collisions"),
+        ("tolerance", 1.0e-9, "unknown key; known: balance_map, basins, chunks, collisions"),
         ("seed", 0.5, "a whole number, at least 0"),
         ("contact_stiffness", 0, "at least 1e-06"),
         ("contact_stiffness", "2000", "a finite number"),

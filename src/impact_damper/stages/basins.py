@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from impact_damper.basins.attractors import Attractors, find_attractors, with_neighbourhoods
-from impact_damper.basins.boundary import saddles, stable_manifold
-from impact_damper.basins.damped_labels import label_damped, orbit_passages
-from impact_damper.basins.labels import label_states
+from impact_damper.attraction.attractors import Attractors, find_attractors, with_neighbourhoods
+from impact_damper.attraction.boundary import saddles, stable_manifold
+from impact_damper.attraction.damped_labels import label_damped, orbit_passages
+from impact_damper.attraction.labels import label_states
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.basins import BASIN_LABEL
 from impact_damper.motions.free_motions import free_motions
@@ -47,7 +47,7 @@ def basins(
     """Find the motion that each state of a plane leads to.
 
     Without a damper a motion is run until it lies in a neighbourhood of an attracting orbit for
-    which it is proven that all its motions tend to the orbit (`basins.attractors`). With a damper
+    which it is proven that all its motions tend to the orbit (`attraction.attractors`). With a damper
     each motion is run until it has settled.
 
     Parameters

@@ -1,7 +1,7 @@
 """Label states of the free oscillator by the motion that they lead to.
 
 A motion is run from strobe to strobe until it lies in a proven neighbourhood of an attracting orbit
-(`basins.attractors`).
+(`attraction.attractors`).
 """
 
 import math
