@@ -22,6 +22,8 @@ LABELS = {
     records.ESCAPED: BASIN_LABEL["escaped"],
     records.CHAOTIC: BASIN_LABEL["chaotic"],
     records.NON_COLLIDING: BASIN_LABEL["no_contact"],
+    records.DRIFTING: BASIN_LABEL["no_contact"],
+    records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
 
 

@@ -79,9 +79,9 @@ def draw_plane(axes, data):
     if "basin_share" in data:
         draw_shares(axes, data)
     else:
-        palette = ListedColormap([GREY, WHITE, CHAOS, WHITE, NONE, *colours])
-        # labels from -5 (mixed) to -1 (unresolved), then the attractors
-        norm = BoundaryNorm(np.arange(-5.5, len(colours)), len(colours) + 5)
+        palette = ListedColormap([GREY, GREY, WHITE, CHAOS, WHITE, NONE, *colours])
+        # labels from -6 (quasi-periodic) to -1 (unresolved), then the attractors
+        norm = BoundaryNorm(np.arange(-6.5, len(colours)), len(colours) + 6)
         fill(axes, data, labels, cmap=palette, norm=norm)
     handles = [
         Patch(facecolor=colour, edgecolor=BLACK, linewidth=0.4, label=words)

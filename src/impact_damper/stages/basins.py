@@ -47,8 +47,8 @@ def basins(
     """Find the motion that each state of a plane leads to.
 
     Without a damper a motion is run until it lies in a neighbourhood of an attracting orbit for
-    which it is proven that all its motions tend to the orbit (`attraction.attractors`). With a damper
-    each motion is run until it has settled.
+    which it is proven that all its motions tend to the orbit (`attraction.attractors`). With a
+    damper each motion is run until it has settled.
 
     Parameters
     ----------

@@ -7,7 +7,14 @@ from impact_damper.data.variables.variable import Variable
 
 # Labels of states that lead to no attractor; a state of the primary is `mixed` if where it leads
 # depends on the place of the loose mass.
-BASIN_LABEL = {"unresolved": -1, "escaped": -2, "chaotic": -3, "no_contact": -4, "mixed": -5}
+BASIN_LABEL = {
+    "unresolved": -1,
+    "escaped": -2,
+    "chaotic": -3,
+    "no_contact": -4,
+    "mixed": -5,
+    "quasi_periodic": -6,
+}
 CURVE = {"complete": 0, "cut": 1}
 
 VARIABLES = {
@@ -24,7 +31,8 @@ VARIABLES = {
     "basin_label": Variable(
         ("basin_velocity", "basin_displacement"),
         "attractor that a state leads to, or a negative number: -1 unresolved, -2 escaped, "
-        "-3 chaotic, -4 settled without contact, -5 depends on the place of the loose mass",
+        "-3 chaotic, -4 without contact, -5 depends on the place of the loose mass, "
+        "-6 quasi-periodic",
     ),
     "basin_periods": Variable(
         ("basin_velocity", "basin_displacement"),
