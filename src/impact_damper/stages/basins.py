@@ -11,8 +11,8 @@ from impact_damper.attraction.labels import label_states
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.basins import BASIN_LABEL
 from impact_damper.motions.free_motions import free_motions
-from impact_damper.motions.simulate import check_state
 from impact_damper.system.bounds import FARTHEST, FASTEST, check_count, check_number, shown
+from impact_damper.system.checks import check_numbers
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 from impact_damper.system.settling import check_settling
@@ -211,9 +211,12 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
-        if np.shape(loose) != (2,):
+        values = check_numbers("loose", loose)
+        if values.shape != (2,):
             raise ValueError(f"loose = {shown(loose)}: must be two numbers, Z2 and Z2'")
-        places = [tuple(check_state((0.0, 0.0, *loose), damper)[2:])]
+        for index, (value, most) in enumerate(zip(values, (FARTHEST, FASTEST), strict=True)):
+            check_number(f"loose[{index}]", value, least=-most, most=most)
+        places = [tuple(values)]
     states = np.concatenate(
         [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
     )
