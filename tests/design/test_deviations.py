@@ -7,11 +7,14 @@ import pytest
 from scipy.stats import binom
 
 import impact_damper as idm
+from impact_damper.design import deviations
+from impact_damper.design.choose import Choice, Comparison
 from impact_damper.design.deviations import (
     CORNERS,
     FALSE_ALARM,
     SAMPLES,
     Cloud,
+    choose_with_tolerances,
     corner_factors,
     promise,
     sampled_factors,
@@ -84,6 +87,43 @@ def test_a_claim_that_holds_is_rarely_taken_for_broken():
     assert list(high.keeps(claimed)) == [True] * 20 + [False]
     next_one = high._replace(least=np.r_[np.ones(20), (max(refused) + 1) / made.starts])
     assert next_one.keeps(claimed).all()
+
+
+@pytest.mark.parametrize(
+    ("share", "worst", "chosen"),
+    [
+        (lambda gap: 1.0, lambda gap: gap, "least"),
+        (lambda gap: 1.0, lambda gap: -gap, "most"),
+        # all tolerances together leave too few quiet starts at large gaps, which move less
+        (lambda gap: 1.0 if gap < 1.7 else 0.5, lambda gap: -gap, "below"),
+        (lambda gap: gap / 10, lambda gap: gap, "most"),
+    ],
+)
+def test_all_tolerances_together_choose_among_robust_gaps(monkeypatch, share, worst, chosen):
+    def made_up_cloud(task, gap, factors, *_, **__):
+        found = cloud([share(gap)] * len(factors))
+        return found._replace(worst=np.full(len(factors), 10 + worst(gap)))
+
+    monkeypatch.setattr(deviations, "run_cloud", made_up_cloud)
+    gaps = np.geomspace(1, 3, 12)
+    quiet = {"start_quiet_share": np.ones((12, 1)), "worst_displacement": np.ones((12, 1))}
+    quiet["start_quiet_interval"] = np.ones((12, 1, 2))
+    comparison = Comparison(gaps, np.array([20.5]), quiet, 2.0, 0.95)
+    robust = comparison.robust_gaps(0.2)
+    assert robust[0] == 1.25 and robust[-1] == 2.5  # 1/0.8 and 3/1.2
+    gap = choose_with_tolerances(TASK, comparison, Choice(1.5, "robust")).gap
+    if chosen == "below":
+        assert 1.5 <= gap < 1.7
+    else:
+        assert gap == {"least": robust[0], "most": robust[-1]}[chosen]
+    for kind in ("needs_tolerance", "least_worst"):
+        choice = Choice(1.5, kind)
+        assert choose_with_tolerances(TASK, comparison, choice) is choice
+
+
+def test_without_other_tolerances_the_comparison_has_chosen():
+    choice = Choice(1.5, "robust")
+    assert choose_with_tolerances(replace(TASK, tolerances={"gap": 0.2}), None, choice) is choice
 
 
 @pytest.mark.parametrize(

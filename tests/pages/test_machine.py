@@ -54,6 +54,10 @@ def test_both_forms_say_first_what_to_do():
             "Do not build it for this band",
         ),
         ({"promise": "broken"}, "Do not build it: the check failed"),
+        (
+            {"promise": "nominal_kept"},
+            "Build it, and hold all values more closely than asked for",
+        ),
     ],
 )
 def test_the_advice_follows_the_choice_and_its_check(changed, advice):

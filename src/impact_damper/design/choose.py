@@ -105,9 +105,7 @@ class Comparison(NamedTuple):
         tolerance : float
             Relative deviation of the gap.
         """
-        nominal = buildable(self.gaps[0], self.gaps[-1])
-        lows, highs = nominal * (1 - tolerance), nominal * (1 + tolerance)
-        covered = (lows >= self.gaps[0]) & (highs <= self.gaps[-1])
+        nominal, lows, highs, covered = self._nominal(tolerance)
         logs = np.log(np.minimum(self.worst, HUGE))
         sizes = largest_within(self.gaps, logs, lows, highs)
         robust = covered & self._quiet_within(lows, highs)
@@ -120,6 +118,17 @@ class Comparison(NamedTuple):
         allowed = covered if covered.any() else ~covered
         fewest = allowed & (loud <= loud[allowed].min() + ALIKE)
         return Choice(_middle(nominal, np.where(fewest, sizes, np.inf)), "least_worst")
+
+    def robust_gaps(self, tolerance) -> np.ndarray:
+        """Return the nominal gaps within whose tolerance all gaps are quiet, mm."""
+        nominal, lows, highs, covered = self._nominal(tolerance)
+        return nominal[covered & self._quiet_within(lows, highs)]
+
+    def _nominal(self, tolerance):
+        """Return nominal gaps, the ends of their tolerance, and whether these were compared."""
+        nominal = buildable(self.gaps[0], self.gaps[-1])
+        lows, highs = nominal * (1 - tolerance), nominal * (1 + tolerance)
+        return nominal, lows, highs, (lows >= self.gaps[0]) & (highs <= self.gaps[-1])
 
     def _widest(self):
         """Return the ends of the widest range of quiet gaps, of equal ones of the quietest."""

@@ -34,6 +34,7 @@ STREAMS = (
     "force_map",
     "damper_map",
     "masses",
+    "deviations",
 )
 # Cases whose starts a thread draws at once.
 DRAWN = 4

@@ -28,6 +28,8 @@ def advice(data) -> str:
     if named(data, "promise") == "broken":
         return "Do not build it: the check failed"
     choice = named(data, "design_choice")
+    if choice == "robust" and named(data, "promise") == "nominal_kept":
+        return "Build it, and hold all values more closely than asked for"
     larger = float(data["reached_displacement"].max()) > float(data["displacement_limit"])
     if choice != "least_worst" and larger:
         return f"{ADVICE[choice]}, and beware of a large motion beside the quiet one"

@@ -128,7 +128,7 @@ def _shares(data, asked):
     if len(samples) > 1:
         k = int(np.argmin(samples[:, 0]))
         yield (
-            f"the worst of {len(samples)} samples of the tolerances",
+            f"the worst of {len(samples)} samples and corners of the tolerances",
             share_with_interval(samples[k]),
             "sample_share",
         )

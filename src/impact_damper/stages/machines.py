@@ -214,6 +214,8 @@ class _Design(NamedTuple):
     def cliff(self, comparison):
         task, limit, workers = self.task, comparison.limit, {"workers": self.workers}
         choice = comparison.choose(task.tolerances.get("gap", 0.0))
+        running = self.running("Tolerances of gaps")
+        choice = deviations.choose_with_tolerances(task, comparison, choice, **running)
         edges = cliff.find_edges(task, comparison, choice.gap, **workers)
         choice = cliff.recentre(task, choice, edges, limit, **workers)
         known = [edge for edge in reversed(edges) if np.isfinite(edge.frequency)]
