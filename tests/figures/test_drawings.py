@@ -171,11 +171,7 @@ DRAWINGS = {
             subharmonic=[response()],
             branches=[orbits(restitution=0.75), orbits(), FREE],
         ),
-        FREE_ROLES
-        + BALANCE_ROLES
-        + [
-            f"{kind}{name}" for kind in ("", "inelastic_") for name in [*STATUSES, "unstable_orbit"]
-        ],
+        FREE_ROLES + BALANCE_ROLES + [*STATUSES, "unstable_orbit"],
     ),
     "motion": (lambda: draw_motion(motion=[motion()]), []),
     "optimum": (

@@ -24,15 +24,12 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
 
 CAPTION = """
-Error against work, the number of floating-point operations; an elementary function such as a sine
-counts as 20. For the Taylor series and for Merson's method operations are counted in the source
-code, for other methods computed by formulas. A line joins the tolerances of an integrator, or the
-numbers of harmonics of a balance. Models other than integrators solve for the orbit directly; of
-several solutions the one nearest to the exact orbit is drawn. Kink: contacts are not located.
-Cross: wrong number of contacts. Plus: the run failed, or took too many evaluations. Reference: an
-independent program in 80-bit arithmetic; for a chaotic motion, which is judged by averages, a
-longer run of the Taylor series, whose standard error is shaded. Dashed: required accuracy. The
-paper has no such figure.
+Error against work, counted in floating-point operations. A line joins the tolerances of an
+integrator, or the numbers of harmonics of a balance. Other models solve for the orbit directly; of
+several solutions the one nearest to the exact orbit is drawn. Open: wrong number of contacts, or in
+chaos an error within the run's own standard error. Plus: the run failed. Dashed: required accuracy.
+The reference is an independent program in 80-bit arithmetic, for chaos a longer run. The paper has
+no such figure.
 """
 
 # Models that solve for an orbit directly: label, colour, marker and line.
@@ -59,6 +56,7 @@ QUANTITIES = {
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
 FINEST = 1e-16
+DOUBTFUL = "open: wrong contacts; chaos: within\nthe standard error of the run"
 
 
 @style()
@@ -113,7 +111,7 @@ def _panel(axes, data):
             axes.plot(stopped, top, "+", color=BLACK, markersize=7, clip_on=False)
     if quantity != "contacts":
         axes.axhline(allowed, color=BLACK, linestyle="--", linewidth=0.9, label="accuracy asked")
-    axes.plot([], [], "x", color=BLACK, label="wrong contacts")
+    axes.plot([], [], "o", color=GREY, markerfacecolor="none", label=DOUBTFUL)
     axes.plot([], [], "+", color=BLACK, label="no result")
     axes.set(xscale="log", yscale="log", ylim=(low, high))
     axes.yaxis.set_major_locator(LogLocator(numticks=8))
@@ -139,12 +137,14 @@ def _method(axes, role, work, error, bars, good, bad):
     """Draw the complete runs of one method; those with wrong contacts look different."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
-    axes.plot(work[ended], error[ended], color=color, linestyle=line, linewidth=0.7)
+    if bars is None:
+        joined = np.where(good, error, np.nan)[ended]
+        axes.plot(work[ended], joined, color=color, linestyle=line, linewidth=0.7)
+    else:
+        unsure = error <= bars
+        good, bad = good & ~unsure, bad | (good & unsure)
     axes.plot(work[good], error[good], marker, markerfacecolor=color, label=label, **looks)
-    if bars is not None:
-        axes.errorbar(work[good], error[good], bars[good], fmt="none", ecolor=color, elinewidth=0.5)
-    axes.plot(work[bad], error[bad], marker, markerfacecolor="none", **looks)
-    axes.plot(work[bad], error[bad], "x", color=BLACK, markersize=5.5, markeredgewidth=0.6)
+    axes.plot(work[bad], error[bad], marker, markerfacecolor="none", alpha=0.5, **looks)
 
 
 def _roles(data):

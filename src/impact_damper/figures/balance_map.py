@@ -25,18 +25,11 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-(a) The quiet motion. Balance: the solution of (7) with the smallest amplitude, if below half that
-of the free resonance, with its stability by the slow flow (17). Orbit: the exact periodic orbit
-with two symmetric contacts, stable or unstable by its Floquet multipliers, continued from motions
-that settled. Beyond the solid line the orbit does not exist: it ends there in a fold. Dots: a start
-at the solution of (7) leads to chaos, small or violent, even if a stable orbit exists. (b) The high
-motion. Balance: the stable solution of (7) with the largest amplitude, if above that half. After
-the comma in the legend: the motion to which a start at this solution leads or, without such a
-solution, a start on the free resonance branch. Chaotic: the largest Lyapunov exponent exceeds zero
-by four standard errors after the configured number of periods; the motion may be a long transient.
-Near: within 20 per cent of the amplitude of (7). Free resonance: the upper branch of the free
-response. Harmonic balance assumes elastic contact, so its verdict does not depend on e. The paper
-has no such figure.
+Verdicts on harmonic balance. (a) Its small solution of (7), stable by the slow flow (17) or not,
+against the exact orbit with two symmetric contacts. Dots: a start at the solution leads to chaos,
+even if a stable orbit exists. (b) Its large stable solution, against the motion to which a start
+there leads, or without such a solution a start on the free resonance branch. Near: within 20 per
+cent of its amplitude. Chaotic motions may be long transients. The paper has no such figure.
 """
 
 PARAMETERS = {
@@ -47,28 +40,28 @@ PARAMETERS = {
 }
 # Legend text, colour and hatching of each verdict.
 QUIET = {
-    "stable_stable": ("balance stable, orbit stable", PALE_SKY, ""),
-    "stable_unstable": ("balance stable, orbit unstable", VERMILION, "////"),
-    "stable_absent": ("balance stable, no orbit", ORANGE, ""),
-    "unstable_stable": ("balance unstable, orbit stable", PURPLE, "...."),
-    "unstable_unstable": ("balance unstable, orbit unstable", GREEN, "||||"),
-    "unstable_absent": ("balance unstable, no orbit", GREY, ""),
-    "none_stable": ("balance none, orbit stable", BLUE, ""),
-    "none_unstable": ("balance none, orbit unstable", SKY, "----"),
-    "none_absent": ("balance none, no orbit", WHITE, ""),
+    "stable_stable": ("rightly called stable", PALE_SKY, ""),
+    "stable_unstable": ("called stable, orbit is unstable", VERMILION, "////"),
+    "stable_absent": ("called stable, no such orbit", ORANGE, ""),
+    "unstable_stable": ("called unstable, orbit is stable", PURPLE, "...."),
+    "unstable_unstable": ("rightly called unstable", GREEN, "||||"),
+    "unstable_absent": ("called unstable, no such orbit", GREY, ""),
+    "none_stable": ("not found, orbit is stable", BLUE, ""),
+    "none_unstable": ("not found, orbit is unstable", SKY, "----"),
+    "none_absent": ("rightly not found", WHITE, ""),
     "unresolved": ("unresolved", WHITE, "xxxxxx"),
 }
 HIGH = {
-    "stable_near": ("balance stable, settled near it", BLUE, ""),
-    "stable_far": ("balance stable, settled further off", GREEN, "----"),
-    "stable_chaotic": ("balance stable, chaotic", ORANGE, ""),
-    "stable_low": ("balance stable, becomes low", PALE_SKY, "...."),
-    "stable_no_contact": ("balance stable, without contact", SKY, "||||"),
-    "none_settled": ("balance none, settled", PURPLE, ""),
-    "none_chaotic": ("balance none, chaotic", VERMILION, "////"),
-    "none_low": ("balance none, becomes low", WHITE, ""),
-    "none_no_contact": ("balance none, without contact", GREY, "||||"),
-    "not_run": ("balance none, nor free resonance", PALE, ""),
+    "stable_near": ("predicted, and found near it", BLUE, ""),
+    "stable_far": ("predicted, found further off", GREEN, "----"),
+    "stable_chaotic": ("predicted, but chaotic", ORANGE, ""),
+    "stable_low": ("predicted, but decays to a small motion", PALE_SKY, "...."),
+    "stable_no_contact": ("predicted, but without contact", SKY, "||||"),
+    "none_settled": ("not predicted, but settles", PURPLE, ""),
+    "none_chaotic": ("not predicted, but chaotic", VERMILION, "////"),
+    "none_low": ("not predicted; decays to a small motion", WHITE, ""),
+    "none_no_contact": ("not predicted; moves without contact", GREY, "||||"),
+    "not_run": ("not predicted, no free resonance either", PALE, ""),
     "unresolved": ("unresolved", WHITE, "xxxxxx"),
 }
 
@@ -104,8 +97,8 @@ def draw_balance_map(*, balance_map):
     )
     letter_panels([quiet, high])
     for axes, words, side in (
-        (quiet, "(a) quiet motion", "left"),
-        (high, "(b) high motion", "right"),
+        (quiet, "(a) quiet motion by harmonic balance:", "left"),
+        (high, "(b) high motion by harmonic balance:", "right"),
     ):
         drawn.legend(*axes.get_legend_handles_labels(), title=words, loc=f"outside lower {side}")
     return drawn
@@ -132,7 +125,9 @@ def _draw_edge(axes, verdict):
     if stable.any() and not stable.all():
         line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}
         axes.contour(verdict["frequency_ratio"], verdict["map_value"], stable, [0.5], **line)
-    axes.plot([], [], "--", color=BLACK, linewidth=1.0, label="edge of balance stable")
+    axes.plot(
+        [], [], "--", color=BLACK, linewidth=1.0, label="edge of stability by harmonic balance"
+    )
 
 
 def _draw_ends(axes, data):
@@ -140,10 +135,10 @@ def _draw_ends(axes, data):
     inside = data["quiet_end_event"] != flag("quiet_end_event", "map_ends")
     for end in data["quiet_end"].where(inside).values.T:
         axes.plot(end, data["map_value"], color=BLACK, linewidth=1.6)
-    axes.plot([], [], color=BLACK, linewidth=1.6, label="end of the orbit")
+    axes.plot([], [], color=BLACK, linewidth=1.6, label="end of the exact orbit")
     rigid = data["straight_flight_end"].values
     if np.isfinite(rigid).any():
-        look = {"color": BLACK, "linestyle": (0, (1, 1.2)), "label": "its end for rigid walls"}
+        look = {"color": BLACK, "linestyle": (0, (1, 1.2)), "label": "end for rigid walls"}
         axes.plot(rigid, data["map_value"], **look)
 
 
@@ -153,6 +148,4 @@ def _draw_chaos(axes, data):
     row, column = np.nonzero(np.isin(data["quiet_run_motion"], kinds))
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]
     look = {"color": BLACK, "marker": ".", "markersize": 1.6, "linestyle": "none"}
-    axes.plot(
-        *place, markeredgewidth=0, label="chaos from a start at the balance's solution", **look
-    )
+    axes.plot(*place, markeredgewidth=0, label="a start there leads to chaos", **look)

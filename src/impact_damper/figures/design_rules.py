@@ -19,13 +19,11 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Left: clearance that minimises the largest displacement. Right: clearance that minimises the first
-harmonic of the displacement. Points: optima of the exact quiet motion, by Newton's method on its
-orbit; a cross marks an optimum at which the motion is unstable and therefore not observed. Lines:
-theory of straight flights between the walls, corrected for contact time, restitution, damping and
-linear stiffness. Last row: for each rule the share of all optima, stable or unstable, that the rule
-predicts within a given error; the explicit formula applies to elastic contact only. The paper has
-only rule (18).
+Upper panels: clearance with the smallest largest displacement, against one parameter. Points: exact
+quiet motion; a cross marks an optimum at which it is unstable and not observed. Lines: straight
+flights between the walls, corrected for contact time, restitution, damping and linear stiffness.
+Below: for each rule the share of all optima that it predicts within a given error, for two measures
+of the motion; the explicit formula is for elastic contact. The paper has only rule (18).
 """
 
 SWEPT = {
@@ -34,8 +32,8 @@ SWEPT = {
     "frequency": "linear",
 }
 TITLES = {
-    "displacement": "Least largest displacement",
-    "first_harmonic": "Least first harmonic",
+    "displacement": "least largest displacement",
+    "first_harmonic": "least first harmonic",
 }
 RULES = {
     "balance": "$1$, equation (18)",
@@ -69,17 +67,18 @@ def draw_design_rules(*, design_rules):
     """
     sweeps = [(data, swept(data)) for data in design_rules]
     sweeps = [(data, names[0]) for data, names in sweeps if len(names) == 1]
-    rows = len(sweeps) + 1
-    drawn = figure("double", 1.7 * rows + 1.3)
-    panels = drawn.subplots(rows, 2, squeeze=False, sharey="row")
-    for row, (data, name) in zip(panels, sweeps, strict=False):
-        for axes, criterion in zip(row, TITLES, strict=True):
-            draw_sweep(axes, data.sel(criterion=criterion), name)
-    for axes, criterion in zip(panels[-1], TITLES, strict=True):
+    rows = -(-len(sweeps) // 2) + 1
+    drawn = figure("double", 1.9 * rows + 1.3)
+    panels = drawn.subplots(rows, 2, squeeze=False)
+    upper = panels[:-1].ravel()
+    for axes, (data, name) in zip(upper, sweeps, strict=False):
+        draw_sweep(axes, data.sel(criterion="displacement"), name)
+    for axes in upper[len(sweeps) :]:
+        axes.set_axis_off()
+    for axes, (criterion, words) in zip(panels[-1], TITLES.items(), strict=True):
         draw_errors(axes, [data.sel(criterion=criterion) for data in design_rules])
-    letter_panels(panels.ravel())
-    for axes, words in zip(panels[0], TITLES.values(), strict=True):
-        axes.set_title(words, loc="center")
+        axes.set_title(words)
+    letter_panels([*upper[: len(sweeps)], *panels[-1]])
     legend(drawn, 3)
     return drawn
 

@@ -26,13 +26,11 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 
 CAPTION = """
-Each cell is a run from a start near a periodic orbit, whose existence and stability are known from
-its Floquet multipliers; the table of verdicts lists the test cases. One rule judges all methods,
-from Z1 and Z1' once per forcing period. A motion has settled with period n, at most 6, if each of
-the last six states is within 0.001 of that n periods earlier. It is on an orbit of this period if a
-state is within 0.005 of it. Wrong period or branch: the motion settles, but not on the exact
-motion's orbit. White: not run; SciPy's methods are a hundred times slower. Fixed steps, and methods
-marked kink, do not locate contacts. The paper has no such figure.
+Whether an integrator, started near a periodic orbit, ends on the motion that Floquet multipliers
+say is right; the table of verdicts lists the test cases. All methods are judged by one rule, from
+the state once per forcing period. Wrong period or branch: the motion settles, but elsewhere. White:
+not run; SciPy's methods are a hundred times slower. Fixed steps, and methods marked kink, do not
+locate contacts. The paper has no such figure.
 """
 
 ROLES = {
@@ -43,6 +41,20 @@ ROLES = {
     "wrong_branch": (VERMILION, "wrong branch"),
     "stays_wrongly": (BLUE, "stays where it must leave"),
     "failed": (BLACK, "fails"),
+}
+# Names of the test cases in words; a case of one's own keeps its name.
+CASES = {
+    "quiet": "quiet motion, elastic",
+    "quiet_inelastic": "quiet motion, inelastic",
+    "quiet_fold_before": "quiet motion near its end",
+    "quiet_fold_after": "beyond the quiet motion's end",
+    "symmetry_breaking_before": "before a loss of symmetry",
+    "symmetry_breaking_after": "beyond a loss of symmetry",
+    "basin_resonance": "free, attracted to resonance",
+    "basin_not_non_resonance": "free, not to the small motion",
+    "free_fold_before": "free resonance near its end",
+    "free_fold_after": "beyond the resonance's end",
+    "subharmonic": "free one-third subharmonic",
 }
 
 
@@ -83,7 +95,7 @@ def draw_method_verdicts(*, method_verdicts):
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.set_xlabel("Steps a forcing period" if fixed else axis_label(data["method_tolerance"]))
         axes.set_yticks(
-            scenes[:-1] + 0.5, [str(scene).replace("_", " ") for scene in data["scene"].values]
+            scenes[:-1] + 0.5, [CASES.get(str(name), str(name)) for name in data["scene"].values]
         )
         axes.tick_params(which="both", top=False, right=False, left=False)
         for scene in scenes[1:-1]:

@@ -18,17 +18,12 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
-Random free flights of one forcing period whose largest abs(Z2) is known; Z2 is the displacement of
-the primary mass relative to the loose mass. A wall nearer than this value by the depth (horizontal
-axis) is touched. Shading: share of the flights in which a method does not notice the contact,
-because no step ends beyond the wall; neither SciPy's events nor integration through the kink look
-between steps. Solid line: median error of the largest abs(Z2) in the motion that the method
-computes; at smaller depths this motion may miss the wall because of its error, at larger depths (up
-to the edge of the shading) it passes the wall between two steps. Dashed line: depth at which half
-of the contacts would be missed if the steps were equal and their phase random. Dots: with the wall
-farther away by the depth, so that it is not touched, the method reports a contact in some flight.
-Crosses: some runs failed; these are excluded. The method of the paper is Runge-Kutta-Merson. The
-paper has no such figure.
+Shading: share of random free flights in which a method does not notice that the loose mass touches
+a wall, because no step ends beyond it; depth is how far the free flight would pass the wall. Solid
+line: median error of the method's motion, by which shallower contacts may be missed. Dashed: depth
+at which equal steps of random phase would miss half. Dots: a contact is reported though the wall is
+not reached. Crosses: failed runs, excluded. The paper uses Runge-Kutta-Merson and has no such
+figure.
 """
 
 COLUMNS = 4

@@ -21,11 +21,10 @@ from impact_damper.figures.style import (
 CAPTION = """
 Points: largest displacement of the quiet motion, which has period 1 and two symmetric contacts,
 against clearance. Lines: for elastic contact the amplitude of the first harmonic by equations (7),
-for inelastic contact a guide to the eye. Stars: smallest displacement, computed on the exact orbit.
-Bars: clearances at which the displacement is at most 10 per cent larger. Harmonic balance predicts
-an amplitude of zero where the exact motion keeps its higher harmonics, so the two optima differ. A
-curve ends where the quiet motion ends. The paper draws one motion at each clearance; larger motions
-that coexist with the quiet one are in the data but not drawn.
+for inelastic contact a guide to the eye. Stars: smallest displacement on the exact orbit. Bars: at
+most 10 per cent larger. Harmonic balance predicts an amplitude of zero where the exact motion keeps
+its higher harmonics, so the optima differ. The paper draws one motion at each clearance; larger
+ones that coexist are not drawn here.
 """
 
 # Label of the first line by harmonic balance, and with it of all.

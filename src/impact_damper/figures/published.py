@@ -7,12 +7,11 @@ from impact_damper.figures.style import BLACK, BLUE, PALE, VERMILION, figure, le
 
 CAPTION = """
 Relative difference between each number computed here and the published number or closed form, one
-band for each publication, with the number of comparisons; within a band, the order of the table of
-published numbers. Ticks: the difference to be expected. That is for rigid walls the effect of the
-contact stiffness, by extrapolation; for closed forms of the vibro-impact absorber, which are of
-first order, the mass ratio; for basin shares 1.96 standard errors; for Hertz's impact the longer
-time and the smaller force of a linear spring. Without a tick it is not known beforehand. Open:
-ours extrapolated to rigid walls. Differences below 1e-12 are drawn at the left edge.
+band for each publication, in the order of the table of published numbers. Ticks: the difference to
+be expected. That is for rigid walls the effect of the contact stiffness; for closed forms of first
+order the mass ratio; for basin shares 1.96 standard errors; for Hertz's impact the longer time and
+smaller force of a linear spring. Open: ours extrapolated to rigid walls. Differences below 1e-12
+are drawn at the left edge.
 """
 
 # Labels of publications, from the top.

@@ -4,20 +4,14 @@ from impact_damper.data.datasets import flag, has_damper, is_settled, parameters
 from impact_damper.figures.branches import draw_free_orbits, runs
 from impact_damper.figures.harmonic_balance import draw_balance, draw_band
 from impact_damper.figures.motion_lines import branch_lines, draw_lines
-from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
+from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement against forcing frequency of all motions that were found, from random starts
-and by following each motion to the neighbouring frequencies. Lines join the settled motions of a
-branch and extend to its ends. The motions without damper and the dotted unstable ones with damper
-are exact periodic orbits. A chaotic motion is a point at the largest displacement observed. A
-quasi-periodic motion has two frequencies without a common multiple, found from rotation numbers. A
-motion without contact is one of the free oscillator, while the loose mass stands still or drifts in
-the gap. A motion with damper is called subharmonic if
-its period is a multiple of three forcing periods. Harmonic balance, for elastic contact only, gives
-the amplitude of the first harmonic, which is below the largest displacement where higher harmonics
-matter. The paper draws few motions at each frequency and calls the chaotic ranges narrow; here
-several motions coexist at most frequencies, and all are drawn.
+Largest displacement of all motions that were found, by random starts and by following. Lines join
+the settled motions of a branch. Free motions, and the dotted unstable ones of period 1, are exact
+orbits; a chaotic motion is a point at the largest displacement observed. Harmonic balance gives the
+first harmonic only. The paper draws few motions at each frequency and calls the chaotic ranges
+narrow; here several motions coexist at most frequencies, and all are drawn.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
@@ -47,27 +41,48 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
     -------
     matplotlib.figure.Figure
     """
-    drawn = figure("double", 5.0)
-    axes = drawn.subplots()
-    response_panel(axes, response, harmonic_balance, branches)
-    for motions in subharmonic:
-        draw_settled(axes, motions, ["subharmonic_damped"])
-    first = response[0]
-    axes.set(
-        xlabel=axis_label(first["frequency"]),
-        ylabel=axis_label(first["maximum_displacement"]),
-        xlim=first["frequency"].values[[0, -1]],
-    )
-    axes.set_ylim(bottom=0)
+    free = [orbits for orbits in branches if not has_damper(orbits)]
+    kinds = sorted({restitution(motions) for motions in response}, reverse=True)
+    drawn = figure("double", 1.7 + 3.3 * len(kinds))
+    panels = drawn.subplots(len(kinds), squeeze=False, sharex=True)[:, 0]
+    for axes, kind in zip(panels, kinds, strict=True):
+
+        def same(data, kind=kind):
+            return has_damper(data) and restitution(data) == kind
+
+        response_panel(
+            axes,
+            [*filter(same, response)],
+            [*filter(same, harmonic_balance)],
+            free + [*filter(same, branches)],
+        )
+        for motions in filter(same, subharmonic):
+            draw_settled(axes, motions, ["subharmonic_damped"])
+        axes.set_ylabel(axis_label(response[0]["maximum_displacement"]))
+        axes.set_ylim(bottom=0)
+        if len(kinds) > 1:
+            axes.set_title(f"$e = {kind:g}$")
+    first = response[0]["frequency"]
+    panels[-1].set(xlabel=axis_label(first), xlim=first.values[[0, -1]])
+    if len(kinds) > 1:
+        letter_panels(panels)
     legend(drawn, 3)
     return drawn
 
 
-def response_panel(axes, response, harmonic_balance, branches):
-    """Draw motions, solutions of harmonic balance and exact orbits, with and without a damper."""
+def restitution(data):
+    """Return the coefficient of restitution of the damper that a dataset was computed for."""
+    return parameters_of(data)["restitution"]
+
+
+def response_panel(axes, response, harmonic_balance, branches, *, apart=False):
+    """Draw motions, solutions of harmonic balance and exact orbits, with and without a damper.
+
+    With `apart`, inelastic dampers have looks of their own.
+    """
     for orbits in branches:
         if has_damper(orbits):
-            draw_unstable_orbits(axes, orbits)
+            draw_unstable_orbits(axes, orbits, prefix_of(orbits) if apart else "")
         else:
             draw_free_orbits(axes, orbits)
     for balance in harmonic_balance:
@@ -76,7 +91,7 @@ def response_panel(axes, response, harmonic_balance, branches):
             draw_balance(axes, balance)
     for motions in response:
         if has_damper(motions):
-            draw_motions(axes, motions)
+            draw_motions(axes, motions, prefix_of(motions) if apart else "")
         else:
             draw_free_motions(axes, motions)
 
@@ -90,9 +105,8 @@ def draw_free_motions(axes, motions):
     draw_unsettled(axes, motions, FREE)
 
 
-def draw_motions(axes, motions):
+def draw_motions(axes, motions, prefix):
     """Draw the motions with a damper: settled ones joined along branches, others as points."""
-    prefix = prefix_of(motions)
     draw_settled(axes, motions, ["period_1", "higher_period", "subharmonic_damped"], prefix)
     draw_unsettled(axes, motions, {status: ROLES[f"{prefix}{status}"] for status in STATUSES})
 
@@ -109,17 +123,17 @@ def draw_unsettled(axes, motions, roles):
             )
 
 
-def draw_unstable_orbits(axes, orbits):
-    """Draw the unstable parts of the branches of orbits with a damper, of any period."""
-    role = ROLES[f"{prefix_of(orbits)}unstable_orbit"]
-    for value, size, stable in runs(orbits, lambda period: True):
+def draw_unstable_orbits(axes, orbits, prefix):
+    """Draw the unstable parts of the branches of orbits with a damper that have period 1."""
+    role = ROLES[f"{prefix}unstable_orbit"]
+    for value, size, stable in runs(orbits, lambda period: period == 1):
         if not stable:
             axes.plot(value, size, **role)
 
 
 def prefix_of(data):
     """Return the prefix of names in `style.ROLES`: "inelastic_" for restitution below 1, or ""."""
-    return "inelastic_" if parameters_of(data)["restitution"] < 1 else ""
+    return "inelastic_" if restitution(data) < 1 else ""
 
 
 def draw_settled(axes, motions, roles, prefix=""):

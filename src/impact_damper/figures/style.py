@@ -86,10 +86,10 @@ ROLES = {
         "free, other periods", BLACK, marker="|", markersize=4.2, linewidth=0.6, zorder=2.2
     ),
     "harmonic_balance": _line(
-        "elastic, stable (harmonic balance)", SKY, linewidth=2.6, solid_capstyle="butt", zorder=2
+        "damper, stable (harmonic balance)", SKY, linewidth=2.6, solid_capstyle="butt", zorder=2
     ),
-    "period_1": _points("elastic, period 1", BLUE, "o"),
-    "higher_period": _points("elastic, other periods", GREEN, "s"),
+    "period_1": _points("damper, period 1", BLUE, "o"),
+    "higher_period": _points("damper, other periods", GREEN, "s"),
     "subharmonic_free": _points(
         "free, one-third subharmonic",
         PURPLE,
@@ -107,17 +107,25 @@ ROLES = {
         zorder=2.1,
     ),
     "unstable_orbit": _line(
-        "elastic, unstable orbit", BLUE, linestyle=(0, (1, 1.5)), linewidth=0.8, zorder=1.9
+        "damper, unstable orbit of period 1",
+        BLUE,
+        linestyle=(0, (1, 1.5)),
+        linewidth=0.8,
+        zorder=1.9,
     ),
     "inelastic_unstable_orbit": _line(
-        "inelastic, unstable orbit", VERMILION, linestyle=(0, (1, 4)), linewidth=1.0, zorder=1.9
+        "inelastic, unstable orbit of period 1",
+        VERMILION,
+        linestyle=(0, (1, 4)),
+        linewidth=1.0,
+        zorder=1.9,
     ),
-    "subharmonic_damped": _points("elastic, subharmonic (period $3n$)", PURPLE, "v"),
-    "chaotic": _points("elastic, chaotic", ORANGE, ".", filled=True),
-    "non_colliding": _points("elastic, no contact", BLACK, "D", markersize=2.6),
-    "drifting": _points("elastic, drifting without contact", BLACK, "|", markersize=4.2),
-    "quasi_periodic": _points("elastic, quasi-periodic", SKY, "P", filled=True, markersize=4.2),
-    "unresolved": _points("elastic, unresolved", BLACK, "x"),
+    "subharmonic_damped": _points("damper, subharmonic (period $3n$)", PURPLE, "v"),
+    "chaotic": _points("damper, chaotic", ORANGE, ".", filled=True),
+    "non_colliding": _points("damper, no contact", BLACK, "D", markersize=2.6),
+    "drifting": _points("damper, drifting without contact", BLACK, "|", markersize=4.2),
+    "quasi_periodic": _points("damper, quasi-periodic", SKY, "P", filled=True, markersize=4.2),
+    "unresolved": _points("damper, unresolved", BLACK, "x"),
     "inelastic_period_1": _points("inelastic, period 1", VERMILION, "+", markersize=4.6),
     "inelastic_higher_period": _points("inelastic, other periods", VERMILION, "*"),
     "inelastic_subharmonic_damped": _points("inelastic, subharmonic (period $3n$)", VERMILION, "<"),

@@ -68,7 +68,7 @@ def response(data, *, ax=None):
         parts[_kind(each)].append(each)
     with looks(ax):
         (axes,) = axes_for(ax)
-        response_panel(axes, parts["motions"], parts["balance"], parts["orbits"])
+        response_panel(axes, parts["motions"], parts["balance"], parts["orbits"], apart=True)
         for balance in parts["balance"]:
             if not has_damper(balance) or not parts["motions"] + parts["orbits"]:
                 draw_free(axes, balance)

@@ -1,5 +1,6 @@
 """Captions of figures, with the parameters in words; imports no NumPy."""
 
+import re
 from dataclasses import fields
 
 from impact_damper.machine.machine import Machine
@@ -10,6 +11,8 @@ from impact_damper.system.parameters import SYMBOLS
 def caption(figure, text) -> str:
     """Return the caption of a figure as one paragraph of reStructuredText.
 
+    The forcing frequency has the symbol of the axes, Ω, in place of the W of texts.
+
     Parameters
     ----------
     figure : dict
@@ -18,7 +21,8 @@ def caption(figure, text) -> str:
         `CAPTION` of the module that draws the kind of figure.
     """
     head = f"{figure['title']}: {figure['cases']}." if figure["cases"] else f"{figure['title']}."
-    return "\n".join(part for part in (head, text.strip(), figure["remark"]) if part)
+    whole = "\n".join(part for part in (head, text.strip(), figure["remark"]) if part)
+    return re.sub(r"\bW(?=p?\b)", "Ω", whole)
 
 
 def in_words(values) -> str:
