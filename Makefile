@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: reproduce smoke slurm kernels test quick same-bytes benchmark faults lint format lock \
+.PHONY: reproduce smoke slurm kernels test quick same-bytes benchmark faults lint format docs lock \
 	lowest clean
 
 reproduce: $(READY)
@@ -49,14 +49,14 @@ faults: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m faults
 
 lint: $(READY)
-	$(BIN)/ruff format --check benchmarks src tests workflow
-	$(BIN)/ruff check benchmarks src tests workflow
+	$(BIN)/ruff format --check benchmarks docs src tests workflow
+	$(BIN)/ruff check benchmarks docs src tests workflow
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/snakemake --lint
 
 format: $(READY)
-	$(BIN)/ruff check --fix benchmarks src tests workflow
-	$(BIN)/ruff format benchmarks src tests workflow
+	$(BIN)/ruff check --fix benchmarks docs src tests workflow
+	$(BIN)/ruff format benchmarks docs src tests workflow
 	$(BIN)/snakefmt Snakefile workflow
 
 # Made anew when the lock or the package's metadata change, and not otherwise.
@@ -65,6 +65,11 @@ $(READY): requirements.lock pyproject.toml
 	$(BIN)/pip install --require-hashes -r requirements.lock
 	$(BIN)/pip install --no-deps --no-build-isolation --editable .
 	touch $@
+
+# The documentation, into docs/_build/html; runs the tutorials. Shows claims and figures of `results/`.
+docs: kernels
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --jobs auto docs docs/_build/html
+	$(BIN)/python -m pytest -q tests/docs
 
 # For developers, after a change of the dependencies; needs uv.
 lock:

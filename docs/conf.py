@@ -1,14 +1,14 @@
 """The documentation: `make docs` builds it into `docs/_build/html`, and runs every tutorial."""
 
 import sys
-from importlib.metadata import version
+from importlib import metadata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "extensions"))
 
 project = "impact-damper"
 author = "The impact-damper developers"
-release = version("impact-damper")
+release = metadata.version("impact-damper")
 extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
@@ -29,6 +29,8 @@ myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
 myst_heading_anchors = 3
 # Signatures name the public class, `Oscillator`, and no module.
 autodoc_typehints = "none"
+# Docstrings write absolute values so, which for docutils are substitutions.
+rst_prolog = "".join(f".. |{name}| replace:: abs {name}\n" for name in ("Z1", "a"))
 add_module_names = False
 numpydoc_show_class_members = False
 numpydoc_class_members_toctree = False
@@ -47,4 +49,4 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": [],
 }
-html_sidebars = {"index": []}
+html_sidebars = {"index": []}  # no pages beside the first

@@ -1,0 +1,139 @@
+"""Pages that the code and a finished run determine, written before Sphinx reads the others.
+
+The claims and the figures come from `results/`, or from the reduced run in `results-smoke/` without
+it; without both the pages say which command makes them.
+"""
+
+import csv
+import os
+import re
+import shutil
+from pathlib import Path
+
+from typer.testing import CliRunner
+
+from impact_damper.data.variables import MODULES
+from impact_damper.workflow.command_line import app as command
+from impact_damper.workflow.models.reference import reference
+
+ROOT = Path(__file__).parents[2]
+RUNS = {"results": "the full run", "results-smoke": "the reduced run, which leaves most open"}
+MISSING = "No run was found: `make reproduce`, then `make docs`.\n"
+# Figure that shows a claim; for the others the numbers say all.
+SHOWN = {
+    "1": "figure_03c", "2": "figure_05a", "3": "figure_03b", "4": "figure_10", "5": "figure_04",
+    "6": "figure_05a", "9": "figure_06", "10": "figure_05c", "11": "figure_11",
+    "12": "figure_13", "13": "figure_14", "14": "figure_15", "15": "contact_model",
+    "16": "figure_05a", "17": "figure_05b", "18": "figure_08", "19": "figure_16",
+    "S2": "figure_03a", "S3": "figure_04", "S4": "figure_06", "S5": "figure_07", "S6": "figure_08",
+}  # fmt: skip
+
+
+def write_pages(app):
+    """Write all pages into `docs/written/`."""
+    folder = Path(app.srcdir) / "written"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    run = next((name for name in RUNS if (ROOT / name / "tables/claims.csv").exists()), None)
+    pages = {
+        "variables": variables(),
+        "configuration": reference(),
+        "commands": commands(),
+        "claims": claims(run, folder) if run else f"# The paper, claim by claim\n\n{MISSING}",
+        "figures": figures(run, folder) if run else f"# All figures\n\n{MISSING}",
+    }
+    for name, text in pages.items():
+        (folder / f"{name}.md").write_text(text)
+
+
+def variables():
+    """Return the page of all variables of datasets, by subject."""
+    parts = [
+        "# Variables of the datasets\n",
+        "Datasets of a machine have the unit of each variable in its attribute `units`. A variable "
+        "with named values stores numbers; `idm.decode` returns the names.\n",
+    ]
+    for module in MODULES:
+        parts.append(f"## {module.__name__.rpartition('.')[2].replace('_', ' ').capitalize()}\n")
+        parts.append(f"{module.__doc__.splitlines()[0]}\n")
+        parts.append("| name | meaning | symbol | values |\n|---|---|---|---|")
+        for name, each in module.VARIABLES.items():
+            values = ", ".join(f"{word} {number}" for word, number in (each.flags or {}).items())
+            values = values or ("" if each.units == "1" else each.units)
+            cells = (f"`{name}`", each.long_name, each.symbol, values)
+            parts.append(f"| {' | '.join(cell.replace('|', 'abs ') for cell in cells)} |")
+        parts.append("")
+    return "\n".join(parts)
+
+
+def commands():
+    """Return the page of the command line, with the help of each command."""
+    parts = [
+        "# The command `impact-damper`\n",
+        "One file describes the machine; [](../howto/machine_file.md) shows it. "
+        "A wrong value ends the command with its key and the values allowed.\n",
+    ]
+    os.environ["TERM"] = "dumb"
+    for name in ("", *sorted(each.callback.__name__ for each in command.registered_commands)):
+        told = CliRunner().invoke(command, [name, "--help"] if name else ["--help"]).stdout
+        parts.append(f"## impact-damper {name}".rstrip() + "\n")
+        parts.append(f"```text\n{told.strip()}\n```\n")
+    return "\n".join(parts)
+
+
+def claims(run, folder):
+    """Return the page of the claims: verdict, one sentence, figure, and the numbers folded."""
+    with open(ROOT / run / "tables/claims.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    parts = [
+        f"# The paper, claim by claim\n\nFrom {RUNS[run]}.\n",
+        "| | claim | verdict |\n|---|---|---|",
+    ]
+    parts += [
+        f"| [{row['number']}](#claim-{row['number'].lower()}) | {row['claim']} | {row['verdict']} |"
+        for row in rows
+    ]
+    for row in rows:
+        parts += [
+            f"\n(claim-{row['number'].lower()})=\n## {named(row['number'])}\n",
+            f"> {row['claim']}\n",
+            f"**{row['verdict'].capitalize()}.** {row['difference']}\n",
+            picture(run, SHOWN.get(row["number"]), folder),
+            "<details><summary>Reading, criterion and numbers</summary>\n",
+            f"- **Where:** {row['source']}\n- **Our reading:** {row['interpretation']}",
+            f"- **Criterion:** {row['criterion']}",
+            "- **Numbers:** " + row["evidence"].replace("; ", "\n  - "),
+            "\n</details>\n",
+        ]
+    return "\n".join(parts)
+
+
+def named(number):
+    """Return the heading of a claim or slip."""
+    return f"Slip {number}" if number.startswith("S") else f"Claim {number}"
+
+
+def figures(run, folder):
+    """Return the page of all figures of a run with their captions, by chapter."""
+    parts = [f"# All figures\n\nFrom {RUNS[run]}.\n"]
+    for path in sorted((ROOT / run / "figures").glob("*.rst")):
+        title, _, caption = path.read_text().partition(":")
+        parts += [f"## {path.stem.replace('_', ' ')}\n", picture(run, path.stem, folder)]
+        parts.append(f"{title}: {' '.join(caption.split())}\n")
+    return "\n".join(parts)
+
+
+def picture(run, name, folder):
+    """Copy a figure, and return the line that shows it; nothing if the run has not drawn it."""
+    path = ROOT / run / "figures" / f"{name}.png"
+    if not path.exists():
+        return ""
+    shutil.copy(path, folder)
+    title = re.split("[:.]", path.with_suffix(".rst").read_text())[0]
+    return f"![{title}]({path.name})\n"
+
+
+def setup(app):
+    """Have the pages written when the build begins."""
+    app.connect("builder-inited", write_pages)
+    return {"parallel_read_safe": True}
