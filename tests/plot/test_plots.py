@@ -47,6 +47,7 @@ def results():
             OSCILLATOR, {"mass_ratio": 0.12}, 2.0, [1.8, 2.0, 2.2, 2.4], starts=4
         ),
         "migration": idm.migrate(OSCILLATOR, DAMPER, 1.95, periods=200),
+        "basins": idm.basins(OSCILLATOR, None, 1.8, cells=30),
         "machine_steady": idm.steady_motion(MACHINE, MACHINE_DAMPER, 21.0, (0, 0.1, 0.001, 0.3)),
         "machine_response": idm.frequency_response(MACHINE, None, [19.0, 20.0], starts=3),
     }
@@ -72,6 +73,7 @@ DRAWN = [
     ("shares", ["response"]),
     ("shares", ["sweep"]),
     ("migration", ["migration"]),
+    ("basins", ["basins"]),
 ]
 
 
@@ -98,7 +100,9 @@ def test_given_axes_are_drawn_on(name, keys, results):
         getattr(idm.plot, name)(results[keys[0]], ax=3)
 
 
-@pytest.mark.parametrize("name", ["response", "branch", "orbit", "sweep", "shares", "migration"])
+@pytest.mark.parametrize(
+    "name", ["response", "branch", "orbit", "sweep", "shares", "migration", "basins"]
+)
 @pytest.mark.parametrize("wrong", [None, 3, [], {}, "response", [3], xr.Dataset()])
 def test_anything_else_is_refused(name, wrong):
     with pytest.raises(TypeError, match="data = .*: must be a result of"):

@@ -20,7 +20,10 @@ def test_every_parameter_is_told():
 
 
 # Captions that may be longer, and why.
-LONGER = {"branches": "says where and why each kind of branch is not followed further"}
+LONGER = {
+    "branches": "says where and why each kind of branch is not followed further",
+    "basins": "says how cells are decided, without and with a damper",
+}
 
 
 def test_captions_are_short_enough_to_be_read():

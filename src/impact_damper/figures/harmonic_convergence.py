@@ -21,18 +21,12 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = r"""
-Errors of harmonic balance with the harmonics 1, 3, ... N against the exact orbit, whose state
-returns after a period to 1e-11 or better: (a) largest displacement; (b) root mean square of the
-retained harmonics, both relative to max \|Z1\|; (c) largest error of a Floquet multiplier by Hill's
-method. Newton's method for each solution starts from the solution with fewer harmonics. (d) Result
-of Newton's method, at most 40 steps, started from the single-term solution instead (cold start).
-Dashed grey: predicted decrease of the errors, drawn three times too high. It follows from the
-smoothness of the force: N^-4 in (a), N^-5 in (b) and N^-4 in (c) for elastic contact, a kink; N^-3
-with a dashpot, a jump; without contact exp(-s W N) in (a) and (b) and exp(-2 s W N) in (c), where s
-is the distance of the nearest singularity of the motion in complex time from the real axis and W
-the forcing frequency. The powers hold from the harmonic whose period is one contact, with a dashpot
-of coefficient c at least from r1/(c W) with the contact stiffness r1; fewer harmonics do not
-resolve a contact.
+Errors of harmonic balance with the harmonics 1, 3, ... N against the exact orbit: (a) largest
+displacement; (b) root mean square of the retained harmonics, both relative to max \|Z1\|; (c)
+largest error of a Floquet multiplier by Hill's method. (d) Result of Newton's method started from
+the single-term solution. Dashed grey: predicted decrease, drawn three times too high. It follows
+from the smoothness of the force: a kink in elastic contact, a jump with a dashpot. It begins at the
+harmonic whose period is one contact.
 """
 
 PANELS = {

@@ -6,7 +6,7 @@ without it a figure is made.
 """
 
 from impact_damper.plot.designs import design, sweep
-from impact_damper.plot.motions import migration, orbit
+from impact_damper.plot.motions import basins, migration, orbit
 from impact_damper.plot.responses import branch, response, shares
 
-__all__ = ["branch", "design", "migration", "orbit", "response", "shares", "sweep"]
+__all__ = ["basins", "branch", "design", "migration", "orbit", "response", "shares", "sweep"]

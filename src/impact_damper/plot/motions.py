@@ -1,4 +1,4 @@
-"""Plots of single motions: an orbit, and a run of migration control."""
+"""Plots of single motions, of migration control, and of basins of attraction."""
 
 import json
 from dataclasses import fields
@@ -6,6 +6,7 @@ from dataclasses import fields
 import numpy as np
 
 from impact_damper.data.datasets import damper_of, has_damper, oscillator_of, parameters_of
+from impact_damper.figures.basins import draw_plane
 from impact_damper.figures.migration import draw_run
 from impact_damper.figures.motion import phase_panel, time_panel
 from impact_damper.figures.style import axis_label
@@ -76,6 +77,33 @@ def _machine_of(data):
         return machine, None
     contact = {name: made[name] for name in ("gap", "restitution", "contact_stiffness")}
     return machine, machine.damper(mass=made["damper_mass"], **contact)
+
+
+def basins(data, *, ax=None):
+    """Draw basins of attraction: the motion that each state of a plane leads to.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A result of `basins`.
+    ax : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If something else is given.
+    """
+    given = datasets_in(data, lambda each: "basin_label" in each, "basins")
+    if len(given) > 1:
+        raise TypeError(f"data = {len(given)} datasets: must be one result of basins")
+    with looks(ax):
+        (axes,) = axes_for(ax, height=5.0)
+        draw_plane(axes, given[0])
+    return axes
 
 
 def migration(data, *, ax=None):
