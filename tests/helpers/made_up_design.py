@@ -216,6 +216,8 @@ def _absorbers():
     sizes[:, [0, 2]] *= 1.2
     return {
         "competitor_displacement": sizes,
+        "den_hartog_stiffness": 9.1e3,
+        "den_hartog_damping": 20.5,
         "absorber_stiffness": np.tile([[np.nan], [9e3], [np.nan], [9.5e3]], 3),
         "absorber_damping": np.tile([[np.nan], [20.0], [np.nan], [21.0]], 3),
         "absorber_cubic_stiffness": np.tile([[np.nan], [0.0], [np.nan], [1e7]], 3),

@@ -117,6 +117,15 @@ def test_a_range_of_restitutions_ascends_within_bounds(ends):
         design(restitution=ends)
 
 
+def test_den_hartogs_absorber_stands_beside_the_optimum(finished):
+    """By f = 1/(1 + m) and z^2 = 3 m/(8 (1 + m)), with damping 2 z m_a w_a."""
+    ratio, angular = 0.1, np.sqrt(2e5 / 12) / 1.1
+    data, mass = finished[0], 1.2
+    damping = 2 * np.sqrt(3 * ratio / (8 * (1 + ratio))) * mass * angular
+    assert data["den_hartog_stiffness"] == pytest.approx(mass * angular**2)
+    assert data["den_hartog_damping"] == pytest.approx(damping)
+
+
 def test_the_dataset_agrees_with_itself(finished):
     """What is derived follows from what is stored beside it."""
     data, _ = finished

@@ -144,6 +144,13 @@ def _absorbers(data):
             value = float(data[variable].sel(competitor=name, detuning=0.0))
             if np.isfinite(value) and value != 0:
                 rows.append((f"{NAMES[name]}: {words}", shown(value, unit), variable))
+    for variable, words, unit in (
+        ("den_hartog_stiffness", "stiffness", "N/m"),
+        ("den_hartog_damping", "damping", "N s/m"),
+    ):
+        if variable in data:
+            what = f"the same by Den Hartog's closed form, for an undamped machine: {words}"
+            rows.append((what, shown(data[variable], unit), variable))
     return rows
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.absorbers.responses import SHARES, absorber_responses
+from impact_damper.absorbers.tuning import den_hartog_absorber
 from impact_damper.data.datasets import SOURCE
 from impact_damper.data.variables import VARIABLES
 from impact_damper.design import choose, cliff, deviations, labelled, operating
@@ -296,6 +297,11 @@ class _Design(NamedTuple):
         low, high = task.resonance
         band = ABSORBED[0] * min(low, task.band[0]), ABSORBED[1] * max(high, task.band[1])
         found = absorber_responses(task.machine, task.mass, task.grid, SHARES, band=band)
+        closed = {}
+        if task.machine.linear_stiffness:
+            made = den_hartog_absorber(task.machine, task.mass)
+            closed = {"den_hartog_stiffness": made.stiffness, "den_hartog_damping": made.damping}
+        found = found.assign({name: shown_variable(name, closed[name]) for name in closed})
         return found.assign_coords(frequency=shown_variable("frequency", task.grid))
 
 

@@ -288,4 +288,11 @@ VARIABLES = {
     "noise_by_frequency": Variable(
         ("frequency",), "sum of the squares of impulses per time", quantity="impulse_noise"
     ),
+    # competitors
+    "den_hartog_stiffness": Variable(
+        (), "stiffness of a tuned absorber by Den Hartog's closed form", quantity="stiffness"
+    ),
+    "den_hartog_damping": Variable(
+        (), "damping of this absorber, by Brock's closed form", quantity="damping"
+    ),
 }
