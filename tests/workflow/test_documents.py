@@ -7,8 +7,8 @@ from helpers.running import ROOT
 from impact_damper.workflow.registry import STAGES
 
 
-def test_the_table_of_the_readme_has_every_stage():
-    table = "".join(re.findall(r"^\| (.*?) \|", (ROOT / "README.md").read_text(), re.M))
+def test_the_table_of_stages_has_every_stage():
+    table = "".join(re.findall(r"^\| (.*?) \|", (ROOT / "config/README.md").read_text(), re.M))
     assert STAGES.keys() <= set(re.findall("`(.*?)`", table))
 
 
