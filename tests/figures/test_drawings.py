@@ -31,6 +31,7 @@ MOTIONS = [  # outcome, period, contacts
     ("unresolved", 0, 1.0),
     ("quasi_periodic", 0, 2.0),
     ("drifting", 1, 0.0),
+    ("chaotic", 0, 4.0),
     ("absent", 0, 0.0),
 ]
 
@@ -47,6 +48,8 @@ def response(**parameters):
         "branch": np.broadcast_to(np.arange(len(MOTIONS)), shape),
         "maximum_displacement": np.arange(len(MOTIONS)) + FREQUENCY[:, None],
         "end_branch": [0],
+        # the first chaotic motion lasts, the second is a transient
+        "life_ends": np.broadcast_to(np.array(contacts) == 4.0, shape).astype(int),
     }
     return dataset(data | ends, {"frequency": FREQUENCY}, DAMPER | parameters, "made up")
 
@@ -140,7 +143,7 @@ def orbits(**parameters):
 FREE = orbits().assign_attrs(parameters='{"damping": 0.2}')
 DAMPED = {"branches": [orbits(), FREE]}
 STATUSES = ["period_1", "higher_period", "subharmonic_damped", "chaotic", "non_colliding"]
-STATUSES += ["quasi_periodic", "drifting", "unresolved"]
+STATUSES += ["chaotic_transient", "quasi_periodic", "drifting", "unresolved"]
 FREE_ROLES = ["free_stable", "free_unstable", "subharmonic_free", "free_higher"]
 FREE_ROLES += ["subharmonic_unstable"]
 BALANCE_ROLES = ["harmonic_balance", "band"]

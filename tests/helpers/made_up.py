@@ -196,6 +196,7 @@ def response(name, damping=0.215, restitution=1.0):
         ],
     )
     data["run_outcome"] = np.ones((len(frequency), 2))
+    data["life_ends"] = np.stack([np.where(chaos, 0, -1), np.full(len(frequency), -1)], axis=1)
     return dataset(
         data,
         {"frequency": frequency},

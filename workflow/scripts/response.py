@@ -10,6 +10,7 @@ job.save(
         job.damper,
         job.grid("frequencies"),
         **job["search"],
+        **job["lives"],
         settling=job.settling,
         **job.running,
     )

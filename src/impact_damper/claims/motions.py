@@ -33,7 +33,7 @@ def quiet_contacts(datasets):
 
 def high_and_chaotic(datasets):
     """Measures of claim 6: the high-amplitude motion has more than two impacts, or is chaotic."""
-    contacts, fewest, orbits, twins, widest, total = [], [], [], [], [], []
+    contacts, fewest, orbits, twins, widest, total, lives = [], [], [], [], [], [], []
     for name in extract.ELASTIC:
         response = extract.get(datasets, "response", name)
         branches, free = exact_orbits.of_curve(datasets, name)
@@ -48,6 +48,7 @@ def high_and_chaotic(datasets):
         twins.append(exact_orbits.high_counterparts(design, branches, free))
         chaotic = chaotic_high(response, free).values
         widest.append(extract.longest_run(chaotic) * extract.spacing(response))
+        lives.append(_lasting(response, free))
         total.append(np.sum(chaotic) * extract.spacing(response))
     contacts, orbits, twins = np.concatenate(contacts), pd.concat(orbits), pd.concat(twins)
     if len(contacts) == 0 or not orbits.a.notna().any():
@@ -60,7 +61,15 @@ def high_and_chaotic(datasets):
         "twin": twins.difference.median(),
         "widest": max(widest),
         "total": max(total),
+        "lasting": np.mean(lives) if (lives := np.concatenate(lives)).size else np.nan,
     }
+
+
+def _lasting(response, free):
+    """Return whether each chaotic high motion lasted in all runs by which its life was measured."""
+    chaotic = high_motions(response, free) & extract.is_outcome(response, "chaotic")
+    ends = response.life_ends.transpose(*chaotic.dims).values[chaotic.values]
+    return ends[ends >= 0] == 0
 
 
 def first_collisions(datasets):
@@ -146,6 +155,11 @@ CLAIMS = (
             ),
             Measure(
                 "total", "total width in W with a chaotic high motion, largest value of a damper"
+            ),
+            Measure(
+                "lasting",
+                "share of the chaotic high motions none of whose runs ended; the others are "
+                "transients",
             ),
         ),
         evidence=high_and_chaotic,

@@ -9,13 +9,20 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, lette
 CAPTION = """
 Largest displacement of all motions that were found, by random starts and by following. Lines join
 the settled motions of a branch. Free motions, and the dotted unstable ones of period 1, are exact
-orbits; a chaotic motion is a point at the largest displacement observed. Harmonic balance gives the
-first harmonic only. The paper draws few motions at each frequency and calls the chaotic ranges
+orbits; a chaotic motion is a point at the largest displacement observed, and a transient if one of
+its runs ended. Harmonic balance gives the first harmonic only. The paper draws few motions at each frequency and calls the chaotic ranges
 narrow; here several motions coexist at most frequencies, and all are drawn.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-STATUSES = ("chaotic", "quasi_periodic", "non_colliding", "drifting", "unresolved")
+STATUSES = (
+    "chaotic",
+    "chaotic_transient",
+    "quasi_periodic",
+    "non_colliding",
+    "drifting",
+    "unresolved",
+)
 FREE = {
     "chaotic": ROLES["chaotic"] | {"label": "free, chaotic"},
     "unresolved": ROLES["unresolved"] | {"label": "free, unresolved"},
@@ -112,9 +119,16 @@ def draw_motions(axes, motions, prefix):
 
 
 def draw_unsettled(axes, motions, roles):
-    """Draw the motions that have not settled on an orbit as points; a role for each outcome."""
+    """Draw the motions that have not settled on an orbit as points; a role for each outcome.
+
+    With a role for chaotic transients, chaos stands apart from that of which one of the runs ended.
+    """
     for status, role in roles.items():
-        row, column = (motions["outcome"].values == flag("outcome", status)).nonzero()
+        outcome = "chaotic" if status == "chaotic_transient" else status
+        chosen = motions["outcome"].values == flag("outcome", outcome)
+        if outcome == "chaotic" and "chaotic_transient" in roles:
+            chosen &= (motions["life_ends"].values > 0) == (status == "chaotic_transient")
+        row, column = chosen.nonzero()
         if len(row):
             axes.plot(
                 motions["frequency"].values[row],

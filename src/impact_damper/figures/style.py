@@ -122,6 +122,7 @@ ROLES = {
     ),
     "subharmonic_damped": _points("damper, subharmonic (period $3n$)", PURPLE, "v"),
     "chaotic": _points("damper, chaotic", ORANGE, ".", filled=True),
+    "chaotic_transient": _points("damper, chaotic transient", ORANGE, ".", markersize=4.6),
     "non_colliding": _points("damper, no contact", BLACK, "D", markersize=2.6),
     "drifting": _points("damper, drifting without contact", BLACK, "|", markersize=4.2),
     "quasi_periodic": _points("damper, quasi-periodic", SKY, "P", filled=True, markersize=4.2),
@@ -130,6 +131,9 @@ ROLES = {
     "inelastic_higher_period": _points("inelastic, other periods", VERMILION, "*"),
     "inelastic_subharmonic_damped": _points("inelastic, subharmonic (period $3n$)", VERMILION, "<"),
     "inelastic_chaotic": _points("inelastic, chaotic", VERMILION, "1", markersize=4.6),
+    "inelastic_chaotic_transient": _points(
+        "inelastic, chaotic transient", VERMILION, "3", markersize=4.6
+    ),
     "inelastic_non_colliding": _points("inelastic, no contact", VERMILION, "d"),
     "inelastic_drifting": _points(
         "inelastic, drifting without contact", VERMILION, "2", markersize=4.6

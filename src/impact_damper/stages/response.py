@@ -5,10 +5,17 @@ import numpy as np
 from impact_damper.data.datasets import dataset
 from impact_damper.motions import ensemble
 from impact_damper.motions.free_motions import free_motions
+from impact_damper.motions.lives import find_lives
 from impact_damper.motions.simulate import COMPONENTS, random_states
 from impact_damper.motions.start_states import describe_search, search_starts
 from impact_damper.motions.sweep import sweep
-from impact_damper.system.bounds import PERIODS_RANGE, SEED_RANGE, check_count, check_number
+from impact_damper.system.bounds import (
+    LIFETIME_RANGE,
+    PERIODS_RANGE,
+    SEED_RANGE,
+    check_count,
+    check_number,
+)
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
@@ -24,6 +31,8 @@ def frequency_response(
     radius=None,
     seed=1995,
     settling=None,
+    life_runs=0,
+    life_periods=2000,
     workers=1,
     progress=None,
 ):
@@ -46,6 +55,10 @@ def frequency_response(
         (`motions.start_states`).
     seed : int
     settling : Settling, optional
+    life_runs : int
+        Runs by which it is found out how long each chaotic motion lasts.
+    life_periods : int
+        Forcing periods of these runs.
     workers : int
         Threads; the result does not depend on it.
     progress : str, optional
@@ -55,10 +68,11 @@ def frequency_response(
     -------
     xarray.Dataset
         For each (frequency, motion) a distinct motion with outcome, period, contacts, extremum of
-        |Z1|, phases, multiplier, Lyapunov exponent, branch, and number of the random starts that
-        lead to it; for each (frequency, start) outcome and length of a run; for each `end` the end
-        of a branch; for each `frequency` how large the starts and the free motions are; and an
-        upper bound on the share of starts that lead to a motion which no random start reached.
+        |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, number of the random
+        starts that lead to it, and mean life if it is chaotic; for each (frequency, start) outcome
+        and length of a run; for each `end` the end of a branch; for each `frequency` how large the
+        starts and the free motions are; and an upper bound on the share of starts that lead to a
+        motion which no random start reached.
 
     Raises
     ------
@@ -86,7 +100,20 @@ def frequency_response(
         workers=workers,
         progress=progress,
     )
+    lives = find_lives(
+        parameters,
+        data["outcome"][1],
+        data["state"][1],
+        check_count("life_runs", life_runs, least=0, most=1000),
+        check_count("life_periods", life_periods, **LIFETIME_RANGE),
+        seed,
+        settling,
+        workers=workers,
+        progress=progress,
+    )
+    data |= {name: (("frequency", "motion"), values) for name, values in lives.items()}
     made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
+    made |= {"life_runs": life_runs, "life_periods": life_periods}
     coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
     return dataset(data, coordinates, made, "Frequency response")
 

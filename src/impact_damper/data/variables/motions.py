@@ -135,6 +135,20 @@ VARIABLES = {
     "end_multiplier_imaginary": Variable(
         ("end",), "dominant Floquet multiplier at the end, imaginary part"
     ),
+    # lives of chaotic motions
+    "life_ends": Variable(
+        ("frequency", "motion"),
+        "number of runs of the chaotic motion that ended, -1 if it is not chaotic or none was run",
+    ),
+    "mean_life": Variable(
+        ("frequency", "motion"), "mean life of the chaotic motion in forcing periods"
+    ),
+    "mean_life_lower": Variable(
+        ("frequency", "motion"), "mean life, lower end of its 95 % interval, forcing periods"
+    ),
+    "mean_life_upper": Variable(
+        ("frequency", "motion"), "mean life, upper end of its 95 % interval, forcing periods"
+    ),
     # how wide the search by random starts was
     "start_displacement": Variable(
         ("frequency",),

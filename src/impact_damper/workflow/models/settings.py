@@ -49,6 +49,8 @@ class Search(Section):
     scan_starts: starts_of("at each frequency of a release scan")
     study_starts: starts_of("in each cell of a study")
     radius: RADIUS
+    life_runs: count("runs by which the life of a chaotic motion is found", least=0, most=1000)
+    life_periods: count("forcing periods of these runs", **LIFETIME_RANGE)
 
 
 class Settling(Section):

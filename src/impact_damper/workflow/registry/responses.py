@@ -5,6 +5,11 @@ from impact_damper.workflow.registry.values import frequencies, search, settling
 
 
 def response(config, name):
+    lives = {key: config["search"][key] for key in ("life_runs", "life_periods")}
+    return curve_motions(config, name) | {"lives": lives}
+
+
+def curve_motions(config, name):
     curve = config["curves"][name]
     points = "simulated" if "mass_ratio" in curve else "free"
     return system(config, curve) | {
@@ -40,7 +45,7 @@ def collisions(config, name):
 TITLE = "Frequency responses"
 STAGES = (
     Stage("response", "curves", response),
-    Stage("subharmonic", "curves", response),
+    Stage("subharmonic", "curves", curve_motions),
     Stage("branches", "curves", branches, reads=("response", "subharmonic")),
     Stage("motion", "motion", motion),
     Stage("collisions", "collisions", collisions),
@@ -57,6 +62,26 @@ TABLES = (
         "tables.responses",
         ("harmonic_balance", "branches", "response"),
         "Suppression bands by harmonic balance and by the motions that exist.",
+    ),
+    Table(
+        "outcomes",
+        "tables.motions",
+        ("response", "subharmonic", "optimum", "studies", "balance_map"),
+        "Outcomes of all random starts of each file; unresolved motions by the sign of their "
+        "Lyapunov exponent, as far as it is known.",
+    ),
+    Table(
+        "quasi_periodic",
+        "tables.motions",
+        ("response",),
+        "Quasi-periodic motions of the responses and their two frequencies, from rotation numbers.",
+    ),
+    Table(
+        "chaos",
+        "tables.motions",
+        ("response", "branches"),
+        "Chaotic motions of the responses that are larger than half of the free resonance, and "
+        "their mean lives with 95 % intervals; no upper end where no run ended.",
     ),
     Table(
         "subharmonic",

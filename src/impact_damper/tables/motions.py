@@ -1,0 +1,124 @@
+"""Tables of what motions are: outcomes of starts, quasi-periodic motions, and lives of chaos."""
+
+import numpy as np
+import pandas as pd
+
+from impact_damper.claims import exact_orbits, extract
+from impact_damper.claims.claim import Missing
+from impact_damper.claims.suppression import high_motions
+from impact_damper.data.datasets import flag
+from impact_damper.data.variables.variable import OUTCOME
+from impact_damper.tables.columns import parameter_columns
+
+DAMPER = ("mass_ratio", "clearance", "restitution")
+# Stages whose datasets hold the outcome of each random start, and the motion that it leads to.
+SWEPT = ("response", "subharmonic", "optimum")
+# Dimension of the outcomes of a study.
+COUNTED = "counted_outcome"
+# Outcomes that are not counted one by one.
+OTHERS = ("diverged", "escaped", "at_rest")
+# An exponent within this number of standard errors of 0 may be 0.
+NEUTRAL = 3.0
+
+
+def outcomes(datasets) -> pd.DataFrame:
+    """Number of random starts with each outcome; why motions are unresolved, by their exponent."""
+    rows = []
+    for stage in SWEPT:
+        for name, data in extract.damped(datasets, stage).items():
+            counts = {each: np.sum(data.run_outcome == OUTCOME[each]) for each in OUTCOME}
+            rows.append(_row(stage, name, counts) | _reasons(data))
+    for name, data in datasets.get("studies", {}).items():
+        totals = data.outcome_count.sum([dim for dim in data.outcome_count.dims if dim != COUNTED])
+        counts = {str(each): totals.sel({COUNTED: each}) for each in data[COUNTED].values}
+        rows.append(_row("studies", name, counts))
+    for name, data in datasets.get("balance_map", {}).items():
+        counts = {each: np.sum(data.high_run_outcome == OUTCOME[each]) for each in OUTCOME}
+        rows.append(_row("balance_map, high run", name, counts))
+    return pd.DataFrame(rows)
+
+
+def _row(stage, name, counts):
+    """Columns with the number of starts that have each outcome."""
+    counts = {each: int(value) for each, value in counts.items() if each != "absent"}
+    shown = {each.replace("_", " "): counts[each] for each in counts if each not in OTHERS}
+    others = sum(counts.get(each, 0) for each in OTHERS)
+    starts = sum(counts.values())
+    return (
+        {"stage": stage, "data": name, "starts": starts}
+        | shown
+        | {
+            "other": others,
+            "unresolved of 2000": 2000 * counts["unresolved"] / starts if starts else np.nan,
+        }
+    )
+
+
+def _reasons(data):
+    """Number of unresolved starts whose motion has a positive, a zero or a negative exponent."""
+    dims = data.run_motion.dims
+    chosen = {"motion": data.run_motion}
+    mean, error = data.lyapunov_exponent.isel(chosen), data.lyapunov_error.isel(chosen)
+    lost = data.run_outcome == flag("run_outcome", "unresolved")
+    size = mean / error
+    return {
+        "unresolved, growing": int((lost & (size > NEUTRAL)).sum(dims)),
+        "unresolved, neutral": int((lost & (np.abs(size) <= NEUTRAL)).sum(dims)),
+        "unresolved, shrinking": int((lost & ~(size >= -NEUTRAL)).sum(dims)),
+    }
+
+
+def quasi_periodic(datasets) -> pd.DataFrame:
+    """Quasi-periodic motions: both frequencies, and the number of random starts that lead there."""
+    rows = []
+    for name, data in extract.damped(datasets, "response").items():
+        for k, j in np.argwhere(extract.is_outcome(data, "quasi_periodic").values):
+            motion = data.isel(frequency=k, motion=j)
+            first, second = float(motion.first_frequency), float(motion.second_frequency)
+            rows.append(
+                {"data": name}
+                | parameter_columns(data, "damping", *DAMPER)
+                | {
+                    "W": float(motion.frequency),
+                    "max |Z1|": float(motion.maximum_displacement),
+                    "starts": int(motion.share),
+                    "closed curves": round(float(motion.frequency) / first),
+                    "first frequency": f"{first:.10f}",
+                    "second frequency": f"{second:.10f}",
+                    "its error": float(motion.frequency_error),
+                    "rotation number": f"{second / first:.10f}",
+                    "Lyapunov exponent": float(motion.lyapunov_exponent),
+                    "its standard error": float(motion.lyapunov_error),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def chaos(datasets) -> pd.DataFrame:
+    """Chaotic motions larger than half of the free resonance, and how long they last."""
+    rows = []
+    for name, data in extract.damped(datasets, "response").items():
+        try:
+            high = high_motions(data, exact_orbits.free_of(datasets, data))
+        except Missing:
+            continue
+        chosen = (high & extract.is_outcome(data, "chaotic")).transpose("frequency", "motion")
+        for k, j in np.argwhere(chosen.values):
+            motion = data.isel(frequency=k, motion=j)
+            ends = int(motion.life_ends)
+            rows.append(
+                {"data": name}
+                | parameter_columns(data, "damping", *DAMPER)
+                | {
+                    "W": float(motion.frequency),
+                    "max |Z1|": float(motion.maximum_displacement),
+                    "starts": int(motion.share),
+                    "Lyapunov exponent": float(motion.lyapunov_exponent),
+                    "runs that end": ends,
+                    "of": extract.parameter(data, "life_runs"),
+                    "mean life, periods": float(motion.mean_life),
+                    "at least": float(motion.mean_life_lower),
+                    "at most": float(motion.mean_life_upper),
+                }
+            )
+    return pd.DataFrame(rows)
