@@ -14,7 +14,6 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import side_of, workspace
-from impact_damper.motions.growth import BLOCK
 from impact_damper.motions.records import (
     CHAOTIC,
     DIVERGED,
@@ -26,7 +25,7 @@ from impact_damper.motions.records import (
     UNRESOLVED,
 )
 from impact_damper.motions.settling import CONFIDENCE, LONGEST_PERIOD, NEAR
-from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish, repeats_sooner
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.system.packed import CLEARANCE, FORCE, FREQUENCY, UNBALANCE
 from impact_damper.theory.rotation_numbers import find_rotation
 
@@ -35,10 +34,12 @@ FIRST = 1500
 # Chaos: least growth of a tangent in a block, as a logarithm. On a motion that leaves an unstable
 # orbit from within rounding, 1e-16, it grows by less.
 GROWN = 40.0
+# Batches of a block, from which the standard error of the exponent follows.
+BATCHES = 30
 # Exponents within this number of standard errors of 0 are taken for 0.
 NEUTRAL = 3.0
 # Longest period of an orbit, in forcing periods.
-LONGEST = 128
+LONGEST = 256
 # Largest distance moved in Newton's method onto an orbit.
 REACH = 1e-2
 # Largest distance of a motion from closed curves already known, if it is the motion on them.
@@ -175,9 +176,13 @@ def _is_on(curve, states):
 
 
 def _exponent(growth):
-    """Return the mean growth in a period and its standard error, from batches of BLOCK periods."""
-    batches = growth[: len(growth) // BLOCK * BLOCK].reshape(-1, BLOCK).mean(axis=1)
-    return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(len(batches))
+    """Return the mean growth in a period and its standard error, from BATCHES long batches.
+
+    On a closed curve growth and decay alternate, and short batches would not see that they cancel.
+    """
+    length = len(growth) // BATCHES
+    batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
+    return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)
 
 
 def _grows(growth, mean, error):
@@ -197,7 +202,8 @@ def _on_orbit(p, record, states, contacts, limit):
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        if not found or abs(multiplier) >= 1 or repeats_sooner(p, y, n, POLISH_TOLERANCE):
+        # an orbit that repeats sooner would have been found with its own, shorter period
+        if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]
         record["state"], record["period"], record["residual"] = y, n, residual
