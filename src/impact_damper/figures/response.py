@@ -1,5 +1,7 @@
 """Frequency responses with and without a damper: figures 5, 8, 10 (figure kind `response`)."""
 
+import numpy as np
+
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.figures.branches import draw_free_orbits, runs
 from impact_damper.figures.harmonic_balance import draw_balance, draw_band
@@ -10,8 +12,9 @@ CAPTION = """
 Largest displacement of all motions that were found, by random starts and by following. Lines join
 the settled motions of a branch. Free motions, and the dotted unstable ones of period 1, are exact
 orbits; a chaotic motion is a point at the largest displacement observed, and a transient if one of
-its runs ended. Harmonic balance gives the first harmonic only. The paper draws few motions at each frequency and calls the chaotic ranges
-narrow; here several motions coexist at most frequencies, and all are drawn.
+its runs ended. Harmonic balance gives the first harmonic only. The paper draws few motions at each
+frequency and calls the chaotic ranges narrow; here several motions coexist at most frequencies,
+and all are drawn.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
@@ -127,7 +130,8 @@ def draw_unsettled(axes, motions, roles):
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)
         if outcome == "chaotic" and "chaotic_transient" in roles:
-            chosen &= (motions["life_ends"].values > 0) == (status == "chaotic_transient")
+            ended = motions["life_ends"].values > 0 if "life_ends" in motions else False
+            chosen &= np.equal(ended, status == "chaotic_transient")
         row, column = chosen.nonzero()
         if len(row):
             axes.plot(
