@@ -8,7 +8,16 @@ REPRODUCED = "reproduced"
 DIFFERENT = "reproduced with a difference"
 NOT_REPRODUCED = "not reproduced"
 NOT_DECIDABLE = "not decidable"
-VERDICTS = (REPRODUCED, DIFFERENT, NOT_REPRODUCED, NOT_DECIDABLE)
+# Words for the verdict on a slip, keyed by the verdict on the claim that the print is correct.
+SLIP_WORDS = {
+    REPRODUCED: "the print is consistent",
+    DIFFERENT: "the print is nearly right",
+    NOT_REPRODUCED: "the printed value is wrong",
+    NOT_DECIDABLE: NOT_DECIDABLE,
+}
+VERDICTS = tuple(
+    dict.fromkeys([REPRODUCED, DIFFERENT, NOT_REPRODUCED, *SLIP_WORDS.values(), NOT_DECIDABLE])
+)
 
 
 class Missing(LookupError):
@@ -76,6 +85,9 @@ class Claim:
     evidence : callable
         Takes all datasets, a dict keyed by stage of dicts keyed by name, and returns a dict with
         the value of each measure; NaN if the datasets do not determine it. May raise `Missing`.
+    correction : callable, optional
+        Takes the values of the measures and returns a sentence that says what is right, where the
+        claim is refuted; by default the measures out of bounds are named.
     """
 
     number: str
@@ -84,6 +96,12 @@ class Claim:
     interpretation: str
     measures: tuple[Measure, ...]
     evidence: Callable[[dict], dict]
+    correction: Callable[[dict], str] | None = None
+
+    @property
+    def is_slip(self) -> bool:
+        """Whether the claim is that a suspected misprint is correct."""
+        return self.number.startswith("S")
 
     def verdict(self, values) -> str:
         """Verdict for the values of the measures.
@@ -115,16 +133,26 @@ class Claim:
 
     def difference(self, values) -> str:
         """Sentence on the measures that are out of bounds or unknown; "" without any."""
-        parts = []
+        if self.correction is not None and self.verdict(values) == NOT_REPRODUCED:
+            return self.correction(values)
+        parts, told = [], set()
         for measure in self.measures:
             value = values[measure.name]
+            if measure.name in told:
+                continue
             if measure.requirement and math.isnan(value):
                 parts.append(f"{measure.description} is unknown")
             elif measure.requirement and not measure.holds(value):
+                told.add(measure.name)
                 parts.append(
-                    f"{measure.description} is {readable(value)} instead of {measure.requirement}"
+                    f"{measure.description} is {readable(value)}, "
+                    f"where the claim requires {measure.requirement}"
                 )
         return f"Computed: {'; '.join(parts)}." if parts else ""
+
+    def _in_words(self, verdict):
+        """Return the verdict as tables print it; one on a slip is about the print."""
+        return SLIP_WORDS[verdict] if self.is_slip else verdict
 
     def judge(self, datasets) -> dict:
         """Row of the claim in the table of claims."""
@@ -145,6 +173,6 @@ class Claim:
         )
         return row | {
             "evidence": evidence,
-            "verdict": self.verdict(values),
+            "verdict": self._in_words(self.verdict(values)),
             "difference": self.difference(values),
         }

@@ -138,6 +138,11 @@ CLAIMS = (
             Measure("corrected", "median of the expansion of (6e) over B"),
         ),
         evidence=penetration,
+        correction=lambda values: (
+            f"B grows as the power {values['power']:.2f} of eps, not 1/2. The expansion of (6e), "
+            f"with the power 3/2, is {values['corrected']:.3g} times B; the printed expression is "
+            f"{values['printed']:.3g} times B."
+        ),
     ),
     Claim(
         number="S2",
@@ -151,6 +156,9 @@ CLAIMS = (
             Measure("rule_b", "d0 of (19) for (b)"),
         ),
         evidence=captions,
+        correction=lambda values: (
+            f"Rule (19) gives d0 = {values['rule_a']:.3g} in (a) and {values['rule_b']:.3g} in (b)."
+        ),
     ),
     Claim(
         number="S3",
@@ -164,6 +172,10 @@ CLAIMS = (
             Measure("printed", "number of values printed"),
         ),
         evidence=state_size,
+        correction=lambda values: (
+            f"A state has {values['components']:.0f} components, Z1, Z1', Z2 and Z2'; "
+            f"{values['printed']:.0f} numbers do not determine the motion."
+        ),
     ),
     Claim(
         number="S4",
@@ -172,6 +184,7 @@ CLAIMS = (
         interpretation="Within 1 %.",
         measures=(Measure("inertia", "rm W^2 d0", least=0.99, most=1.01, decisive=True),),
         evidence=design_point,
+        correction=lambda values: f"rm W^2 d0 is {values['inertia']:.3g} at W = 2, not 1.",
     ),
     Claim(
         number="S5",
@@ -193,6 +206,11 @@ CLAIMS = (
             ),
         ),
         evidence=peaks,
+        correction=lambda values: (
+            "The resonance branch of exact orbits ends at W = "
+            + ", ".join(f"{values[f'end_{h:g}']:.4g} (h = {h:g})" for h in PRINTED_PEAKS)
+            + f", up to {100 * values['worst']:.1f} per cent from the printed frequency."
+        ),
     ),
     Claim(
         number="S6",
