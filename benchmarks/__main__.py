@@ -14,6 +14,7 @@ from benchmarks import (
     scaling,
     scenes,
     searches,
+    settled,
     stages,
     startup,
 )
@@ -24,9 +25,10 @@ from impact_damper.figures.style import save_figure
 # How much of everything: in full, and to see that all of it runs.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
         "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 10,
+        "settled": 2000,
         "design": {"frequencies": 41, "candidates": 12, "starts": 96}}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
-         "sizes": (1, 16), "shared": 256, "wide": 20, "random": 1,
+         "sizes": (1, 16), "shared": 256, "wide": 20, "random": 1, "settled": 64,
          "design": {"frequencies": 3, "candidates": 4, "starts": 16, "share": 0.8}}  # fmt: skip
 RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
 
@@ -82,6 +84,12 @@ def time_designs(write, amount):
     write("design", design.table(amount["design"]), how=design.HOW)
 
 
+def settle(write, amount):
+    """Starts settled a second."""
+    with one_core():
+        write("settled", settled.table(amount["settled"], amount["few"]))
+
+
 PARTS = {
     "ratios": compare,
     "chart": draw_chart,
@@ -89,6 +97,7 @@ PARTS = {
     "scaling": scale,
     "start_up": start,
     "searches": search,
+    "settled": settle,
     "design": time_designs,
 }
 

@@ -1,0 +1,55 @@
+"""Starts settled a second by one thread, over dampers of which most lead to chaos."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+
+from benchmarks.timing import interleaved, spread
+from impact_damper.data.variables.variable import OUTCOME
+from impact_damper.motions import ensemble
+from impact_damper.motions.simulate import random_states
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.system.settling import Settling
+
+SEED = 3
+# Mass ratio, clearance, forcing frequency and restitution of a random damper.
+LEAST, MOST = (0.05, 0.25, 1.0, 0.6), (0.5, 4.0, 3.0, 1.0)
+STARTS = 8
+
+
+def draw(count):
+    """Return packed parameters and starts of random dampers, STARTS for each, `count` in all."""
+    generator = np.random.default_rng(SEED)
+    rows, states = [], []
+    for number in range(count // STARTS):
+        mass_ratio, clearance, frequency, restitution = generator.uniform(LEAST, MOST)
+        damper = Damper(mass_ratio, clearance, restitution)
+        rows += [pack(Oscillator(0.215), damper, frequency)] * STARTS
+        states.append(random_states(STARTS, 2.0, damper, [SEED, number]))
+    return np.array(rows), np.concatenate(states)
+
+
+def table(count, rounds):
+    """Return starts settled a second, with undecided motions left as they are, and named."""
+    rows, states = draw(count)
+    kinds = {"left": replace(Settling(), further=0), "named": Settling()}
+    calls = {
+        name: lambda settling=settling: ensemble.settle(rows, states, settling)
+        for name, settling in kinds.items()
+    }
+    found = {name: call() for name, call in calls.items()}
+    lines = []
+    for name, seconds in interleaved(calls, rounds).items():
+        median, lower, upper = spread(len(rows) / seconds)
+        shares = {
+            outcome: np.mean(found[name]["outcome"] == OUTCOME[outcome])
+            for outcome in ("settled", "chaotic", "quasi_periodic", "drifting", "unresolved")
+        }
+        lines.append(
+            {"undecided motions": name, "starts": len(rows), "starts_a_second": median}
+            | {"lower_quartile": lower, "upper_quartile": upper}
+            | shares
+        )
+    return pd.DataFrame(lines)
