@@ -30,6 +30,11 @@ class TunedAbsorber:
     ------
     TypeError, ValueError
         If a value is out of range.
+
+    Examples
+    --------
+    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness
+    9000.0
     """
 
     mass: float = physical("mass", above=0)

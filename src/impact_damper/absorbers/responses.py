@@ -94,6 +94,14 @@ def absorber_responses(
     ------
     TypeError, ValueError
         If an argument is out of range; the message names it, in SI units.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.05, force=40)
+    >>> found = idm.absorber_responses(machine, "0.6 kg", [19, 20, 21])
+    >>> found.competitor.values.tolist()
+    ['bare', 'tuned', 'nonlinear', 'best']
     """
     mass = check_mass(machine, mass)
     frequencies, shares = check_grid(machine, frequencies, force_shares)

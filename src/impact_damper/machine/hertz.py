@@ -31,6 +31,11 @@ class Material:
     ------
     TypeError, ValueError
         If a value is out of range.
+
+    Examples
+    --------
+    >>> Material("210 GPa", 0.3).youngs_modulus
+    210000000000.0
     """
 
     youngs_modulus: float = physical("pressure", above=0)
@@ -87,6 +92,13 @@ class HertzContact:
     ------
     TypeError, ValueError
         If a value is not of its kind or out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> contact = idm.HertzContact("20 mm", idm.Material("210 GPa", 0.3))
+    >>> f"{contact.pressure(500.0):.3g}"
+    '1.48e+09'
     """
 
     radius: float = physical("displacement", above=0)

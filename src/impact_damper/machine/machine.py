@@ -54,6 +54,14 @@ class Machine:
     ------
     TypeError, ValueError
         If a value is out of range or missing, or two exclude each other.
+
+    Examples
+    --------
+    >>> machine = Machine(
+    ...     mass="12 kg", linear_stiffness=2e5, damping_ratio="0.5 %", force="40 N"
+    ... )
+    >>> machine.damper(mass="0.6 kg", gap="3 mm", restitution=0.8, contact_stiffness=2e7).gap
+    0.003
     """
 
     mass: float = physical("mass", least=1e-15, most=1e15)

@@ -178,6 +178,14 @@ def simulate(
     ------
     TypeError, ValueError
         If an argument is out of range; the message names it.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> motion = idm.simulate(oscillator, damper, 2.0, state=(1, 0.5, 0, 0), periods=30)
+    >>> motion.sizes["contact"]
+    59
     """
     p = pack(oscillator, damper, frequency)
     y = check_state(state, damper)

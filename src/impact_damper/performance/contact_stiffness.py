@@ -70,6 +70,17 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
     ------
     TypeError, ValueError
         If an argument is not of its kind or out of range; the message names it.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.05, force=40)
+    >>> nylon = idm.Material("3 GPa", 0.4)
+    >>> ball = idm.HertzContact("20 mm", nylon)
+    >>> damper = machine.damper(mass=0.6, gap="3 mm", restitution=0.8, contact=ball)
+    >>> found = idm.hertz_stiffness(machine, damper, 20, (0, 0, 0, "0.3 m/s"))
+    >>> f"{found.hertz_stiffness.item():.3g} N/m"
+    '3.34e+06 N/m'
     """
     if not isinstance(machine, Machine):
         raise TypeError(f"machine = {shown(machine)}: must be a Machine")

@@ -86,6 +86,13 @@ def basins(
     ------
     TypeError, ValueError
         If an argument is out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> found = idm.basins(idm.Oscillator(0.215), None, 1.85, cells=40)
+    >>> found.attrs["title"]
+    'Basins of attraction'
     """
     settling = check_settling(settling)
     p = pack(oscillator, damper, frequency)

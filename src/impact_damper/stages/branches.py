@@ -63,6 +63,15 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
     -----
     UserWarning
         If the orbit repeats after a divisor of the period.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> start = (0.006, 0.187, 0.002, -2.408)
+    >>> orbit = idm.periodic_orbit(oscillator, damper, 2.0, state=start)
+    >>> idm.decode(orbit.orbit_stability).item(), round(orbit.orbit_displacement.item(), 6)
+    ('stable', 0.057734)
     """
     orbit = _checked_orbit(oscillator, damper, frequency, state, period, phase)
     if orbit.repeats_sooner():
@@ -117,6 +126,15 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     ArithmeticError
         If Newton's method finds no orbit near the state, or one that repeats after a divisor of the
         period.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> start = (0.006, 0.187, 0.002, -2.408)
+    >>> branch = idm.orbit_branch(oscillator, damper, 2.0, start, span=(1.8, 2.2))
+    >>> idm.decode(branch.event_kind).values.tolist()
+    []
     """
     given_span = span
     family, value, span = family_of(oscillator, damper, frequency, parameter, span)
@@ -165,6 +183,15 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     ------
     TypeError, ValueError
         If an argument is of another type or out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> response = idm.frequency_response(oscillator, damper, [1.95, 2.0], starts=8)
+    >>> found = idm.complete_branches(oscillator, damper, (1.9, 2.1), [response])
+    >>> found.sizes["branch"]
+    1
     """
     frequencies = check_span("frequencies", frequencies, **FREQUENCY_RANGE)
     if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):

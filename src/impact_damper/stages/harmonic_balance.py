@@ -37,6 +37,12 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     ------
     TypeError, ValueError
         If the mass ratio is not a number or out of range, or there is no peak or no forcing.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> round(idm.optimum_clearance(idm.Oscillator(0.215), 0.12), 4)
+    2.0688
     """
     check_oscillator(oscillator)
     mass_ratio = check_number("mass_ratio", mass_ratio, **MASS_RATIO_RANGE)
@@ -78,6 +84,14 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     ------
     ValueError
         If the damper is not elastic, or frequencies are not positive and increasing.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> found = idm.harmonic_balance_response(oscillator, damper, [1.5, 2.0])
+    >>> found.frequency.values
+    array([1.5, 2. ])
     """
     check_oscillator(oscillator)
     frequencies = check_frequencies(frequencies)

@@ -66,6 +66,14 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
         If an argument is out of range; the message names it.
     ArithmeticError
         If there is no single-term solution to begin from.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> found = idm.harmonic_convergence(oscillator, damper, 2.0, [1, 3, 5])
+    >>> float(found.series_maximum[0].round(5))
+    0.00819
     """
     harmonics = check_counts("harmonics", harmonics, **HARMONIC_RANGE)
     check_increasing("harmonics", harmonics)

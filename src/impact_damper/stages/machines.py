@@ -108,6 +108,18 @@ def design_damper(
     ------
     TypeError, ValueError
         If an argument is out of range; the message names it, in SI units.
+
+    Examples
+    --------
+    A share of 95 % at 95 % confidence needs 73 starts, all quiet:
+
+    >>> import impact_damper as idm
+    >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
+    >>> idm.design_damper(
+    ...     machine, mass="1.2 kg", band=(20, 21), restitution=0.6, contact_stiffness=2e7, starts=20
+    ... )  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ValueError: starts = 20: must be from 73 to ...
     """
     asked = {"machine": machine, "mass": mass, "band": band}
     given = asked | {

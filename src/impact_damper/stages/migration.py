@@ -100,6 +100,14 @@ def migrate(
     ------
     ValueError
         If the free oscillator has not both period-1 motions, or an argument is out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> run = idm.migrate(oscillator, damper, 1.95, seed=1)
+    >>> "time" in run.dims
+    True
     """
     settling = check_settling(settling)
     if not isinstance(seed, np.random.SeedSequence):

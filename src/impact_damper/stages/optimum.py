@@ -76,6 +76,15 @@ def clearance_sweep(
         If `damper` is not such a dictionary.
     ValueError
         If clearances are not increasing, or a parameter is out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> import numpy as np
+    >>> oscillator, gaps = idm.Oscillator(0.215), np.linspace(2.0, 2.8, 9)
+    >>> best = idm.clearance_sweep(oscillator, {"mass_ratio": 0.12}, 2.0, gaps)
+    >>> round(float(best.optimum_clearance), 4)
+    2.3944
     """
     settling = check_settling(settling)
     check_count("seed", seed, **SEED_RANGE)

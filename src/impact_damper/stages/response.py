@@ -83,6 +83,13 @@ def frequency_response(
     -----
     UserWarning
         If a free motion is larger or faster than the radius.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> bare = idm.frequency_response(idm.Oscillator(0.215), None, [1.0, 2.0], starts=8)
+    >>> bare.maximum_displacement.sel(frequency=2.0).values.round(3)
+    array([2.376, 0.893, 0.252])
     """
     settling = check_settling(settling)
     frequencies = check_frequencies(frequencies)

@@ -89,6 +89,14 @@ def subharmonic_suppression(
         If there is no damper.
     ValueError
         If the spring is linear, frequencies are not increasing, or a parameter is out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> found = idm.subharmonic_suppression(oscillator, damper, [1.9, 2.0])
+    >>> idm.decode(found.free_subharmonic_event).values.tolist()
+    ['sweep_ends', 'sweep_ends']
     """
     settling = check_settling(settling)
     check_damper(damper)

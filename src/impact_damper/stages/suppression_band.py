@@ -54,6 +54,13 @@ def suppression_band(oscillator, damper):
         If the damper is not elastic.
     ArithmeticError
         If (7) could not be resolved at a frequency.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> band = idm.suppression_band(idm.Oscillator(0.215), idm.Damper(0.12, 2.0))
+    >>> band.edge_frequency.values.round(3)
+    array([1.911, 2.008])
     """
     check_oscillator(oscillator)
     check_elastic(damper)

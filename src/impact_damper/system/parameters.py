@@ -66,6 +66,12 @@ class Oscillator:
     ------
     TypeError, ValueError
         If a value is not a number or out of range.
+
+    Examples
+    --------
+    >>> oscillator = Oscillator(damping=0.215)
+    >>> oscillator.linear_frequency, oscillator.cubic
+    (0.0, 1.0)
     """
 
     damping: float = parameter(DAMPING_RANGE, "h", "damping")
@@ -111,6 +117,11 @@ class Damper:
     ------
     TypeError, ValueError
         If a value is not a number or out of range.
+
+    Examples
+    --------
+    >>> Damper(mass_ratio=0.12, clearance=2.0)
+    Damper(mass_ratio=0.12, clearance=2.0, restitution=1.0, contact_stiffness=2000.0)
     """
 
     mass_ratio: float = parameter(MASS_RATIO_RANGE, "rm", "loose mass over primary mass")

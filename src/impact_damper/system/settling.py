@@ -41,6 +41,11 @@ class Settling:
     ------
     TypeError, ValueError
         If a value is not a number or out of range.
+
+    Examples
+    --------
+    >>> Settling(patience=3000, limit=20_000).tolerance
+    1e-09
     """
 
     tolerance: float = 1e-9
