@@ -3,6 +3,8 @@
 Figure kind `stable_steps`.
 """
 
+import numpy as np
+
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.style import (
     GREY,
@@ -55,6 +57,11 @@ def draw_stable_steps(*, stable_steps):
         words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         axes.set(xscale="log", yscale="log", xlabel=axis_label(data["contact_stiffness"]))
         axes.set_title(words)
+        # stated, because there may be no step small enough
+        low, high = (edge(data["contact_stiffness"].values) for edge in (np.min, np.max))
+        axes.set_xlim(low / 2, high * 2)
+        tested = data["scaled_step"].values
+        axes.set_ylim(np.nanmin(tested[tested > 0]), np.nanmax(tested))
     panels[0].set_ylabel(axis_label(stable_steps[0]["scaled_step"]))
     for words, look in LINES.items():
         panels[0].plot([], [], color=GREY, label=words, **look)
