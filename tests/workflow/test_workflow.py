@@ -22,7 +22,7 @@ def jobs(result):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "most"), [((), 116), (("--configfile", "config/smoke.yaml"), 47)]
+    ("arguments", "most"), [((), 117), (("--configfile", "config/smoke.yaml"), 48)]
 )
 def test_every_script_serves_the_paper_and_the_smoke_run(arguments, most, tmp_path):
     """The number of jobs is limited, because each takes a second to start or two."""

@@ -54,3 +54,23 @@ rule basins:
         "Motions that states of a plane lead to, the plane {wildcards.name}"
     script:
         "../scripts/basins.py"
+
+
+rule release_policies:
+    input:
+        code=code("release_policies"),
+        kernels=KERNELS,
+    output:
+        "<results>/release_policies/{name}.nc",
+    log:
+        "<logs>/release_policies/{name}.log",
+    cache: SHARED
+    priority: 1
+    conda:
+        ENVIRONMENT
+    params:
+        **parameters("release_policies"),
+    message:
+        "Policies of migration, the dampers {wildcards.name}"
+    script:
+        "../scripts/release_policies.py"

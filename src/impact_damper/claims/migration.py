@@ -121,7 +121,33 @@ def total_cycles(datasets):
         "median": max(float(run.total_time.median()) for run in runs),
         "longest": max(float(run.total_time.max()) for run in runs),
         "damper": max(float(run.damper_time.median()) for run in runs),
-    }
+    } | by_state(datasets, runs[int(np.argmin(within))])
+
+
+def by_state(datasets, case):
+    """Measures of claim 14: success of releases by state, with the damper of a case at its W.
+
+    NaN without the policies of migration for this damper and frequency.
+    """
+    numbers = {"by_state": np.nan, "by_state_cycles": np.nan, "through": np.nan}
+    damper, frequency = damper_of(case), extract.parameter(case, "frequency")
+    for data in datasets.get("release_policies", {}).values():
+        same = [
+            index
+            for index in range(data.sizes["case"])
+            if float(data.case_mass_ratio[index]) == damper.mass_ratio
+            and float(data.case_clearance[index]) == damper.clearance
+            and float(data.case_restitution[index]) == damper.restitution
+        ]
+        if oscillator_of(data) == oscillator_of(case) and same and frequency in data.frequency:
+            here = data.isel(case=same[0]).sel(frequency=frequency, bound="share")
+            one = here.sel(policy="state")
+            numbers = {
+                "by_state": float(one.policy_success),
+                "by_state_cycles": float(one.policy_cycles.sel(quantile=0.5)),
+                "through": float(here.realised_share),
+            }
+    return numbers
 
 
 def early_release(datasets):
@@ -256,6 +282,13 @@ CLAIMS = (
             Measure(
                 "damper", "largest median over the cases of the cycles with the damper on, all runs"
             ),
+            Measure(
+                "by_state",
+                "share of runs at the worst W that arrive within 350 cycles if the damper is let go "
+                "of as soon as the state lies in the basin of the goal",
+            ),
+            Measure("by_state_cycles", "median number of cycles of these runs"),
+            Measure("through", "share of states before settling at the worst W in this basin"),
         ),
         evidence=total_cycles,
     ),

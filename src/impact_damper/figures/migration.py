@@ -17,9 +17,12 @@ CAPTION = """
 Displacement of the primary mass against time, (a) in a whole run and (b) around its last release,
 when the damper is switched off. The damper is on where the background is shaded. The run drawn is
 the first one that arrives on the non-resonance branch with the median number of switchings, or the
-first of all runs if none arrives.
+first of all runs if none arrives. A run of more than 100 forcing periods is drawn by its envelope,
+least and largest displacement in each period. The scale of (b) is that of the motion in it.
 """
 
+# Forcing periods of a run from which on the envelope is drawn.
+LONG = 100
 AROUND = -15, 25  # forcing periods drawn before and after the last release
 
 
@@ -55,7 +58,19 @@ def draw_migration(*, migration):
 
 def draw_run(axes, run, span, width):
     """Draw a run of the controller within a span of time, with its switchings."""
-    axes.plot(run["time"], run["displacement"], color=BLACK, linewidth=width)
+    time, displacement = run["time"].values, run["displacement"].values
+    inside = (time >= span[0]) & (time <= span[1])
+    time, displacement = time[inside], displacement[inside]
+    period = 2 * np.pi / parameters_of(run)["frequency"]
+    if span[1] - span[0] > LONG * period:
+        each = max(1, round(period / (time[1] - time[0])))
+        rows = displacement[: len(displacement) // each * each].reshape(-1, each)
+        lows, highs = rows.min(axis=1), rows.max(axis=1)
+        axes.fill_between(
+            time[: rows.size : each], lows, highs, color=BLACK, linewidth=0, alpha=0.6
+        )
+    else:
+        axes.plot(time, displacement, color=BLACK, linewidth=width)
     on, off = (run[name].values[np.isfinite(run[name])] for name in ("on_time", "off_time"))
     for begin, end in zip(on, off, strict=True):
         axes.axvspan(begin, end, **ROLES["damper_on"])

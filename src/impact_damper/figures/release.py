@@ -10,7 +10,8 @@ CAPTION = """
 States of the primary mass at which the damper is switched off, marked by the motion on which the
 free oscillator then settles: first the releases before the motion with the damper has settled, then
 the releases from each settled motion, evenly spaced over its period. The paper draws one motion
-with releases to the subharmonic and to the non-resonance motion. Where the free oscillator has no
+with releases to the subharmonic and to the non-resonance motion. The panels have scales of their
+own: the quiet motion is far smaller than the others. Where the free oscillator has no
 one-third subharmonic (see table `subharmonic`), no release can lead to it.
 """
 
@@ -44,13 +45,18 @@ def draw_release(*, migration):
     matplotlib.figure.Figure
     """
     sources = [(runs, row) for runs in migration for row in range(runs.sizes["damped"])]
-    rows = -(-len(sources) // 2)
+    columns = 3 if len(sources) % 3 == 0 else 2
+    rows = -(-len(sources) // columns)
     drawn = figure("double", 0.6 + 2.6 * rows)
-    panels = drawn.subplots(rows, 2, squeeze=False).ravel()
+    panels = drawn.subplots(rows, columns, squeeze=False).ravel()
     for axes, (runs, row) in zip(panels, sources, strict=False):
         draw_releases(axes, runs.isel(damped=row))
     for axes in panels[len(sources) :]:
         axes.remove()
+    # three words in a row would overlap
+    for axes in panels[1::3] if columns == 3 else panels[: len(sources)]:
+        axes.set_xlabel(axis_label(migration[0]["release_displacement"]))
+    drawn.supylabel(axis_label(migration[0]["release_velocity"]), fontsize="medium")
     letter_panels(panels[: len(sources)])
     legend(drawn, 3)
     return drawn
@@ -72,8 +78,4 @@ def draw_releases(axes, releases):
         for kind, words in MOTIONS.items()
         if releases["damped_kind"] == flag("damped_kind", kind)
     )
-    axes.set(
-        title=words,
-        xlabel=axis_label(releases["release_displacement"]),
-        ylabel=axis_label(releases["release_velocity"]),
-    )
+    axes.set_title(words)

@@ -85,6 +85,49 @@ def release_scan(datasets) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def release_policies(datasets) -> pd.DataFrame:
+    """Success, cycles and cost of each policy, and the test of the prediction, for each damper."""
+    rows = []
+    for data in datasets.get("release_policies", {}).values():
+        for case, frequency in np.ndindex(data.sizes["case"], data.sizes["frequency"]):
+            here = data.isel(case=case, frequency=frequency)
+            damper = {
+                symbol: float(here[f"case_{name}"])
+                for symbol, name in (
+                    ("rm", "mass_ratio"),
+                    ("d0", "clearance"),
+                    ("e", "restitution"),
+                )
+            }
+            tested = {
+                f"goal {word}": float(here[f"{word}_share"].sel(bound="share"))
+                for word in ("predicted", "realised")
+            }
+            impulse = {"least impulse without damper": float(here.least_impulse)}
+            for policy in here.policy.values:
+                one = here.sel(policy=policy)
+                rows.append(
+                    damper
+                    | {"W": float(here.frequency), "policy": policy}
+                    | _bounded("within 350 cycles", one.policy_success)
+                    | _bounded("median cycles", one.policy_cycles.sel(quantile=0.5))
+                    | _bounded("95 % of cycles", one.policy_cycles.sel(quantile=0.95))
+                    | _bounded("median damper on", one.policy_damper)
+                    | _bounded("median impacts", one.policy_impacts)
+                    | {"releases": float(one.policy_releases), "hold": float(one.policy_hold)}
+                    | {"phase": float(one.policy_phase)}
+                    | tested
+                    | impulse
+                )
+    return pd.DataFrame(rows)
+
+
+def _bounded(words, value):
+    """Return columns of a share or quantile and the ends of its interval."""
+    names = {"share": words, "lower": f"{words}, at least", "upper": f"{words}, at most"}
+    return {name: float(value.sel(bound=bound)) for bound, name in names.items()}
+
+
 def _ranges(grid, chosen):
     """Return chosen values of a grid as text, where neighbouring values are joined to a range."""
     runs = runs_of_true(np.isin(grid, chosen))

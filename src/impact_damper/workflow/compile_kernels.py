@@ -86,11 +86,14 @@ def warm_up_settling() -> None:
     undecided.run_block(p, np.zeros(4), tangent, np.empty((1, 4)), np.empty(1), stop)
 
     from impact_damper.stages.basins import basins
+    from impact_damper.stages.release_policies import release_policies
     from impact_damper.stages.response import frequency_response
     from impact_damper.system.settling import Settling
 
     settling = Settling(patience=100, limit=100, watched=1)
     basins(OSCILLATOR, None, FREQUENCY, cells=2, settling=settling)
+    numbers = {"trials": 1, "tested": 1, "cells": 4, "settling": settling}
+    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], noisy_frequency=2.0, **numbers)
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
     )

@@ -1,7 +1,14 @@
 """Motions with and without a damper: curves over frequency, single motions, and migration."""
 
-from impact_damper.system.bounds import FARTHEST, FASTEST, PERIODS_RANGE, SCAN_LIFETIME_RANGE
+from impact_damper.system.bounds import (
+    FARTHEST,
+    FASTEST,
+    PERIODS_RANGE,
+    RUNS_RANGE,
+    SCAN_LIFETIME_RANGE,
+)
 from impact_damper.workflow.models.messages import dotted, problem
+from impact_damper.workflow.models.section import increasing
 from impact_damper.workflow.models.system import (
     CLEARANCE,
     CLEARANCE_OR_RULE,
@@ -102,6 +109,28 @@ class Basins(MaybeWithDamper):
     cells: count("states on each axis of the plane", least=2, most=10**4)
 
 
+class PolicyDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON])):
+    """A damper in a list."""
+
+
+class ReleasePolicies(WithOscillator):
+    """Policies of migration compared for several dampers, over frequency."""
+
+    dampers: several(PolicyDamper, "dampers to compare", least=1)
+    frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
+    noisy_frequency: FREQUENCY
+    trials: count("trials of each policy", **RUNS_RANGE)
+    tested: count("releases that test the prediction", **RUNS_RANGE)
+    cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        yield from increasing((*path, "frequencies"), self.frequencies, "frequencies of a curve")
+        if self.noisy_frequency not in self.frequencies:
+            reason = f"must be one of {dotted((*path, 'frequencies'))}"
+            yield problem((*path, "noisy_frequency"), self.noisy_frequency, reason)
+
+
 SECTIONS = {
     "curves": Curve,
     "motion": Motion,
@@ -110,4 +139,5 @@ SECTIONS = {
     "migration": Migration,
     "release_scan": ReleaseScan,
     "basins": Basins,
+    "release_policies": ReleasePolicies,
 }

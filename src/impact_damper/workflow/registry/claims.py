@@ -26,6 +26,7 @@ TABLES = (
             "subharmonic",
             "migration",
             "release_scan",
+            "release_policies",
         ),
         "Every claim of the paper, with its interpretation, the measures that decide it, and the "
         "verdict computed from the data.",

@@ -1,7 +1,14 @@
 """Chapter of the report: migration control."""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
-from impact_damper.workflow.registry.values import grid, search, settling, system
+from impact_damper.workflow.registry.values import (
+    damper,
+    grid,
+    oscillator,
+    search,
+    settling,
+    system,
+)
 
 
 def migration(config, name):
@@ -34,16 +41,29 @@ def basins(config, name):
     }
 
 
+def release_policies(config, name):
+    entry = config["release_policies"][name]
+    keys = ("frequencies", "noisy_frequency", "trials", "tested", "cells")
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        "dampers": [damper(config, each) for each in entry["dampers"]],
+        "policies": {key: entry[key] for key in keys} | {"seed": config["seed"]},
+        "settling": settling(config),
+    }
+
+
 TITLE = "Migration control"
 STAGES = (
     Stage("migration", "migration", migration),
     Stage("release_scan", "release_scan", release_scan),
     Stage("basins", "basins", basins),
+    Stage("release_policies", "release_policies", release_policies),
 )
 KINDS = (
     Kind("migration", ("migration",)),
     Kind("release", ("migration",)),
     Kind("basins", ("basins",), damper=False, most=4),
+    Kind("release_policies", ("release_policies",), most=1),
 )
 TABLES = (
     Table(
@@ -57,5 +77,11 @@ TABLES = (
         "tables.migration",
         ("release_scan",),
         "Frequencies at which releases of each damped motion lead to which free motions.",
+    ),
+    Table(
+        "release_policies",
+        "tables.migration",
+        ("release_policies",),
+        "When to let go of the damper: success and cycles of each policy.",
     ),
 )

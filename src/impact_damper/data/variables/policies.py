@@ -1,0 +1,69 @@
+"""Policies of migration: when to let go of the damper, and how sure that is."""
+
+from impact_damper.data.variables.variable import Variable
+
+CASE = ("case", "frequency")
+
+VARIABLES = {
+    "case": Variable(("case",), "index of a damper"),
+    "policy": Variable(("policy",), "policy by which the damper is switched off"),
+    "quantile": Variable(("quantile",), "quantile over all trials"),
+    "margin": Variable(
+        ("margin",),
+        "least distance inside the goal's basin, over the size of the resonance",
+    ),
+    "noise": Variable(
+        ("noise",), "error of the measured state, over the size of the resonance motion"
+    ),
+    "delay": Variable(("delay",), "delay of the release in forcing periods"),
+    "case_mass_ratio": Variable(("case",), "mass ratio of a damper", "rm"),
+    "case_clearance": Variable(("case",), "clearance of a damper", "d0", quantity="clearance"),
+    "case_restitution": Variable(("case",), "coefficient of restitution of a damper", "e"),
+    "policy_success": Variable(
+        (*CASE, "policy", "bound"), "share of trials that reach the goal within 350 cycles"
+    ),
+    "policy_cycles": Variable(
+        (*CASE, "policy", "quantile", "bound"),
+        "forcing periods until the motion has settled on the goal, infinite without success",
+    ),
+    "policy_damper": Variable(
+        (*CASE, "policy", "bound"), "median of the forcing periods with the damper on"
+    ),
+    "policy_impacts": Variable((*CASE, "policy", "bound"), "median of the impacts"),
+    "policy_releases": Variable((*CASE, "policy"), "mean number of releases"),
+    "policy_hold": Variable(
+        (*CASE, "policy"), "forcing periods with the damper on that the policy chose"
+    ),
+    "policy_phase": Variable(
+        (*CASE, "policy"), "phase Omega T of the release that the policy chose", units="radian"
+    ),
+    "predicted_share": Variable(
+        (*CASE, "bound"), "share of releases that the release set predicts to reach the goal"
+    ),
+    "realised_share": Variable(
+        (*CASE, "bound"), "share of the same releases that do reach the goal"
+    ),
+    "agreeing_share": Variable(
+        (*CASE, "bound"), "share of these releases for which the prediction is right"
+    ),
+    "least_impulse": Variable(
+        ("frequency",),
+        "least change of velocity that leads from the resonance to the goal, at the best phase",
+        quantity="velocity",
+    ),
+    "median_impulse": Variable(
+        ("frequency",),
+        "median over phases of the least change of velocity that leads to the goal",
+        quantity="velocity",
+    ),
+    "noisy_success": Variable(
+        ("noise", "margin", "bound"), "share of trials that reach the goal with a noisy state"
+    ),
+    "delayed_success": Variable(
+        ("delay", "margin", "bound"), "share of trials that reach the goal with a late release"
+    ),
+    "wrong_model_success": Variable(
+        ("margin", "bound"),
+        "share of trials that reach the goal with damping and force wrong by 5 % and 1 %",
+    ),
+}

@@ -1,0 +1,95 @@
+"""Policies of migration compared (figure kind `release_policies`)."""
+
+import numpy as np
+
+from impact_damper.data.datasets import parameters_of
+from impact_damper.figures.style import (
+    CURVES,
+    axis_label,
+    curve,
+    figure,
+    letter_panels,
+    parameter_label,
+    style,
+)
+
+CAPTION = """
+When to let go of the damper. Above, for each damper, the share of trials that reach the goal, the
+non-resonance motion, within 350 cycles, with 95 % intervals, by policy: at a random phase once the
+damped motion has settled (the paper's), after a fixed number of cycles, at a fixed phase, and as
+soon as the state lies in the goal's basin. In the middle the median of the cycles until the goal;
+curves end where less than half of the trials reach it. Below, with the first damper at one
+frequency, what an error of the measured state, over the size of the resonance motion, does to the
+policy by state, against the margin inside the basin.
+"""
+
+WORDS = {
+    "settled": "random phase once settled",
+    "hold": "fixed number of cycles",
+    "phase": "fixed phase",
+    "state": "state in the goal's basin",
+}
+
+
+@style({"axes.titley": None})
+def draw_release_policies(*, release_policies):
+    """Draw success and cycles of each policy, and the effect of noise.
+
+    Parameters
+    ----------
+    release_policies : list of xarray.Dataset
+        One dataset of the stage release_policies.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    (data,) = release_policies
+    number = data.sizes["case"]
+    drawn = figure("double", 7.2)
+    panels = drawn.subplots(3, number, squeeze=False)
+    for case, (above, below) in enumerate(zip(panels[0], panels[1], strict=True)):
+        one = data.isel(case=case)
+        made = {
+            name: float(one[f"case_{name}"]) for name in ("mass_ratio", "clearance", "restitution")
+        }
+        above.set_title(parameter_label(made, *made), fontsize=7.5, loc="right")
+        draw_case(above, below, one)
+    panels[0, 0].set_ylabel("Share within 350 cycles")
+    panels[1, 0].set_ylabel("Median of the cycles")
+    for axes in panels[2, 1:]:
+        axes.remove()
+    draw_noise(panels[2, 0], data)
+    panels[2, 0].set_title(rf"$\Omega = {parameters_of(data)['noisy_frequency']:g}$", loc="right")
+    letter_panels([*panels[0], *panels[1], panels[2, 0]])
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside lower center", ncols=4)
+    return drawn
+
+
+def draw_case(above, below, one):
+    """Draw the policies with one damper: success above, cycles below."""
+    frequency = one["frequency"].values
+    for k, policy in enumerate(one["policy"].values):
+        look = curve(k) | {"marker": CURVES[k][2], "label": WORDS[policy]}
+        success = one["policy_success"].sel(policy=policy).values
+        spread = np.abs(success[:, 1:] - success[:, :1]).T
+        # side by side, so that intervals do not hide each other
+        above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
+        cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5, bound="share").values
+        below.plot(frequency, np.where(np.isfinite(cycles), cycles, np.nan), **look)
+    above.set(ylim=(-0.05, 1.05))
+    below.set(yscale="log", ylim=(5, 400), xlabel=axis_label(one["frequency"]))
+
+
+def draw_noise(axes, data):
+    """Draw success against the margin for each error of the measured state."""
+    for k, noise in enumerate(data["noise"].values[[0, 2, 3, 4, 5]]):
+        rows = data["noisy_success"].sel(noise=noise)
+        label = f"error {noise:.1%}"
+        axes.plot(
+            data["margin"], rows.sel(bound="share"), marker=CURVES[k][2], **curve(k), label=label
+        )
+    axes.set(ylim=(-0.05, 1.05), ylabel="Share within 350 cycles")
+    axes.set(xlabel="Margin over the size of resonance")
+    axes.legend(bbox_to_anchor=(1.02, 1), loc="upper left")

@@ -1,0 +1,114 @@
+"""The release set: states and phases with the damper on whose free motion settles on the goal.
+
+The goal is the non-resonance motion. Its basin in the free oscillator is labelled on a grid of
+states at each of several phases of the forcing; each state of the grid gets its distance from the
+boundary, positive inside. The distance is in units of Z1, with Z1' divided by the frequency W.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt, maximum_filter, minimum_filter
+
+from impact_damper.attraction.labels import label_states
+from impact_damper.kernel.compiling import kernel
+from impact_damper.system.packed import FREQUENCY
+
+# Half width of the grid over the size of the free resonance motion, in Z1 and in Z1' over W.
+WIDTH = 1.6
+# Cells of the fine grid to a cell of the coarse one, along an axis; a power of 2.
+REFINED = 4
+
+
+class ReleaseSet(NamedTuple):
+    """Distances inside the goal's basin on a grid of states at even phases from 0.
+
+    Attributes
+    ----------
+    depth : numpy.ndarray, shape (phases, cells, cells)
+        Distance from the boundary for each phase, Z1' and Z1; negative outside the basin.
+    half : numpy.ndarray, shape (2,)
+        Half widths of the grid in Z1 and Z1'.
+    """
+
+    depth: np.ndarray
+    half: np.ndarray
+
+
+def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> ReleaseSet:
+    """Return the release set of a free oscillator.
+
+    A mirrored state half a period later leads to the mirrored motion, so that half of the phases
+    are labelled only; the goal is its own mirror image.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    attractors : attraction.attractors.Attractors
+    goal : int
+        Index of the goal among them.
+    phases : int
+        Even number of phases.
+    cells : int
+        States on each axis of the coarse grid; the grid is REFINED times finer where states that
+        lead to different motions are neighbours.
+    settling : Settling
+    workers : int
+        Threads.
+    """
+    size = attractors.records["maximum_displacement"][-1]
+    half = WIDTH * size * np.array([1.0, p[FREQUENCY]])
+    depth = []
+    for k in range(phases // 2):
+
+        def reach_goal(states, phase=2 * math.pi * k / phases):
+            arguments = attractors, settling.tolerance, settling.limit, workers
+            return label_states(p, states, phase, *arguments)[0] == goal
+
+        inside = _refined(reach_goal, half, cells)
+        depth.append(signed_distance(inside) * 2 * WIDTH * size / len(inside))
+    return ReleaseSet(np.array(depth + [each[::-1, ::-1] for each in depth]), half)
+
+
+def _refined(inside, half, cells):
+    """Return which cells of a grid lie inside a set, shape (n, n) with n = REFINED cells."""
+    found = inside(_centres(half, cells)).reshape(cells, cells)
+    for _ in range(int(math.log2(REFINED))):
+        # cells with a different neighbour, and their neighbours
+        edge = maximum_filter(found, 3) != minimum_filter(found, 3)
+        fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (found, edge))
+        cells *= 2
+        fine[edge] = inside(_centres(half, cells)[edge.ravel()])
+        found = fine
+    return found
+
+
+def _centres(half, cells):
+    """Return the centres of the cells of a grid, shape (cells^2, 2), Z1 running fastest."""
+    middles = (np.arange(cells) + 0.5) * 2 / cells - 1
+    return np.stack(np.meshgrid(half[0] * middles, half[1] * middles), axis=-1).reshape(-1, 2)
+
+
+def signed_distance(inside):
+    """Return the distance of cells from the boundary of a set in cells, negative outside."""
+    if inside.all() or not inside.any():
+        return np.where(inside, np.inf, -np.inf)
+    # the boundary is midway between cells
+    inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
+    return np.where(inside, inward - 0.5, 0.5 - outward)
+
+
+@kernel
+def depth_of(depth, half, phase, x, v):
+    """Return how far inside the release set a state at a phase of the grid lies.
+
+    The value of the cell that holds the state; minus infinity beyond the grid.
+    """
+    if not (abs(x) <= half[0] and abs(v) <= half[1]):
+        return -math.inf
+    cells = depth.shape[1]
+    column = min(int((x / half[0] + 1.0) * 0.5 * cells), cells - 1)
+    row = min(int((v / half[1] + 1.0) * 0.5 * cells), cells - 1)
+    return depth[phase, row, column]

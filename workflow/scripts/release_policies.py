@@ -1,0 +1,16 @@
+"""Policies of migration: when the damper should be let go of (section 5)."""
+
+from impact_damper.workflow.job import Job
+from impact_damper.stages.release_policies import release_policies
+from impact_damper.system.parameters import Damper
+
+job = Job(snakemake)
+job.save(
+    release_policies(
+        job.oscillator,
+        [Damper(**given) for given in job["dampers"]],
+        **job["policies"],
+        settling=job.settling,
+        **job.running,
+    )
+)
