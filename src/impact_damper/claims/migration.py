@@ -284,8 +284,8 @@ CLAIMS = (
             ),
             Measure(
                 "by_state",
-                "share of runs at the worst W that arrive within 350 cycles if the damper is let go "
-                "of as soon as the state lies in the basin of the goal",
+                "share of runs at the worst W that arrive within 350 cycles if the damper is let "
+                "go of as soon as the state lies in the basin of the goal",
             ),
             Measure("by_state_cycles", "median number of cycles of these runs"),
             Measure("through", "share of states before settling at the worst W in this basin"),

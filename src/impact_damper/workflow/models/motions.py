@@ -23,7 +23,7 @@ from impact_damper.workflow.models.system import (
     keys_of,
     range_of,
 )
-from impact_damper.workflow.models.values import choice, count, number, several
+from impact_damper.workflow.models.values import choice, count, entries, number, several
 from impact_damper.workflow.registry import STAGES
 
 # Stages of an entry of `curves`, and which of them need a damper.
@@ -110,13 +110,13 @@ class Basins(MaybeWithDamper):
 
 
 class PolicyDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON])):
-    """A damper in a list."""
+    """One of the dampers to compare."""
 
 
 class ReleasePolicies(WithOscillator):
     """Policies of migration compared for several dampers, over frequency."""
 
-    dampers: several(PolicyDamper, "dampers to compare", least=1)
+    dampers: entries(PolicyDamper)
     frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
     noisy_frequency: FREQUENCY
     trials: count("trials of each policy", **RUNS_RANGE)

@@ -46,7 +46,7 @@ def release_policies(config, name):
     keys = ("frequencies", "noisy_frequency", "trials", "tested", "cells")
     return {
         "oscillator": oscillator(config, entry["oscillator"]),
-        "dampers": [damper(config, each) for each in entry["dampers"]],
+        "dampers": [damper(config, each) for _, each in sorted(entry["dampers"].items())],
         "policies": {key: entry[key] for key in keys} | {"seed": config["seed"]},
         "settling": settling(config),
     }
