@@ -19,8 +19,8 @@ non-resonance motion, within 350 cycles, with 95 % intervals, by policy: at a ra
 damped motion has settled (the paper's), after a fixed number of cycles, at a fixed phase, and as
 soon as the state lies in the goal's basin. In the middle the median of the cycles until the goal;
 curves end where less than half of the trials reach it. Below, with the first damper at one
-frequency, what an error of the measured state, over the size of the resonance motion, does to the
-policy by state, against the margin inside the basin.
+frequency, what an error of the measured state, over the size of the resonance motion, and a late
+release do to the policy by state, against the margin inside the basin.
 """
 
 WORDS = {
@@ -33,7 +33,7 @@ WORDS = {
 
 @style({"axes.titley": None})
 def draw_release_policies(*, release_policies):
-    """Draw success and cycles of each policy, and the effect of noise.
+    """Draw success and cycles of each policy, and the effect of noise and delay.
 
     Parameters
     ----------
@@ -46,9 +46,12 @@ def draw_release_policies(*, release_policies):
     """
     (data,) = release_policies
     number = data.sizes["case"]
-    drawn = figure("double", 7.2)
-    panels = drawn.subplots(3, number, squeeze=False)
-    for case, (above, below) in enumerate(zip(panels[0], panels[1], strict=True)):
+    drawn = figure("double", 7.0)
+    grid = drawn.add_gridspec(3, 2 * number)
+    panels = np.empty((2, number), object)
+    for row, case in np.ndindex(panels.shape):
+        panels[row, case] = drawn.add_subplot(grid[row, 2 * case : 2 * case + 2])
+    for case, (above, below) in enumerate(panels.T):
         one = data.isel(case=case)
         made = {
             name: float(one[f"case_{name}"]) for name in ("mass_ratio", "clearance", "restitution")
@@ -57,11 +60,14 @@ def draw_release_policies(*, release_policies):
         draw_case(above, below, one)
     panels[0, 0].set_ylabel("Share within 350 cycles")
     panels[1, 0].set_ylabel("Median of the cycles")
-    for axes in panels[2, 1:]:
-        axes.remove()
-    draw_noise(panels[2, 0], data)
-    panels[2, 0].set_title(rf"$\Omega = {parameters_of(data)['noisy_frequency']:g}$", loc="right")
-    letter_panels([*panels[0], *panels[1], panels[2, 0]])
+    noisy, late = drawn.add_subplot(grid[2, :number]), drawn.add_subplot(grid[2, number:])
+    draw_disturbed(noisy, data["noisy_success"], "noise", "error of the state {:.1%}")
+    draw_disturbed(late, data["delayed_success"], "delay", "{:g} of a period late")
+    frequency = parameters_of(data)["noisy_frequency"]
+    for axes in (noisy, late):
+        axes.set_title(rf"$\Omega = {frequency:g}$", loc="right")
+    noisy.set_ylabel("Share within 350 cycles")
+    letter_panels([*panels[0], *panels[1], noisy, late])
     handles, labels = panels[0, 0].get_legend_handles_labels()
     drawn.legend(handles, labels, loc="outside lower center", ncols=4)
     return drawn
@@ -78,18 +84,15 @@ def draw_case(above, below, one):
         above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5, bound="share").values
         below.plot(frequency, np.where(np.isfinite(cycles), cycles, np.nan), **look)
-    above.set(ylim=(-0.05, 1.05))
-    below.set(yscale="log", ylim=(5, 400), xlabel=axis_label(one["frequency"]))
+    ends = frequency[0] - 0.03, frequency[-1] + 0.03
+    above.set(xlim=ends, ylim=(-0.05, 1.05))
+    below.set(yscale="log", xlim=ends, ylim=(5, 400), xlabel=axis_label(one["frequency"]))
 
 
-def draw_noise(axes, data):
-    """Draw success against the margin for each error of the measured state."""
-    for k, noise in enumerate(data["noise"].values[[0, 2, 3, 4, 5]]):
-        rows = data["noisy_success"].sel(noise=noise)
-        label = f"error {noise:.1%}"
-        axes.plot(
-            data["margin"], rows.sel(bound="share"), marker=CURVES[k][2], **curve(k), label=label
-        )
-    axes.set(ylim=(-0.05, 1.05), ylabel="Share within 350 cycles")
-    axes.set(xlabel="Margin over the size of resonance")
-    axes.legend(bbox_to_anchor=(1.02, 1), loc="upper left")
+def draw_disturbed(axes, success, name, words):
+    """Draw success against the margin for each value of a disturbance, five of them at most."""
+    for k, value in enumerate(success[name].values[-len(CURVES) :]):
+        look = curve(k) | {"marker": CURVES[k][2], "label": words.format(value)}
+        axes.plot(success["margin"], success.sel({name: value, "bound": "share"}), **look)
+    axes.set(ylim=(-0.05, 1.05), xlabel="Margin over the size of the resonance motion")
+    axes.legend(loc="lower left")
