@@ -114,8 +114,9 @@ def named(number):
 
 
 def figures(run, folder):
-    """Return the page of all figures of a run with their captions, by chapter."""
-    parts = [f"# All figures\n\nFrom {RUNS[run]}.\n"]
+    """Return the page of all figures of a run with their captions, by name."""
+    common = (ROOT / "workflow/report/workflow.rst").read_text().split("\n\n")[-1]
+    parts = [f"# All figures\n\nFrom {RUNS[run]}.\n", common]
     for path in sorted((ROOT / run / "figures").glob("*.rst")):
         title, _, caption = path.read_text().partition(":")
         parts += [f"## {path.stem.replace('_', ' ')}\n", picture(run, path.stem, folder)]
