@@ -98,7 +98,7 @@ def _reach(path, contacts):
     are the weights, shape (N,), with which values at the points of the path give the value at this
     turn, and the wall. Without such a turn the distance is minus the clearance.
     """
-    steps, sizes, weights = path.turns(1)
+    steps, sizes, weights, _ = path.turns(1)
     at_points = np.zeros((len(path.sides), weights.shape[1]))
     if len(sizes) <= contacts:
         return -path.p[CLEARANCE], at_points.ravel(), 0.0

@@ -12,6 +12,8 @@ from scipy.optimize import brentq
 from impact_damper.orbits.continuation import Point
 from impact_damper.system.packed import FREQUENCY
 
+# Largest tolerance on the place of a bifurcation, as a share of the step.
+FINE = 1e-3
 # Tolerance on the place of a change of contact along the branch, relative for steps above 1.
 PLACE = 1e-12
 # A multiplier is complex if its imaginary part exceeds this.
@@ -47,24 +49,30 @@ def _fold(point):
 
 
 def _symmetry(point):
-    """Return det(root + 1) (`Orbit.root`), zero for a multiplier -1; 1 if not symmetric."""
-    root = point.orbit.root
-    n = point.orbit.active
-    return 1.0 if root is None else np.linalg.det(root[:n, :n] + np.eye(n))
+    """Return the test function of a multiplier -1 of the root; 1 if the orbit is not symmetric."""
+    orbit = point.orbit
+    return 1.0 if orbit.root is None else _product(orbit.cycle_multipliers + 1)
 
 
 def _doubling(point):
-    """Return det(monodromy + 1), zero for a multiplier -1; 1 if symmetric: it cannot double."""
+    """Return the test function of a multiplier -1; 1 if symmetric: such an orbit cannot double."""
     orbit = point.orbit
-    n = orbit.active
-    return 1.0 if orbit.root is not None else np.linalg.det(orbit.monodromy[:n, :n] + np.eye(n))
+    return 1.0 if orbit.root is not None else _product(orbit.cycle_multipliers + 1)
 
 
 def _pairs(point):
     """Return the product of mu_i mu_j - 1 of all pairs, zero for a pair on the unit circle."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = np.triu_indices(len(values), 1)
-    return float(np.prod(values[first] * values[second] - 1).real)
+    return _product(values[first] * values[second] - 1)
+
+
+def _product(values):
+    """Return the product of complex numbers of which those above 1 are divided by their modulus.
+
+    Its sign is that of the product, without overflow.
+    """
+    return float(np.prod(values / np.maximum(1, np.abs(values))).real)
 
 
 # For each kind of bifurcation a function of a point that is zero at the bifurcation, and the
@@ -73,14 +81,59 @@ def _pairs(point):
 # to it.
 TESTS = {
     "fold": (_fold, 1e-7),
-    "symmetry_breaking": (_symmetry, 1e-12),
-    "period_doubling": (_doubling, 1e-12),
-    "neimark_sacker": (_pairs, 1e-12),
+    "symmetry_breaking": (_symmetry, 1e-11),
+    "period_doubling": (_doubling, 1e-11),
+    "neimark_sacker": (_pairs, 1e-11),
 }
 
 
+def bifurcations_between(point_at, start, end, first, last):
+    """Locate all bifurcations between two points of a branch.
+
+    Parameters
+    ----------
+    point_at : callable
+        Function from a place, between `first` and `last`, to the point of the branch there; it
+        raises ArithmeticError where there is none.
+    start, end : Point
+        Points at both places.
+    first, last : float
+        Places, such as distances along the branch.
+
+    Returns
+    -------
+    located : list of (float, Event)
+        Places and events, in order. Two real multipliers whose product passes 1 are no
+        Neimark-Sacker bifurcation and are left out.
+    lost : int
+        Number of events that were not located, since Newton's method failed.
+    """
+    located, lost = [], 0
+    for kind, (test, precision) in TESTS.items():
+        if test(start) * test(end) >= 0:
+            continue
+        try:
+            tolerance = min(precision, FINE * abs(last - first))
+            known = {first: start, last: end}
+
+            def value(place, test=test, known=known):
+                if place not in known:
+                    known[place] = point_at(place)
+                return test(known[place])
+
+            place = brentq(value, first, last, xtol=tolerance)
+            point = known[place]
+        except (ArithmeticError, ValueError):
+            lost += 1
+            continue
+        if kind != "neimark_sacker" or _is_complex_pair(point.orbit.multipliers):
+            sequence = point.orbit.sequence
+            located.append((place, Event(kind, point, sequence, sequence)))
+    return sorted(located, key=lambda pair: abs(pair[0] - first)), lost
+
+
 def events_between(problem, start, end, length):
-    """Locate all events on a step.
+    """Locate all events on a step, as far as the sequence of contacts changes little.
 
     Parameters
     ----------
@@ -93,12 +146,10 @@ def events_between(problem, start, end, length):
     Returns
     -------
     events : list of Event
-        In order along the step. Two real multipliers whose product passes 1 are no
-        Neimark-Sacker bifurcation and are left out.
+        In order along the step.
     lost : int
-        Number of events that were not located, since Newton's method failed.
+        Number of events that were not located.
     """
-    located, lost = [], 0
 
     def point_at(distance):
         point = problem.step(start, distance)
@@ -106,20 +157,7 @@ def events_between(problem, start, end, length):
             raise ArithmeticError
         return point
 
-    for kind, (test, precision) in TESTS.items():
-        if test(start) * test(end) >= 0:
-            continue
-        try:
-            place = brentq(
-                lambda distance, test=test: test(point_at(distance)), 0, length, xtol=precision
-            )
-            point = point_at(place)
-        except (ArithmeticError, ValueError):
-            lost += 1
-            continue
-        if kind != "neimark_sacker" or _is_complex_pair(point.orbit.multipliers):
-            sequence = point.orbit.sequence
-            located.append((place, Event(kind, point, sequence, sequence)))
+    located, lost = bifurcations_between(point_at, start, end, 0, length)
     try:
         located += _changes_of_contact(point_at, start, end, length)
     except ArithmeticError:

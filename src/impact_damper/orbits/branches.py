@@ -6,31 +6,30 @@ from functools import cached_property
 
 import numpy as np
 
-from impact_damper.orbits.bifurcations import Event, events_between
+from impact_damper.orbits.bifurcations import Event, bifurcations_between, events_between
 from impact_damper.orbits.continuation import (
     FIRST_STEP,
     LONGEST_STEP,
+    LONGEST_UNSTABLE_STEP,
     SHORTEST_STEP,
     STRAIGHT,
     Point,
     Problem,
 )
+from impact_damper.orbits.grazing import through_grazing
 from impact_damper.orbits.shooting import Orbit
 
-MOST_POINTS = 2000
+# Points in one direction, after which a branch is left.
+MOST_POINTS = 1000
 # Two orbits at the same parameter are the same if their strobe states differ by less.
 SAME = 1e-5
 # `Branch.holds` compares states only where max |Z1| on the step comes so close to the orbit's.
 NEARBY = 0.02
 # If contacts slower than this disappear, the branch has come to a motion without contacts.
 WEAK = 0.02
-# Distance along the tangent at which a lost branch is examined for a new contact.
-GLANCE = 1e-4
-# A branch is left where the largest multiplier, or the norm of the derivative of the map,
-# exceeds these: the orbit is then one of the countless saddles of a chaotic motion, and rounding
-# spoils the digits that are stored.
-UNSTABLE = 100.0
-AMPLIFYING = 300.0
+# Growth of steps, and the step below which a grazing is looked for within so many steps.
+GROWTH = 1.5
+CLOSE_STEP, REACH = 2e-3, 8.0
 
 
 @dataclass(frozen=True)
@@ -47,8 +46,7 @@ class Branch:
         Events, each with the index of its point.
     ends : tuple of str
         Reason why the branch ends before the first point and after the last: range_ends, closed,
-        symmetry_breaking, period_doubling, grazing, contact_lost, too_unstable, lost or
-        point_limit.
+        symmetry_breaking, period_doubling, contact_lost, lost or point_limit.
     lost : int
         Number of events that could not be located.
     """
@@ -83,7 +81,7 @@ class Branch:
         crossing = (away[:-1] * away[1:] <= 0) & (closeness <= NEARBY + np.abs(np.diff(size)))
         for k in np.flatnonzero(crossing):
             point = self.points[k if abs(away[k]) <= abs(away[k + 1]) else k + 1]
-            found = Problem.of(self.family, point.orbit).at_value(point, value)
+            found = point.problem.at_value(point, value)
             if found is not None and found.orbit.is_same(orbit, SAME):
                 return True
         return False
@@ -119,8 +117,8 @@ def follow_branch(family, orbit, value, span) -> Branch:
         if first is None:
             raise ArithmeticError(f"no orbit of the family at {value:g} close to the one given")
         walks.append(_walk(problem, first, span))
-        if walks[0].ends[1] == "closed":
-            return replace(walks[0], ends=("closed", "closed"))
+        if walks[-1].ends[1] == "closed":
+            return replace(walks[-1], ends=("closed", "closed"))
     down, up = walks
     count = len(down.points) - 1
     events = [(count - k, _reversed(event)) for k, event in reversed(down.events)]
@@ -137,48 +135,79 @@ def _reversed(event):
 def _walk(problem, first, span) -> Branch:
     """Follow a branch from a point along its tangent; the start has the end reason ""."""
     points, events, lost, end = [first], [], 0, ""
+    if not problem.holds_still(first):
+        points[0] = first = problem.recut(first)
     length = FIRST_STEP
     while not end and len(points) < MOST_POINTS:
         point = points[-1]
-        ahead = _next(problem, point, span, length)
-        if ahead is None:
-            length /= 2
-            if length < SHORTEST_STEP:
-                end = _loss(problem, point)
-            continue
-        length = (ahead.x - point.x) @ point.tangent
-        located, missed = events_between(problem, point, ahead, length)
-        lost += missed
-        if _deviation(point.orbit) @ _deviation(ahead.orbit) < 0:
-            end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
-            located, met = _up_to_fold(located, end)
-            lost += not met and not missed
-        for event in located:
-            events.append((len(points), event))
-            points.append(event.point)
-        if end:
-            break
-        points.append(ahead)
-        end = _end_at(problem, point, ahead, first, span, len(points))
+        ahead = _next(point, span, length)
+        changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
+        pieces = []
+        if changes or (ahead is None and length < CLOSE_STEP and problem.damped):
+            pieces = _through_grazing(point, max(length, SHORTEST_STEP * 1e3) * REACH)
+        if not pieces:
+            if ahead is None or (changes and length > CLOSE_STEP):
+                length /= 2
+                if length < SHORTEST_STEP:
+                    end = _loss(point)
+                continue
+            along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
+            pieces = [(point, ahead, *events_between(point.problem, point, ahead, along))]
+        for start, ahead, located, missed in pieces:
+            lost += missed
+            if _deviation(start.orbit) @ _deviation(ahead.orbit) < 0:
+                end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
+                located, met = _up_to_fold(located, end)
+                lost += not met and not missed
+            for event in located:
+                events.append((len(points), event))
+                if event.point is not ahead:
+                    points.append(event.point)
+            if end:
+                break
+            points.append(ahead)
+            end = _end_at(start, ahead, first, span, len(points))
+            if end:
+                break
         if end == "closed":
             points[-1] = first
         elif not end:
-            moved = problem.rephased(ahead)
-            if moved is None:
-                end = "lost"
-            else:
-                problem, points[-1] = moved
-        length = min(1.3 * length, LONGEST_STEP)
+            last, ahead = pieces[-1][:2]
+            coarse = not (problem.symmetric or ahead.orbit.stable)
+            longest = LONGEST_UNSTABLE_STEP if coarse else LONGEST_STEP
+            length = min(GROWTH * ahead.problem.length(ahead.x - last.x), longest)
+            if not ahead.problem.holds_still(ahead):
+                points[-1] = ahead.problem.recut(ahead)
     return Branch(problem.family, points, events, ("", end or "point_limit"), lost)
 
 
-def _end_at(problem, point, ahead, first, span, count):
+def _through_grazing(point, reach):
+    """Return the pieces of a branch through a grazing within reach, [] if there is none.
+
+    Each piece is a point, the next one, the events between, and the number of those not located.
+    """
+    passage = through_grazing(point, reach)
+    if passage is None:
+        return []
+    pieces, at = [], passage.points
+    before, after = point.orbit.sequence, at[-1].orbit.sequence
+    for k, (start, ahead) in enumerate(zip(at, at[1:], strict=False)):
+        places = passage.heights[k], passage.heights[k + 1]
+        located, missed = bifurcations_between(passage.between(k), start, ahead, *places)
+        located = [event for _, event in located]
+        if k + 1 == passage.grazing:
+            located.append(Event(passage.kind, ahead, before, after))
+        pieces.append((start, ahead, located, missed))
+    return pieces
+
+
+def _end_at(point, ahead, first, span, count):
     """Return why a branch ends at the point `ahead`, its `count`-th one, or "" if it goes on."""
-    if ahead.value in span:
+    if ahead.value in span or np.clip(ahead.value, *span) != ahead.value:
         return "range_ends"
-    if count > 3 and _passes(problem, point, ahead, first):
+    if count > 3 and _passes(point, ahead, first):
         return "closed"
-    return "too_unstable" if _is_too_unstable(ahead.orbit) else ""
+    return ""
 
 
 def _deviation(orbit: Orbit):
@@ -205,37 +234,28 @@ def _up_to_fold(events, kind):
     return events, False
 
 
-def _next(problem, point, span, length):
+def _next(point, span, length):
     """Return the next point, at the end of the range if the step would leave it, or None."""
+    problem = point.problem
     ahead = problem.step(point, length)
     if ahead is not None and np.clip(ahead.value, *span) != ahead.value:
         ahead = problem.at_value(point, float(np.clip(ahead.value, *span)))
-    if ahead is None or ahead.tangent @ point.tangent < STRAIGHT:
+    if ahead is None or (problem.metric * ahead.tangent) @ point.tangent < STRAIGHT:
         return None
     return ahead
 
 
-def _loss(problem, last):
-    """Return why a branch ends at a point beyond which Newton's method finds no other.
-
-    At a grazing contact the branch turns so sharply that it is not followed further.
-    """
+def _loss(last):
+    """Return why a branch ends at a point beyond which Newton's method finds no other."""
     orbit = last.orbit
     if orbit.touching and np.max(np.abs(orbit.contacts[:, 3])) < WEAK:
         return "contact_lost"
-    ahead, _ = problem.shoot(last.x + GLANCE * last.tangent)
-    return "grazing" if ahead.sequence != orbit.sequence else "lost"
+    return "lost"
 
 
-def _is_too_unstable(orbit):
-    """Return whether an orbit amplifies rounding so much that stored digits would be wrong."""
-    matrix = orbit.monodromy if orbit.root is None else orbit.root
-    return abs(orbit.multipliers[0]) > UNSTABLE or np.linalg.norm(matrix, 2) > AMPLIFYING
-
-
-def _passes(problem, point, ahead, first):
+def _passes(point, ahead, first):
     """Return whether the first point of a branch lies on the step between two others."""
     if (point.value - first.value) * (ahead.value - first.value) > 0:
         return False
-    again = problem.at_value(point, first.value)
+    again = point.problem.at_value(point, first.value)
     return again is not None and first.orbit.is_same(again.orbit, SAME)

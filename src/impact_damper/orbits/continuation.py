@@ -1,9 +1,11 @@
 """Pseudo-arclength continuation of periodic orbits in one parameter.
 
-The unknowns are the state of an orbit, at a phase of the forcing at which it is in flight, and the
-parameter. A step goes along the tangent of the branch and is corrected by Newton's method at right
-angles to the tangent, so that folds are passed. The derivative with respect to the parameter is a
-central difference; its error affects the direction of a step, not the orbit.
+The unknowns are the states at the beginning of an orbit's segments, at phases of the forcing at
+which it is in flight, and the parameter. A mild orbit is one segment (single shooting); one that
+amplifies disturbances strongly is cut into several (`segments`). A step goes along the tangent of
+the branch and is corrected by Newton's method at right angles to the tangent, so that folds are
+passed. The derivative with respect to the parameter is a central difference; its error affects
+the direction of a step, not the orbit.
 """
 
 from collections.abc import Callable
@@ -12,11 +14,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.orbits.shooting import TURN, Orbit, shoot
+from impact_damper.orbits import segments
+from impact_damper.orbits.shooting import AMPLIFYING, TURN, Orbit, orbit_of, shoot
 from impact_damper.system.packed import CLEARANCE
 
 # Change of the parameter in the central difference.
-NUDGE = 1e-5
+NUDGE = 2e-7
 # Newton's method: most corrections, and the largest of them. It has converged once a correction is
 # below CLOSE, or below ROUNDING and no longer halved by the next.
 NEWTON = 16
@@ -27,12 +30,17 @@ SINGULAR = 1e-8
 # An orbit with a smaller asymmetry is symmetric.
 SYMMETRIC = 1e-6
 # Steps, in branch length.
-FIRST_STEP, LONGEST_STEP, SHORTEST_STEP = 0.01, 0.04, 1e-7
+FIRST_STEP, LONGEST_STEP, SHORTEST_STEP = 0.01, 0.04, 1e-9
+LONGEST_UNSTABLE_STEP = 0.12
 FARTHEST_GUESS = 2 * LONGEST_STEP
 # Least cosine between the tangents at both ends of a step.
 STRAIGHT = 0.98
 # A correction by more than this share of the step may have led to another branch.
 ASIDE = 0.2
+# An orbit is cut again if a contact comes closer to a section than this, in radians, or if a
+# segment amplifies by this factor more than when it was cut; and made one segment again if it
+# amplifies less than this share of AMPLIFYING.
+NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
 class Point(NamedTuple):
@@ -43,21 +51,27 @@ class Point(NamedTuple):
     value : float
         The parameter.
     orbit : Orbit
-    x : numpy.ndarray
-        The n unknowns Z1, Z1', with a damper Z2, Z2' too, and the parameter: shape (n + 1,).
-    tangent : numpy.ndarray, shape (n + 1,)
-        Unit tangent of the branch.
+    x : numpy.ndarray, shape (m n + 1,)
+        The unknowns: for each of m segments Z1, Z1', with a damper Z2, Z2' too, then the parameter.
+    tangent : numpy.ndarray, shape (m n + 1,)
+        Unit tangent of the branch, in the metric of the problem.
+    problem : Problem
+        The equations that the unknowns solve.
     """
 
     value: float
     orbit: Orbit
     x: np.ndarray
     tangent: np.ndarray
+    problem: "Problem"
 
 
 @dataclass(frozen=True)
 class Problem:
     """The equations that the orbits of a branch solve.
+
+    The distance of two points is the root of the mean square over the segments of the distance of
+    their states, and of the square of the difference of the parameter.
 
     Attributes
     ----------
@@ -65,8 +79,8 @@ class Problem:
         Maps the parameter to packed parameters.
     periods : int
         Period of the orbits in forcing periods.
-    phase : float
-        Phase W T at which their states are given, radian.
+    phases : numpy.ndarray, shape (m + 1,)
+        Phases W T at which the segments begin, and at which the last one ends, radian.
     loose : numpy.ndarray, shape (2,)
         Z2 - Z1 and Z2' - Z1'. Without a damper they have no effect and are kept constant.
     damped : bool
@@ -74,45 +88,100 @@ class Problem:
     symmetric : bool
         Whether orbits are found as symmetric ones, by the map over half the period. This map is
         regular where an orbit loses its symmetry; the map over the period is not.
+    rough : float
+        Largest norm of the derivative of a segment when the orbit was cut into them.
     """
 
     family: Callable[[float], np.ndarray]
     periods: int
-    phase: float
+    phases: np.ndarray
     loose: np.ndarray
     damped: bool
     symmetric: bool
+    rough: float = 0.0
 
     @classmethod
-    def of(cls, family, orbit):
-        """Return the problem that an orbit of a family solves."""
+    def of(cls, family, orbit, *, symmetric=None):
+        """Return the problem that an orbit of a family solves.
+
+        Whether it is a symmetric one is seen from the orbit unless `symmetric` says so.
+        """
+        if symmetric is None:
+            symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
+        cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
+        cutting = orbit.chain is not None
         return cls(
             family,
             orbit.periods,
-            orbit.phase,
+            segments.cut(orbit, cycle) if cutting else orbit.phase + np.array([0.0, cycle]),
             orbit.state[2:] - orbit.state[:2],
             bool(np.isfinite(orbit.p[CLEARANCE])),
-            bool(orbit.record["asymmetry"] < SYMMETRIC),
+            symmetric,
         )
 
+    @property
+    def cycle(self):
+        """Phase over which orbits are integrated, radian."""
+        return self.phases[-1] - self.phases[0]
+
+    @property
+    def metric(self):
+        """Weights of the squares of the unknowns in a distance, shape (m n + 1,)."""
+        m = len(self.phases) - 1
+        return np.append(np.full(m * (4 if self.damped else 2), 1 / m), 1.0)
+
+    def length(self, vector):
+        """Return the length of a difference of unknowns."""
+        return float(np.sqrt(self.metric @ vector**2))
+
+    def unknowns(self, orbit, value):
+        """Return the unknowns of an orbit at a value of the parameter."""
+        size = 4 if self.damped else 2
+        return np.append([orbit.at(phase)[:size] for phase in self.phases[:-1]], value)
+
+    def _states(self, x):
+        """Return the states at the beginning of the segments, shape (m, 4)."""
+        if self.damped:
+            return x[:-1].reshape(-1, 4)
+        return np.concatenate([x[:2], x[:2] + self.loose])[None]
+
     def shoot(self, x):
-        """Return the `Orbit` at the unknowns x, without iteration, and its defect, shape (n,).
+        """Return the `Orbit` at the unknowns x, without iteration, and its defect, shape (m n,).
 
-        The defect is the state after the map less the state before.
+        The defect is the states after each segment less the states that they should be.
         """
-        state = x[:-1] if self.damped else np.concatenate([x[:2], x[:2] + self.loose])
-        p = self.family(x[-1])
-        orbit, end = shoot(p, state, self.periods, self.phase, symmetric=self.symmetric)
-        return orbit, (end - state)[: len(x) - 1]
+        p, states = self.family(x[-1]), self._states(x)
+        if len(states) == 1:
+            phase, symmetric = self.phases[0], self.symmetric
+            orbit, end = shoot(p, states[0], self.periods, phase, symmetric=symmetric)
+            return orbit, (end - states[0])[: len(x) - 1]
+        sign = -1 if self.symmetric else 1
+        orbit = orbit_of(segments.chain_of(p, self.phases, states, sign), self.periods)
+        return orbit, orbit.chain.defects.ravel()
 
-    def rows(self, x, orbit):
-        """Return the derivative of the defect with respect to the unknowns, shape (n, n + 1)."""
-        n = len(x) - 1
-        matrix = orbit.monodromy if orbit.root is None else orbit.root
-        nudge = np.zeros(n + 1)
-        nudge[-1] = NUDGE
-        by_parameter = (self.shoot(x + nudge)[1] - self.shoot(x - nudge)[1]) / (2 * NUDGE)
-        return np.column_stack([matrix[:n, :n] - np.eye(n), by_parameter])
+    def rate(self, value):
+        """Return the derivative of the packed parameters by the parameter, shape (COUNT,)."""
+        ahead, behind = self.family(value + NUDGE), self.family(value - NUDGE)
+        # without a damper the clearance is infinite
+        return np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf) / (
+            2 * NUDGE
+        )
+
+    def rows(self, x, orbit, rate=None):
+        """Return the derivative of the defect by the unknowns, shape (m n, m n + 1).
+
+        `rate` is the one at a parameter nearby, if it is known.
+        """
+        n = 4 if self.damped else 2
+        states = self._states(x)
+        change = NUDGE * (self.rate(x[-1]) if rate is None else rate)
+        ahead, behind = (
+            segments.ends_of(orbit.p + nudge, self.phases, states)[:, :n]
+            for nudge in (change, -change)
+        )
+        by_parameter = (ahead - behind) / (2 * NUDGE)
+        by_parameter[-1] *= -1 if self.symmetric else 1
+        return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), by_parameter.ravel()])
 
     def correct(self, x, border):
         """Return the point that Newton's method reaches at right angles to `border`, or None.
@@ -121,34 +190,35 @@ class Problem:
         last corrections are then rounding errors, which no longer shrink, so convergence is
         judged by the residual.
         """
-        x, last = x.copy(), np.inf
+        x, last, row = x.copy(), np.inf, self.metric * border
+        rate = self.rate(x[-1])
         for _ in range(NEWTON):
             orbit, defect = self.shoot(x)
             try:
-                rows = self.rows(x, orbit)
-                matrix = np.vstack([rows, border])
-                change = np.linalg.lstsq(matrix, -np.append(defect, 0.0), SINGULAR)[0]
+                rows = self.rows(x, orbit, rate)
+                matrix = np.vstack([rows, row])
+                change = _solved(matrix, -np.append(defect, 0.0))
             except (np.linalg.LinAlgError, ValueError):
                 return None
             size = np.max(np.abs(change))
             if not size < LARGEST:
                 return None
             if orbit.converged and (size < CLOSE or last / 2 < size < ROUNDING):
-                return self.point(x, orbit, rows, border)
+                return self.point(x, orbit, rows, row)
             x, last = x + change, size
         return None
 
-    def point(self, x, orbit, rows, border):
-        """Return the point at converged unknowns, its tangent within 90 degrees of `border`."""
-        tangent = np.linalg.lstsq(np.vstack([rows, border]), np.eye(len(x))[-1], SINGULAR)[0]
-        return Point(x[-1], orbit, x, tangent / np.linalg.norm(tangent))
+    def point(self, x, orbit, rows, row):
+        """Return the point at converged unknowns, its tangent with a positive product by `row`."""
+        tangent = _solved(np.vstack([rows, row]), np.eye(len(x))[-1])
+        return Point(x[-1], orbit, x, tangent / self.length(tangent), self)
 
     def step(self, point, length):
         """Return the point a step along the branch from a point, or None."""
         x = point.x + length * point.tangent
         ahead = self.correct(x, point.tangent)
-        aside = ASIDE * abs(length) + ROUNDING
-        return None if ahead is None or np.linalg.norm(ahead.x - x) > aside else ahead
+        aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
+        return None if ahead is None or self.length(ahead.x - x) > aside else ahead
 
     def at_value(self, point, value):
         """Return the point at a value of the parameter close to that of a point, or None.
@@ -163,32 +233,65 @@ class Problem:
         near = self.correct(x, np.eye(len(x))[-1])
         if near is None:
             return None
-        return near._replace(tangent=near.tangent * np.sign(near.tangent @ point.tangent))
+        turned = np.sign((self.metric * near.tangent) @ point.tangent)
+        return near._replace(tangent=near.tangent * turned)
 
     def begin(self, orbit, value, direction):
         """Return the point of an orbit at a parameter value, or None.
 
         Along the tangent the parameter falls (direction -1) or rises (1).
         """
-        size = 4 if self.damped else 2
-        x = np.append(orbit.state[:size], value)
-        return self.correct(x, direction * np.eye(size + 1)[-1])
+        x = self.unknowns(orbit, value)
+        return self.correct(x, direction * np.eye(len(x))[-1])
 
-    def rephased(self, point):
-        """Return problem and point at a phase far from contacts, or None if Newton's method fails.
+    def holds_still(self, point):
+        """Return whether the sections of a point are still good ones."""
+        orbit = point.orbit
+        if not self.damped:
+            return True
+        if len(self.phases) == 2 and self.rough == 0:
+            return orbit.amplification <= AMPLIFYING and orbit.quiet_phase() == orbit.phase
+        norms = np.linalg.norm(orbit.factors, 2, axis=(1, 2))
+        near = min(orbit.margin(phase) for phase in self.phases[:-1])
+        mild = orbit.amplification < MILD * AMPLIFYING
+        return not mild and near > NEAR_SECTION and np.max(norms) < ROUGHER * self.rough
 
-        Both are returned unchanged if the present phase is far enough from all contacts. The
-        direction of the tangent is kept: a point displaced along it is integrated to the new phase.
+    def recut(self, point, between=()):
+        """Return a point with new sections, or the same point if Newton's method fails with them.
+
+        The direction of the tangent is kept: a point displaced along it is integrated to the new
+        sections. With phases `between`, segments are cut as `segments.cut` says.
         """
         orbit = point.orbit
-        phase = orbit.quiet_phase()
-        if phase == orbit.phase:
-            return self, point
-        problem = replace(self, phase=phase % TURN)
-        x = np.append(orbit.at(phase), point.x[-1])
+        phases, rough = segments.cut(orbit, self.cycle, between), 1.0
+        if not between and orbit.amplification <= AMPLIFYING:
+            phases, rough = orbit.quiet_phase() + np.array([0.0, self.cycle]), 0.0
+        problem = replace(self, phases=phases - phases[0] + phases[0] % TURN, rough=rough)
+        x = np.append([orbit.at(phase) for phase in phases[:-1]], point.x[-1])
         nudged = point.x + NUDGE * point.tangent
-        family = self.family(nudged[-1])
-        ahead = replace(orbit, p=family, state=nudged[:-1]).at(phase)
-        border = np.append(ahead, nudged[-1]) - x
-        moved = problem.correct(x, border / np.linalg.norm(border))
-        return None if moved is None else (problem, moved)
+        p, states = self.family(nudged[-1]), self._states(nudged)
+        if orbit.chain is None:
+            displaced = replace(orbit, p=p, state=states[0])
+        else:
+            displaced = replace(orbit.chain, p=p, states=states)
+        ahead = np.append([displaced.at(phase) for phase in phases[:-1]], nudged[-1])
+        border = (ahead - x) / problem.length(ahead - x)
+        moved = problem.correct(x, border)
+        if moved is None:
+            return point
+        norms = np.linalg.norm(moved.orbit.factors, 2, axis=(1, 2))
+        problem = replace(problem, rough=np.max(norms) if rough else 0.0)
+        return moved._replace(problem=problem)
+
+
+def _solved(matrix, right):
+    """Solve linear equations; the smallest singular values are left out if the matrix has some.
+
+    The equations of many segments are solved by elimination, which is faster, unless the result
+    is so large that the matrix must be nearly singular.
+    """
+    if len(right) > 5:
+        solution = np.linalg.solve(matrix, right)
+        if np.max(np.abs(solution)) < np.max(np.abs(right)) / SINGULAR**0.5:
+            return solution
+    return np.linalg.lstsq(matrix, right, SINGULAR)[0]

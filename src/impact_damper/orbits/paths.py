@@ -123,6 +123,8 @@ class Path:
             Z1 or Z2 there.
         weights : numpy.ndarray, shape (n, POINTS)
             Weights of values at the points of the step, for those at the turn.
+        times : numpy.ndarray, shape (n,)
+            Times T of the turns.
         """
         speed = self.states[2 * moving + 1].reshape(-1, POINTS)
         steps, points = np.nonzero(speed[:, :-1] * speed[:, 1:] <= 0)
@@ -135,7 +137,7 @@ class Path:
             slope, curve = (_derivative(series, times, order) for order in (1, 2))
             times = times - np.divide(slope, curve, out=np.zeros_like(slope), where=curve != 0)
         weights = chebyshev.chebvander(2 * times / lengths - 1, POINTS - 1) @ _TO_SERIES
-        return steps, _derivative(series, times, 0), weights
+        return steps, _derivative(series, times, 0), weights, self.begins[steps] + times
 
 
 def _derivative(series, times, order):

@@ -13,20 +13,30 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.single import (
+    CONTACT_ORDER,
+    FLIGHT_ORDER,
+    X,
+    advance,
+    side_of,
+    step,
+    workspace,
+)
 from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
 from impact_damper.system.packed import FREQUENCY
 
 # Multipliers whose moduli differ by more than this factor are separated by orthogonal iteration;
-# the others by eigenvalues of a product. SWEEPS iterations separate them to rounding.
+# the others by eigenvalues of a product. It takes at most SWEEPS iterations, and fewer if bases
+# change by less than SETTLED.
 APART = 30.0
-SWEEPS = 12
+SWEEPS, SETTLED = 14, 1e-15
 # A segment is ended before its derivative exceeds this norm.
 AMPLIFIED = 30.0
 # Least distance of a section from contacts, radian.
-CLEAR = 0.01
+CLEAR = 0.05
 # Largest number of contacts in a segment that are listed.
 CONTACTS = 512
 
@@ -126,8 +136,11 @@ class Chain:
 
     def largest(self):
         """Return the largest |Z1|."""
-        turns = [self.path(k).turns(0)[1] for k in range(len(self.states))]
-        return float(np.max(np.abs(np.concatenate([*turns, self.states[:, 0]]))))
+        times = self.phases / self.p[FREQUENCY]
+        return max(
+            largest_displacement(self.p, state.copy(), *times[k : k + 2], POLISH_TOLERANCE)
+            for k, state in enumerate(self.states)
+        )
 
 
 def _advance(p, state, tangents, begin, end):
@@ -137,23 +150,57 @@ def _advance(p, state, tangents, begin, end):
     return advance(p, state, tangents, side, *times, POLISH_TOLERANCE, workspace())[2]
 
 
+@kernel
+def largest_displacement(p, y, t, end, tolerance):
+    """Return the largest |Z1| of a motion from y, replaced by its last state, between two times."""
+    work, none = workspace(), np.empty((0, 4))
+    side, largest = side_of(p, y), abs(y[0])
+    while t < end:
+        order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
+        length, side = step(p, y, none, side, t, end - t, tolerance, work)
+        largest = records.extremum(work[X:], order, length, largest)
+        t = end if length >= end - t else t + length
+    return largest
+
+
+@kernel
+def flow_all(p, states, tangents, times, tolerance):
+    """Integrate all segments of a chain; return the time in contact.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    states : array, shape (m, 4)
+        States at the beginnings; replaced by those at the ends.
+    tangents : array, shape (m, 0, 4) or (m, 4, 4)
+        Solutions of the variational equations; replaced.
+    times : array, shape (m + 1,)
+    tolerance : float
+        Local error allowed.
+    """
+    work, touching = workspace(), 0.0
+    for k in range(len(states)):
+        side = side_of(p, states[k])
+        begin, end = times[k], times[k + 1]
+        _, _, time = advance(p, states[k], tangents[k], side, begin, end, tolerance, work)
+        touching += time
+    return touching
+
+
 def chain_of(p, phases, states, sign) -> Chain:
     """Integrate all segments of a chain; arguments as its attributes."""
-    ends = np.array(states, float)
-    factors, touching = np.empty((len(ends), 4, 4)), 0.0
-    for k, end in enumerate(ends):
-        tangents = np.eye(4)
-        touching += _advance(p, end, tangents, phases[k], phases[k + 1])
-        factors[k] = tangents.T
+    ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
+    touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)
+    factors = tangents.transpose(0, 2, 1).copy()
     factors[-1] *= sign
     return Chain(p, phases, np.array(states, float), sign, ends, factors, touching)
 
 
 def ends_of(p, phases, states):
     """Return only the ends of the segments of a chain, shape (m, 4)."""
-    ends, none = np.array(states, float), np.empty((0, 4))
-    for k, end in enumerate(ends):
-        _advance(p, end, none, phases[k], phases[k + 1])
+    ends, none = np.array(states, float), np.empty((len(states), 0, 4))
+    flow_all(p, ends, none, phases / p[FREQUENCY], POLISH_TOLERANCE)
     return ends
 
 
@@ -165,6 +212,47 @@ def cyclic(factors):
         matrix[k, :, k] = factors[k]
         matrix[k, :, (k + 1) % m] -= np.eye(n)
     return matrix.reshape(m * n, m * n)
+
+
+@kernel
+def sweep(factors, basis, triangles):
+    """Carry a basis through factors, A_k Q_(k-1) = Q_k R_k, by Gram and Schmidt's method, twice.
+
+    Parameters
+    ----------
+    factors : array, shape (m, n, n)
+    basis : array, shape (n, n)
+        Orthonormal columns; replaced by those after the last factor.
+    triangles : array, shape (m, n, n)
+        Gets the upper triangles R_k.
+    """
+    m, n = factors.shape[:2]
+    moved = np.empty((n, n))
+    for k in range(m):
+        for i in range(n):
+            for j in range(n):
+                moved[i, j] = 0.0
+                triangles[k, i, j] = 0.0
+                for s in range(n):
+                    moved[i, j] += factors[k, i, s] * basis[s, j]
+        for j in range(n):
+            for i in range(2 * j):
+                c, product = i % j, 0.0
+                for s in range(n):
+                    product += moved[s, c] * moved[s, j]
+                triangles[k, c, j] += product
+                for s in range(n):
+                    moved[s, j] -= product * moved[s, c]
+            norm = 0.0
+            for s in range(n):
+                norm += moved[s, j] * moved[s, j]
+            norm = np.sqrt(norm)
+            triangles[k, j, j] = norm
+            for s in range(n):
+                moved[s, j] /= norm
+        for i in range(n):
+            for j in range(n):
+                basis[i, j] = moved[i, j]
 
 
 def multipliers(factors):
@@ -186,17 +274,17 @@ def multipliers(factors):
     m, n = factors.shape[:2]
     if m == 1:
         return np.linalg.eigvals(factors[0]).astype(complex)
-    basis, triangles = np.eye(n), np.empty_like(factors)
+    factors = np.ascontiguousarray(factors)
+    basis, triangles = np.eye(n), np.empty((m, n, n))
     for _ in range(SWEEPS):
-        for k, factor in enumerate(factors):
-            basis, triangles[k] = np.linalg.qr(factor @ basis)
-    # the bases before and after a sweep differ by signs, or within blocks: one sweep more measures
-    first = basis
-    for k, factor in enumerate(factors):
-        basis, triangles[k] = np.linalg.qr(factor @ basis)
-    triangles[-1] = first.T @ basis @ triangles[-1]
-    sizes = np.sum(np.log(np.abs(np.diagonal(triangles, axis1=1, axis2=2)) + 1e-300), axis=0)
-    cuts = [0, *(np.flatnonzero(sizes[:-1] - sizes[1:] > np.log(APART)) + 1), n]
+        first = basis.copy()
+        sweep(factors, basis, triangles)
+        turned = first.T @ basis
+        sizes = np.sum(np.log(np.abs(np.diagonal(triangles, axis1=1, axis2=2)) + 1e-300), axis=0)
+        cuts = [0, *(np.flatnonzero(sizes[:-1] - sizes[1:] > np.log(APART)) + 1), n]
+        if all(np.max(np.abs(turned[cut:, :cut]), initial=0) < SETTLED for cut in cuts):
+            break
+    triangles[-1] = turned @ triangles[-1]
     values = []
     for begin, end in zip(cuts, cuts[1:], strict=False):
         product = np.eye(end - begin)
@@ -211,7 +299,7 @@ def log_determinant(factors):
     return float(np.sum(np.linalg.slogdet(factors)[1]))
 
 
-def cut(orbit, between=()):
+def cut(orbit, cycle, between=()):
     """Return the phases of segments into which an orbit is cut, shape (m + 1,).
 
     Sections lie in the middle of flights. A segment ends at the last section at which its
@@ -220,14 +308,15 @@ def cut(orbit, between=()):
     Parameters
     ----------
     orbit : Orbit
+    cycle : float
+        Phase that the segments cover, radian: the period, or half of it.
     between : sequence of float
         Phases at which the orbit comes near a wall: a flight with one has two sections, before it
         and after it, and segments end at both.
     """
-    cycle = orbit.cycle
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
-    places, forced = _sections(orbit, between)
+    places, forced = _sections(orbit, cycle, between)
     phases, state = [places[0]], orbit.at(places[0])
     product = np.eye(4)
     for here, ahead in zip(places, np.append(places[1:], places[0] + cycle), strict=True):
@@ -242,12 +331,12 @@ def cut(orbit, between=()):
     return np.array([*phases, places[0] + cycle])
 
 
-def _sections(orbit, between):
+def _sections(orbit, cycle, between):
     """Return phases in flight within one cycle, ascending from the longest flight's, (k,).
 
     The second result holds those beside the phases `between`.
     """
-    log, cycle, first = orbit.contacts, orbit.cycle, orbit.phase
+    log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
     found, forced, longest = [], [], (0.0, first)

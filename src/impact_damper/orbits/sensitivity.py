@@ -129,7 +129,7 @@ def _displacement(path, changes):
     changes : array, shape (n, N)
         Changes of Z1 at the points of the path.
     """
-    steps, sizes, weights = path.turns(0)
+    steps, sizes, weights, _ = path.turns(0)
     at_extrema = changes.reshape(len(changes), -1, POINTS)[:, steps]
     slopes = np.sign(sizes)[:, None] * np.einsum("nek,ek->en", at_extrema, weights)
     first = int(np.argmax(np.abs(sizes)))

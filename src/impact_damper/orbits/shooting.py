@@ -29,7 +29,7 @@ FAR = 10.0
 # Residual below which an orbit is known well enough to move its phase.
 NEAR = 1e-6
 # Norm of the derivative of the map above which single shooting loses too many digits.
-AMPLIFYING = 300.0
+AMPLIFYING = 100.0
 # Multiple shooting: an orbit is cut again, at most CUTS times, while a segment amplifies by more
 # than ROUGH times what it should.
 CUTS, ROUGH = 4, 4.0
@@ -137,10 +137,8 @@ class Orbit:
         p = self.p
         contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
         rate = p[DAMPING] * self.periods * TURN / p[FREQUENCY] + contact_damping * self.touching
-        if self.chain is None:
-            return abs(np.linalg.det(self.monodromy) * math.exp(rate) - 1)
         cycles = 1 if self.root is None else 2
-        return abs(math.expm1(cycles * segments.log_determinant(self.chain.factors) + rate))
+        return abs(math.expm1(cycles * segments.log_determinant(self.factors) + rate))
 
     @cached_property
     def contacts(self):
@@ -408,7 +406,7 @@ def polish(orbit):
     """
     maps = orbit.maps
     for _ in range(CUTS):
-        phases = segments.cut(orbit)
+        phases = segments.cut(orbit, orbit.cycle)
         states = np.array([orbit.at(phase) for phase in phases[:-1]])
         orbit, more = _newton_of_chain(orbit, phases, states)
         maps += more

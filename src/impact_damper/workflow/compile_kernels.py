@@ -63,6 +63,13 @@ def warm_up_orbits() -> None:
 
     follow_path(on, np.zeros(4), 0.0, 0.01)
 
+    from impact_damper.orbits import segments
+
+    chain = segments.chain_of(on, np.array([0.0, 0.01, 0.02]), np.zeros((2, 4)), 1)
+    segments.ends_of(on, chain.phases, chain.states)
+    segments.multipliers(chain.factors)
+    chain.largest()
+
     from impact_damper.migration import legs
     from impact_damper.motions import following
 

@@ -1,0 +1,258 @@
+"""Follow a branch through a grazing, where a contact appears, vanishes, or parts in two.
+
+Let h be the height |Z2| - d0 of an extremum of Z2 close to a wall. Beyond h = 0, on the side with
+more contacts, the force of the wall changes the orbit by a term of the order |h|^(3/2), with a
+large factor: the multipliers change with the root of |h|, and the branch turns sharply, often
+within 1e-8 of the parameter. There the branch is continued in h in place of its length. As a
+function of h the orbits are smooth up to the 3/2-power: at a fixed h the equations do not turn.
+Derivatives by the parameter are integrated (`variations`), since differences would reach across
+the grazing.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.orbits.continuation import NEWTON, Point
+from impact_damper.orbits.paths import POINTS
+from impact_damper.orbits.sensitivity import path_of
+from impact_damper.orbits.variations import Variations
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
+
+# Heights from one point to the next grow by RATIO, from LEAST to MOST in modulus.
+RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
+# Heights of the points on the side with fewer contacts.
+BESIDE = 1e-9, 2e-5
+# Newton's method: largest correction, relative error of the height, and its rounding.
+LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
+# Phase by which an extremum may move between two heights, radian.
+MOVED = 0.1
+
+
+class Turn(NamedTuple):
+    """An extremum of Z2.
+
+    Attributes
+    ----------
+    segment : int
+    phase : float
+        W T, radian.
+    outer : bool
+        Whether |Z2| is largest there, in flight or in contact, and not least.
+    height : float
+        |Z2| - d0.
+    gradient : numpy.ndarray, shape (4 m + 1,)
+        Derivative of the height by the unknowns.
+    by_parameter : numpy.ndarray, shape (4,)
+        Derivative of the end of the segment by the parameter.
+    """
+
+    segment: int
+    phase: float
+    outer: bool
+    height: float
+    gradient: np.ndarray
+    by_parameter: np.ndarray
+
+
+def turns_of(problem, x, orbit, segment=None):
+    """Return every `Turn` of an orbit, or of one segment of it."""
+    rate = problem.rate(x[-1])
+    found = []
+    for k in range(len(problem.phases) - 1) if segment is None else [segment]:
+        path = path_of(orbit) if orbit.chain is None else orbit.chain.path(k)
+        steps, sizes, weights, times = path.turns(1)
+        if not len(steps):
+            continue
+        variations = Variations(path)
+        change = variations.changes(np.zeros((4, 1)), rate[:, None])[2, 0]
+        by_parameter = variations.slopes() @ rate
+        if k == len(problem.phases) - 2 and problem.symmetric:
+            by_parameter = -by_parameter
+        for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
+            wall, here = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
+            gradient = np.zeros(len(x))
+            gradient[4 * k : 4 * k + 4] = wall * (path.tangents[2, :, here] @ weight)
+            gradient[-1] = wall * (change[here] @ weight) - rate[CLEARANCE]
+            before = path.times[here] < time
+            speed = wall * path.states[3, here]
+            outer = (speed[before][-1] if before.any() else -speed[~before][0]) > 0
+            height = wall * size - orbit.p[CLEARANCE]
+            phase = orbit.p[FREQUENCY] * time
+            found.append(Turn(k, phase, bool(outer), height, gradient, by_parameter))
+    return found
+
+
+def exact_rows(problem, x, orbit, turn):
+    """Return `Problem.rows` with the integrated derivative by the parameter, for one segment."""
+    rows = problem.rows(x, orbit)
+    rows[4 * turn.segment : 4 * turn.segment + 4, -1] = turn.by_parameter
+    return rows
+
+
+def nearest(turns, turn):
+    """Return the turn of the same kind closest to another in phase, or None."""
+    near = [each for each in turns if abs(each.phase - turn.phase) < MOVED]
+    near = [each for each in near if each.outer == turn.outer] or near
+    return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
+
+
+def at_height(problem, x, turn, height, direction):
+    """Return the point at which an extremum has a height, and its `Turn`, or None.
+
+    Parameters
+    ----------
+    problem : Problem
+    x : array, shape (4 m + 1,)
+        First guess.
+    turn : Turn
+        The extremum at the guess.
+    height : float
+    direction : int
+        1 if the height rises along the tangent of the point, -1 if it falls.
+    """
+    x = x.copy()
+    for _ in range(NEWTON):
+        orbit, defect = problem.shoot(x)
+        turn = nearest(turns_of(problem, x, orbit, turn.segment), turn)
+        if turn is None:
+            return None
+        rows = exact_rows(problem, x, orbit, turn)
+        matrix, last = np.vstack([rows, turn.gradient]), np.eye(len(x))[-1]
+        missing = height - turn.height
+        try:
+            if orbit.converged and abs(missing) < CLOSE * abs(height) + ROUNDING:
+                tangent = direction * np.linalg.solve(matrix, last)
+                tangent /= problem.length(tangent)
+                return Point(x[-1], orbit, x, tangent, problem), turn
+            change = np.linalg.solve(matrix, np.append(-defect, missing))
+        except np.linalg.LinAlgError:
+            return None
+        if not np.max(np.abs(change)) < LARGEST:
+            return None
+        x += change
+    return None
+
+
+class Passage(NamedTuple):
+    """Points of a branch through a grazing.
+
+    Attributes
+    ----------
+    points : list of Point
+        In order along the branch; the first is the one from which the passage began, with other
+        sections.
+    heights : list of float
+        Heights of the extremum at the points.
+    turns : list of Turn
+        The extremum at the points.
+    grazing : int
+        Index of the point closest to the grazing, on the side with more contacts.
+    kind : str
+        "grazing" or "merging".
+    """
+
+    points: list
+    heights: list
+    turns: list
+    grazing: int
+    kind: str
+
+    def between(self, k):
+        """Return a function from a height between points k and k + 1 to the point there."""
+
+        def point_at(height):
+            end = k if abs(height - self.heights[k]) < abs(height - self.heights[k + 1]) else k + 1
+            start, turn = self.points[end], self.turns[end]
+            direction = np.sign(self.heights[k + 1] - self.heights[k])
+            x = guess(start, turn, height)
+            found = at_height(start.problem, x, turn, height, direction)
+            if found is None:
+                raise ArithmeticError
+            return found[0]
+
+        return point_at
+
+
+def guess(point, turn, height):
+    """Return the unknowns, on the tangent of a point, at which an extremum has a height."""
+    return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
+
+
+def next_grazing(point, reach):
+    """Return the extremum that next comes to its wall along the tangent of a point, or None.
+
+    Parameters
+    ----------
+    point : Point
+    reach : float
+        Distance along the tangent within which it does.
+    """
+    candidates = []
+    for turn in turns_of(point.problem, point.x, point.orbit):
+        rate = turn.gradient @ point.tangent
+        if rate and 0 < -turn.height / rate < reach:
+            candidates.append((-turn.height / rate, turn))
+    return min(candidates, key=lambda pair: pair[0], default=(0.0, None))[1]
+
+
+def through_grazing(point, reach):
+    """Follow a branch through the next grazing.
+
+    Parameters
+    ----------
+    point : Point
+        With a damper.
+    reach : float
+        Distance along the tangent within which the extremum is to reach the wall.
+
+    Returns
+    -------
+    Passage or None
+        None if no extremum does, or if Newton's method fails at the grazing.
+    """
+    turn = next_grazing(point, reach)
+    if turn is None:
+        return None
+    point = point.problem.recut(point, between=(turn.phase,))
+    turn = next_grazing(point, 2 * reach)
+    if turn is None:
+        return None
+    sharp = 1 if turn.outer else -1
+    direction = int(np.sign(turn.gradient @ point.tangent))
+    targets = _targets(turn.height, sharp, direction)
+    points, heights, turns = [point], [turn.height], [turn]
+    grazing = None
+    for target in targets:
+        found = at_height(
+            point.problem, guess(points[-1], turns[-1], target), turns[-1], target, direction
+        )
+        if found is None:
+            break
+        points.append(found[0])
+        heights.append(target)
+        turns.append(found[1])
+        if abs(target) == LEAST:
+            grazing = len(points) - 1
+    if grazing is None:
+        return None
+    return Passage(points, heights, turns, grazing, "grazing" if turn.outer else "merging")
+
+
+def _targets(height, sharp, direction):
+    """Return heights from one side of a grazing to the other.
+
+    Parameters
+    ----------
+    height : float
+        Height of the extremum at the beginning.
+    sharp : int
+        Sign of heights on the side with more contacts.
+    direction : int
+        Sign of the change of height.
+    """
+    fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
+    if direction == sharp:
+        return list(sharp * fine)
+    inside = fine[fine < abs(height) / RATIO**0.5]
+    return [*(sharp * inside[::-1]), *(direction * height for height in BESIDE)]

@@ -1,0 +1,103 @@
+"""Bifurcations and grazings of symmetric orbits of period 1, located in 80-bit arithmetic.
+
+Unknowns are the state and the parameter, equations the map over half a period with a change of
+sign, and a test function that is zero at the event. They are solved by Newton's method with
+differences in 80 bits; only the linear systems are solved in double.
+"""
+
+import itertools
+import math
+
+import numpy as np
+
+from impact_damper.system.packed import FREQUENCY
+from references import extended
+
+# Steps of the differences: far below the 1e-10 by which heights differ beside a grazing.
+STEP = 1e-13
+ITERATIONS = 8
+
+
+def _half(p, state, phase):
+    """Return the 80-bit motion over half a period from a phase W T."""
+    frequency = extended.Real(p[FREQUENCY])
+    begin = extended.Real(phase) / frequency
+    return extended.run(p, state, begin, [begin + np.arccos(extended.Real(-1)) / frequency])
+
+
+def _determinant(matrix):
+    """Return the determinant of a 4 x 4 matrix in 80 bits, by Leibniz' formula."""
+    total = extended.Real(0)
+    for order in itertools.permutations(range(4)):
+        swaps = sum(order[i] > order[j] for i in range(4) for j in range(i + 1, 4))
+        total += (-1) ** swaps * np.prod([matrix[i, j] for i, j in enumerate(order)])
+    return total
+
+
+def _pairs(root):
+    """Return the product of r_i r_j - 1 of all pairs of eigenvalues of a 4 x 4 matrix.
+
+    This is the determinant of the second compound matrix less 1, here from its eigenvalues.
+    """
+    values = np.linalg.eigvals(root.astype(float))
+    first, second = np.triu_indices(4, 1)
+    return np.prod(values[first] * values[second] - 1).real
+
+
+def _test(kind, run, wall_phase, p):
+    root = -run.flow
+    if kind == "fold":
+        return _determinant(root - np.eye(4))
+    if kind == "symmetry_breaking":
+        return _determinant(root + np.eye(4))
+    if kind == "neimark_sacker":
+        return _pairs(root)
+    times = run.turnings[:, 0] * p[FREQUENCY]
+    near = np.argmin(np.abs((times - wall_phase + math.pi / 2) % math.pi - math.pi / 2))
+    return run.turnings[near, 2]
+
+
+def located(kind, family, value, state, phase):
+    """Return the parameter at which an event lies, and the error of the orbit there.
+
+    Parameters
+    ----------
+    kind : str
+        As `Event.kind`.
+    family : callable
+        Maps the parameter to packed parameters.
+    value, state, phase
+        Of the orbit close to the event: parameter, state (4,), phase W T.
+
+    Returns
+    -------
+    value : float
+    residual : float
+        Of the map, in 80 bits.
+    """
+    first = _half(family(value), state, phase)
+    wall_phase = None
+    if kind in ("grazing", "merging"):
+        k = int(np.argmin(np.abs(first.turnings[:-1, 2])))
+        wall_phase = float(first.turnings[k, 0] * family(value)[FREQUENCY])
+
+    def equations(x):
+        p = family(float(x[4]))
+        run = _half(p, x[:4], phase)
+        return np.append(-run.states[-1] - x[:4], _test(kind, run, wall_phase, p))
+
+    x = np.append(np.array(state, extended.Real), extended.Real(value))
+    for _ in range(ITERATIONS):
+        here = equations(x)
+        slopes = np.empty((5, 5))
+        for k in range(5):
+            nudged = x.copy()
+            # the parameter is a double: the step is what its rounding leaves
+            nudged[k] = float(x[k]) + STEP * (1 + abs(float(x[k]))) if k == 4 else x[k] + STEP
+            slopes[:, k] = ((equations(nudged) - here) / (nudged[k] - x[k])).astype(float)
+        change = np.linalg.solve(slopes, -here.astype(float))
+        x = x + change
+        x[4] = extended.Real(float(x[4]))
+        if np.max(np.abs(change)) < 1e-13:
+            break
+    return float(x[4]), float(np.max(np.abs(equations(x)[:4])))
