@@ -132,10 +132,12 @@ def orbits(**parameters):
         "orbit_branch": np.repeat(np.arange(len(periods)), 2 * count),
         "orbit_stability": np.tile(stable, len(periods)),
         "branch_period": periods,
-        "branch_end": [[flag("branch_end", name) for name in ("range_ends", "too_unstable")]] * 3,
+        "branch_end": [[flag("branch_end", name) for name in ("range_ends", "point_limit")]] * 3,
         "event_kind": [flag("event_kind", "fold"), flag("event_kind", "grazing")],
         "event_value": [2.0, 1.5],
         "event_displacement": [3.0, 2.5],
+        "event_branch": [0, 2],
+        "event_place": [1, 2],
     }
     return dataset(data, {}, DAMPER | parameters, "made up")
 

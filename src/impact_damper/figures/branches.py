@@ -20,28 +20,24 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Largest displacement against forcing frequency of the exact periodic orbits, by pseudo-arclength
-continuation of every branch on which a settled motion was found. Solid: stable, all Floquet
-multipliers below 1 in modulus. Dotted: unstable. Grey and black: without the damper. Markers:
-bifurcations and changes of contact, located to at least eight digits. A branch ends at the limits
-of the frequency range or where it meets a branch of higher symmetry. Crosses: the branch continues,
-but was not followed further, because a new contact begins there and the branch turns too sharply,
-or because the orbit is too unstable (a multiplier above 100, or a disturbance that grows by more
-than 300 in one period): it is one of the many unstable orbits within the chaotic motion. Branches
-without any stable orbit are not searched for. Chaotic motions are not drawn.
+Largest displacement against forcing frequency of the exact periodic orbits, by continuation of
+every branch on which a settled motion was found. Solid: stable; dotted: unstable. Grey and black:
+without the damper. Markers: bifurcations and changes of contact next to stable orbits; smaller
+ones: those between unstable orbits. Crosses: a branch was not followed further.
 """
 
 EVENTS = {
     "fold": ("fold", "o", BLACK),
-    "symmetry_breaking": ("loss of symmetry", "s", BLACK),
-    "period_doubling": ("period doubling", "^", VERMILION),
-    "neimark_sacker": ("Neimark-Sacker", "D", VERMILION),
-    "grazing": ("grazing: a contact is born", "P", SKY),
-    "merging": ("merging of two contacts", "X", SKY),
+    "symmetry_breaking": ("loss of symmetry or doubling", "s", VERMILION),
+    "period_doubling": ("loss of symmetry or doubling", "s", VERMILION),
+    "neimark_sacker": ("Neimark-Sacker", "D", GREEN),
+    "grazing": ("change of contacts", "P", SKY),
+    "merging": ("change of contacts", "P", SKY),
 }
-OPEN_ENDS = ("too_unstable", "grazing", "lost", "point_limit")
+# Sizes of markers of events next to stable orbits, and of others.
+LARGE, SMALL = 3.6, 1.2
+OPEN_ENDS = ("lost", "point_limit")
 OPEN = {
-    "label": "not followed further",
     "marker": "x",
     "color": GREY,
     "markersize": 3.4,
@@ -50,9 +46,8 @@ OPEN = {
 }
 PERIODS = [
     ("period 1", BLUE, lambda period: period == 1),
-    ("period 2", GREEN, lambda period: period == 2),
     ("period 3", PURPLE, lambda period: period == 3),
-    ("longer periods", ORANGE, lambda period: period > 3),
+    ("other periods", ORANGE, lambda period: period not in (1, 3)),
 ]
 
 
@@ -80,8 +75,9 @@ def draw_branches(*, branches):
                 axes.plot(value, size, **role | {"linewidth": 0.7})
         for label, color, chosen in PERIODS:
             for value, size, stable in runs(data, chosen):
-                look = {"label": f"damper, {label}"} if stable else {"linestyle": ":"}
-                axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.8, **look)
+                look = {"label": label, "zorder": 2.2} if stable else {"linestyle": ":"}
+                axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.5, **look)
+        axes.plot([], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
         mark_events(axes, data)
         mark_open_ends(axes, data)
         axes.set(
@@ -156,17 +152,33 @@ def mark_open_ends(axes, data):
 
 
 def mark_events(axes, data):
-    """Mark every located event."""
+    """Mark every located event, with a large marker if an orbit beside it is stable."""
+    beside = _next_to_stable(data)
+    kinds = data["event_kind"].values
     for name, (label, marker, color) in EVENTS.items():
-        chosen = data["event_kind"].values == flag("event_kind", name)
-        if chosen.any():
-            axes.plot(
-                data["event_value"].values[chosen],
-                data["event_displacement"].values[chosen],
-                label=label,
-                marker=marker,
-                color=color,
-                markersize=3.4,
-                linestyle="none",
-                zorder=3,
-            )
+        chosen = kinds == flag("event_kind", name)
+        for large in (True, False):
+            at = chosen & (beside == large)
+            if at.any():
+                axes.plot(
+                    data["event_value"].values[at],
+                    data["event_displacement"].values[at],
+                    label=label if large else None,
+                    marker=marker,
+                    color=color,
+                    markersize=LARGE if large else SMALL,
+                    linestyle="none",
+                    zorder=3 if large else 2.1,
+                )
+
+
+def _next_to_stable(data):
+    """Return for each event whether one of the three orbits at it and beside it is stable."""
+    number, branch = data["orbit_branch"].values, data["event_branch"].values
+    stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
+    place = np.searchsorted(number, branch) + data["event_place"].values
+    found = np.zeros(len(place), bool)
+    for side in (-1, 0, 1):
+        at = np.clip(place + side, 0, len(number) - 1)
+        found |= stable[at] & (number[at] == branch)
+    return found

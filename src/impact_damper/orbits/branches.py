@@ -19,8 +19,8 @@ from impact_damper.orbits.continuation import (
 from impact_damper.orbits.grazing import through_grazing
 from impact_damper.orbits.shooting import Orbit
 
-# Points in one direction, after which a branch is left.
-MOST_POINTS = 1000
+# Most orbits in one direction.
+MOST_POINTS = 10_000
 # Two orbits at the same parameter are the same if their strobe states differ by less.
 SAME = 1e-5
 # `Branch.holds` compares states only where max |Z1| on the step comes so close to the orbit's.
@@ -87,7 +87,7 @@ class Branch:
         return False
 
 
-def follow_branch(family, orbit, value, span) -> Branch:
+def follow_branch(family, orbit, value, span, most=MOST_POINTS) -> Branch:
     """Follow a branch from an orbit in both directions of a parameter.
 
     Parameters
@@ -100,6 +100,8 @@ def follow_branch(family, orbit, value, span) -> Branch:
         The parameter of that orbit.
     span : tuple of float
         Least and greatest value of the parameter.
+    most : int
+        Number of orbits in one direction after which the branch is left ("point_limit").
 
     Returns
     -------
@@ -116,7 +118,7 @@ def follow_branch(family, orbit, value, span) -> Branch:
         first = problem.begin(orbit, value, direction)
         if first is None:
             raise ArithmeticError(f"no orbit of the family at {value:g} close to the one given")
-        walks.append(_walk(problem, first, span))
+        walks.append(_walk(problem, first, span, most))
         if walks[-1].ends[1] == "closed":
             return replace(walks[-1], ends=("closed", "closed"))
     down, up = walks
@@ -132,13 +134,13 @@ def _reversed(event):
     return event._replace(before=event.after, after=event.before)
 
 
-def _walk(problem, first, span) -> Branch:
+def _walk(problem, first, span, most) -> Branch:
     """Follow a branch from a point along its tangent; the start has the end reason ""."""
     points, events, lost, end = [first], [], 0, ""
     if not problem.holds_still(first):
         points[0] = first = problem.recut(first)
     length = FIRST_STEP
-    while not end and len(points) < MOST_POINTS:
+    while not end and len(points) < most:
         point = points[-1]
         ahead = _next(point, span, length)
         changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence

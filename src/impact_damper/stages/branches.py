@@ -27,6 +27,11 @@ from impact_damper.system.parameters import describe
 # A contact that begins with a relative speed below this nearly grazes the wall: the 3/2-power term
 # of the map at grazing matters, and Floquet multipliers are less accurate.
 SLOW = 0.01
+# `complete_branches` leaves a branch after so many orbits in one direction, over the period:
+# branches of long periods wind on through all of the chaotic motion, without a stable orbit.
+MOST_POINTS = 1500
+# Two branches meet where the parameter and max |Z1| of an event of both agree so closely.
+SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
 
 
 def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None):
@@ -209,7 +214,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
             if not orbit.converged or orbit.repeats_sooner():
                 lost += 1
             elif not any(branch.holds(orbit, frequency) for branch in branches):
-                branches.append(follow_branch(family, orbit, frequency, frequencies))
+                most = MOST_POINTS // period
+                branches.append(follow_branch(family, orbit, frequency, frequencies, most))
                 bar.set_postfix(branches=len(branches))
     if progress is not None:
         tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
@@ -308,6 +314,30 @@ def _orbits(pairs):
     }
 
 
+def _met(branches, number, edge):
+    """Return the number of the branch that a branch meets at one edge, -1 if there is none.
+
+    Both have an event of the same kind with the same orbit there.
+    """
+    branch = branches[number]
+    kind = branch.ends[edge]
+    if kind not in ("symmetry_breaking", "period_doubling"):
+        return -1
+    end = branch.points[-1 if edge else 0]
+    periods = end.orbit.periods // (1 if kind == "symmetry_breaking" else 2)
+    size = end.orbit.record["maximum_displacement"]
+    for other, candidate in enumerate(branches):
+        if other == number or candidate.points[0].orbit.periods != periods:
+            continue
+        for _, event in candidate.events:
+            away = event.point.value - end.value
+            if event.kind == kind and abs(away) < SAME_VALUE:
+                found = event.point.orbit.record["maximum_displacement"]
+                if abs(found - size) < SAME_SIZE:
+                    return other
+    return -1
+
+
 def branches_dataset(branches, back, parameters, title):
     """Return a dataset of branches.
 
@@ -339,6 +369,10 @@ def branches_dataset(branches, back, parameters, title):
         "branch_events_lost": np.array([branch.lost for branch in branches], int),
         "branch_end": np.array(
             [[flag("branch_end", end) for end in branch.ends] for branch in branches]
+        ).reshape(-1, 2),
+        "branch_met": np.array(
+            [[_met(branches, number, edge) for edge in (0, 1)] for number in range(len(branches))],
+            int,
         ).reshape(-1, 2),
         "event_branch": np.array([number for number, _, _ in events], int),
         "event_place": np.array([place for _, place, _ in events], int),

@@ -138,7 +138,7 @@ def orbits(datasets) -> pd.DataFrame:
             value = part["followed_value"].values
             stable = part["orbit_stability"].values == flag("orbit_stability", "stable")
             grazing = part["orbit_status"].values == flag("orbit_status", "near_grazing")
-            ends = [extract.meaning("branch_end", end) for end in data["branch_end"].values[branch]]
+            ends = _ends_of(data, branch)
             rows.append(
                 {"data": name}
                 | parameters
@@ -162,6 +162,16 @@ def orbits(datasets) -> pd.DataFrame:
                 }
             )
     return pd.DataFrame(rows)
+
+
+def _ends_of(data, branch):
+    """Return why a branch ends at both edges, and the number of the branch that it meets there."""
+    ends, met = (data[name].values[branch] for name in ("branch_end", "branch_met"))
+    names = [extract.meaning("branch_end", end) for end in ends]
+    return [
+        name if other < 0 else f"{name} of branch {other + 1}"
+        for name, other in zip(names, met, strict=True)
+    ]
 
 
 def _branches(datasets):

@@ -15,11 +15,9 @@ BRANCH_END = {
     "closed": 1,
     "symmetry_breaking": 2,
     "period_doubling": 3,
-    "grazing": 4,
-    "contact_lost": 5,
-    "too_unstable": 6,
-    "lost": 7,
-    "point_limit": 8,
+    "contact_lost": 4,
+    "lost": 5,
+    "point_limit": 6,
 }
 
 VARIABLES = {
@@ -109,6 +107,11 @@ VARIABLES = {
     ),
     "branch_end": Variable(
         ("branch", "edge"), "event or limit that ends a branch", flags=BRANCH_END
+    ),
+    "branch_met": Variable(
+        ("branch", "edge"),
+        "number of the branch at which a branch ends by symmetry breaking or period doubling, -1 "
+        "if it is none of these branches, or if the branch ends otherwise",
     ),
     "seeds": Variable(
         (), "number of motions from which Newton's method looked for an orbit on a branch"

@@ -1,0 +1,78 @@
+"""Branches to their ends: bifurcations and grazings against 80-bit arithmetic, and ends."""
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
+from numpy.testing import assert_allclose
+from references import extended
+from references.extended.bifurcations import located
+
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.stages.branches import complete_branches
+from impact_damper.stages.response import frequency_response
+from impact_damper.system.packed import pack
+
+SPAN = (0.3, 4.0)
+
+
+def family(value):
+    return pack(PAPER, DESIGN, value)
+
+
+@pytest.fixture(scope="module")
+def quiet():
+    """Return the branch of the quiet orbit of figure 5 (a), from W = 0.3 to 4."""
+    return follow_branch(family, find_orbit(family(2.0), polished_orbit("design").state), 2.0, SPAN)
+
+
+def test_branch_ends_at_the_range(quiet):
+    """Through multipliers of 1e7, and from four contacts a period to two."""
+    assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
+    assert {quiet.points[0].value, quiet.points[-1].value} == set(SPAN)
+    assert max(abs(point.orbit.multipliers[0]) for point in quiet.points) > 1e7
+    assert {point.orbit.sequence for point in quiet.points} == {"+-", "++--"}
+
+
+def test_laws_along_the_branch(quiet):
+    for point in quiet.points:
+        assert point.orbit.converged
+        assert point.orbit.liouville_error < 1e-9
+        assert point.orbit.record["asymmetry"] < 1e-9
+
+
+def test_every_event_is_where_80_bit_arithmetic_has_it(quiet):
+    if extended.obstacle():
+        pytest.skip(extended.obstacle())
+    assert len(quiet.events) > 20
+    for _, event in quiet.events:
+        orbit, value = event.point.orbit, event.point.value
+        found, residual = located(event.kind, family, value, orbit.state, orbit.phase)
+        assert residual < 1e-12
+        assert_allclose(value, found, rtol=0, atol=1e-9, err_msg=event.kind)
+
+
+def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
+    """All three lie within 1e-10 of W, where the branch turns from four contacts to two."""
+    kinds = [event.kind for _, event in quiet.events]
+    grazing = kinds.index("grazing")
+    near = [
+        event.kind
+        for _, event in quiet.events
+        if abs(event.point.value - quiet.events[grazing][1].point.value) < 1e-10
+    ]
+    assert {"fold", "symmetry_breaking", "grazing"} <= set(near)
+    event = quiet.events[grazing][1]
+    assert {event.before, event.after} == {"+-", "++--"} and event.point.orbit.least_speed < 1e-5
+
+
+def test_ends_of_all_branches_of_a_damper():
+    """Branches of the inelastic damper end at the range, at another branch, or are closed."""
+    response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
+    branches = complete_branches(PAPER, INELASTIC, (1.1, 1.4), [response])
+    ends = branches["branch_end"].values
+    assert branches.sizes["branch"] >= 2 and np.isin(ends, [0, 1, 2, 3]).all()
+    for branch, edge in np.argwhere(branches["branch_met"].values >= 0):
+        other = int(branches["branch_met"][branch, edge])
+        periods = branches["branch_period"].values[[branch, other]]
+        assert periods[0] == periods[1] * (2 if ends[branch, edge] == 3 else 1)
