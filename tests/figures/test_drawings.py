@@ -167,7 +167,7 @@ DRAWINGS = {
     ),
     "branches": (
         lambda: draw_branches(**DAMPED),
-        ["free_stable", "free_unstable"],
+        ["free_stable"],
     ),
     "inelastic": (
         lambda: draw_response(

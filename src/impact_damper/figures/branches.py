@@ -23,7 +23,8 @@ CAPTION = """
 Largest displacement against forcing frequency of the exact periodic orbits, by continuation of
 every branch on which a settled motion was found. Solid: stable; dotted: unstable. Grey and black:
 without the damper. Markers: bifurcations and changes of contact next to stable orbits; smaller
-ones: those between unstable orbits. Crosses: a branch was not followed further.
+ones: those between unstable orbits. Plus signs: a contact appears, or two contacts merge. Crosses:
+a branch was not followed further.
 """
 
 EVENTS = {
@@ -31,8 +32,8 @@ EVENTS = {
     "symmetry_breaking": ("loss of symmetry or doubling", "s", VERMILION),
     "period_doubling": ("loss of symmetry or doubling", "s", VERMILION),
     "neimark_sacker": ("Neimark-Sacker", "D", GREEN),
-    "grazing": ("change of contacts", "P", SKY),
-    "merging": ("change of contacts", "P", SKY),
+    "grazing": (None, "P", SKY),
+    "merging": (None, "P", SKY),
 }
 # Sizes of markers of events next to stable orbits, and of others.
 LARGE, SMALL = 3.6, 1.2
@@ -72,7 +73,8 @@ def draw_branches(*, branches):
         for each in free:
             for value, size, stable in runs(each, lambda period: True):
                 role = ROLES["free_stable" if stable else "free_unstable"]
-                axes.plot(value, size, **role | {"linewidth": 0.7})
+                look = {} if stable else {"linestyle": ":", "label": None}
+                axes.plot(value, size, **role | {"linewidth": 0.7} | look)
         for label, color, chosen in PERIODS:
             for value, size, stable in runs(data, chosen):
                 look = {"label": label, "zorder": 2.2} if stable else {"linestyle": ":"}

@@ -30,6 +30,8 @@ WEAK = 0.02
 # Growth of steps, and the step below which a grazing is looked for within so many steps.
 GROWTH = 1.5
 CLOSE_STEP, REACH = 2e-3, 8.0
+# A step that meets another branch is halved down to this until the place is seen.
+CLEAR_STEP = 1e-4
 
 
 @dataclass(frozen=True)
@@ -155,6 +157,9 @@ def _walk(problem, first, span, most) -> Branch:
                 continue
             along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
             pieces = [(point, ahead, *events_between(point.problem, point, ahead, along))]
+            if length > CLEAR_STEP and _passes_unseen(*pieces[0][:3]):
+                length /= 2
+                continue
         for start, ahead, located, missed in pieces:
             lost += missed
             if _deviation(start.orbit) @ _deviation(ahead.orbit) < 0:
@@ -181,6 +186,15 @@ def _walk(problem, first, span, most) -> Branch:
             if not ahead.problem.holds_still(ahead):
                 points[-1] = ahead.problem.recut(ahead)
     return Branch(problem.family, points, events, ("", end or "point_limit"), lost)
+
+
+def _passes_unseen(point, ahead, located):
+    """Return whether a step passes an orbit of more symmetry without the fold that belongs there.
+
+    The step has then led from one branch to the other.
+    """
+    folds = any(event.kind == "fold" for event in located)
+    return not folds and _deviation(point.orbit) @ _deviation(ahead.orbit) < 0
 
 
 def _through_grazing(point, reach):
