@@ -5,6 +5,7 @@ import time
 from pathlib import Path
 
 from benchmarks import (
+    basins,
     chart,
     costs,
     design,
@@ -85,9 +86,10 @@ def time_designs(write, amount):
 
 
 def settle(write, amount):
-    """Starts settled a second."""
+    """Starts settled a second, and states of a basin labelled a second."""
     with one_core():
         write("settled", settled.table(amount["settled"], amount["few"]))
+        write("basins", basins.table(50 * amount["settled"], amount["few"]))
 
 
 PARTS = {
