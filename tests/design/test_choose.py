@@ -84,6 +84,18 @@ def test_a_narrow_quiet_range_needs_a_closer_tolerance():
     assert comparison.choose(0.05).kind == "robust"
 
 
+def test_gaps_left_out_are_not_chosen_again():
+    shares = np.full((9, 2), 0.5)
+    shares[[1, 5, 6]] = 1
+    comparison = table(np.ones((9, 2)), shares)
+    gaps = comparison.gaps
+    assert gaps[5] <= comparison.choose(0.2).gap <= gaps[6]
+    fewer = comparison.without(gaps[5], gaps[6])
+    assert list(fewer.gaps) == [*gaps[:5], *gaps[7:]]
+    assert fewer.choose(0.2) == (pytest.approx(gaps[1], rel=1e-3), "needs_tolerance")
+    assert fewer.without(gaps[1], gaps[1]).choose(0.2).kind == "least_worst"
+
+
 def test_one_loud_frequency_makes_a_gap_loud():
     shares = np.ones((4, 2))
     shares[2, 1] = 0.98  # its interval lies below the share

@@ -8,8 +8,8 @@ from scipy.optimize import minimize_scalar
 from scipy.stats import binomtest
 
 import impact_damper as idm
-from impact_damper.design.choose import compare
 from impact_damper.design.cliff import find_edges
+from impact_damper.design.compare import compare
 from impact_damper.design.outcomes import Case, are_quiet, run
 from impact_damper.design.screen import screen
 from impact_damper.design.task import Task

@@ -1,30 +1,10 @@
-"""The gap that is best in the worst case: over the band, the starts, and a deviation of the gap.
-
-Gaps are first compared coarsely, with few starts at some of the frequencies. The candidates, around
-the best of these, are then run from all starts at all frequencies; a candidate that fails in the
-first starts is not run from the others.
-"""
+"""The gap that is best in the worst case: over the band, the starts, and a deviation of the gap."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.shares import failures_allowed
-from impact_damper.design.outcomes import Case, draw_starts, run, run_starts, summarise
-
-# Coarse comparison: most gaps (fewer with few candidates), number of frequencies and of starts.
-COARSE_GAPS, COARSE_FREQUENCIES, COARSE_STARTS = 28, 9, 12
-# Starts after which a gap is given up if it can no longer be quiet.
-TRIAL = 24
-# The candidates reach beyond the tolerated deviation from the best gap of the coarse comparison by
-# this factor.
-BEYOND = 1.15
-# Largest displacement of a quiet motion, divided by the worst one at the best gap of the coarse
-# comparison. It leaves room for gaps within a tolerance, at which the quiet motion is larger.
-ABOVE = 2.5
-# Least share of quiet starts at a candidate beside which further ones are compared.
-PROMISING = 0.5
 # Displacement (mm) that stands for a motion that escapes; relative difference of displacements, and
 # difference of shares, that are alike.
 HUGE = 1e6
@@ -43,8 +23,9 @@ class Choice(NamedTuple):
     kind : str
         "robust" if all gaps within the tolerance are quiet, for the one of these gaps whose worst
         displacement within the tolerance is least; "needs_tolerance" if only ranges narrower than
-        the tolerance are quiet, for the middle of the widest; "least_worst" if no gap is quiet, for
-        the gap at which, within the tolerance, most starts end quiet over the band.
+        the tolerance are quiet, for the middle of the widest; "least_worst" if no gap is quiet, or
+        none that can be held, for the gap at which, within the tolerance, most starts end quiet
+        over the band.
     """
 
     gap: float
@@ -118,6 +99,12 @@ class Comparison(NamedTuple):
         allowed = covered if covered.any() else ~covered
         fewest = allowed & (loud <= loud[allowed].min() + ALIKE)
         return Choice(_middle(nominal, np.where(fewest, sizes, np.inf)), "least_worst")
+
+    def without(self, low, high) -> "Comparison":
+        """Return the comparison without the gaps from one to another (mm)."""
+        kept = (self.gaps < low) | (self.gaps > high)
+        numbers = {name: values[kept] for name, values in self.numbers.items()}
+        return self._replace(gaps=self.gaps[kept], numbers=numbers)
 
     def robust_gaps(self, tolerance) -> np.ndarray:
         """Return the nominal gaps within whose tolerance all gaps are quiet, mm."""
@@ -195,111 +182,3 @@ def runs_of(flags) -> tuple[np.ndarray, np.ndarray]:
     """Return the first and the last index of each run of true flags."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
     return edges[::2], edges[1::2] - 1
-
-
-def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progress=None):
-    """Return the motions at all gaps (mm) and frequencies (Hz).
-
-    A gap that can no longer be quiet after TRIAL starts at each frequency, because at one of them
-    too many starts are not, keeps the numbers of these starts. So the numbers of gaps that are not
-    quiet come from fewer starts, and those of quiet gaps, of which a share is claimed, from all.
-
-    Parameters
-    ----------
-    task : Task
-    gaps, frequencies : array
-    limit : float
-        Largest displacement of a quiet motion, mm.
-    starts : int
-        Random starts at each gap and frequency.
-    stream, workers, progress
-        As in `outcomes.run`, with the settling `Task.hurried`.
-
-    Returns
-    -------
-    Comparison
-    """
-    gaps, frequencies = np.asarray(gaps), np.asarray(frequencies)
-    cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
-    running = {"settling": task.hurried, "workers": workers, "progress": progress}
-    drawn = draw_starts(task, cases, starts, stream, workers=workers)
-    first = run_starts(task, cases, drawn[:, :TRIAL], **running)
-    numbers = summarise(task, first, limit)
-    allowed = max(failures_allowed(task.share, starts), 0)
-    failures = np.rint((1 - numbers["start_quiet_share"]) * numbers["start_count"])
-    hopeful = failures.reshape(len(gaps), -1).max(axis=1) <= allowed
-    if starts > TRIAL and hopeful.any():
-        places = np.flatnonzero(np.repeat(hopeful, len(frequencies)))
-        rest = run_starts(task, [cases[k] for k in places], drawn[places, TRIAL:], **running)
-        complete = summarise(task, np.concatenate([first[places], rest], axis=1), limit)
-        for name, values in complete.items():
-            numbers[name][places] = values
-    return _comparison(task, gaps, frequencies, numbers, limit)
-
-
-def _comparison(task, gaps, frequencies, numbers, limit):
-    """Return a comparison from numbers on cases, those of one gap after those of another."""
-    shape = len(gaps), len(frequencies)
-    folded = {name: values.reshape(*shape, *values.shape[1:]) for name, values in numbers.items()}
-    return Comparison(gaps, frequencies, folded, limit, task.share)
-
-
-def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STARTS, **running):
-    """Return a comparison of gaps over a whole range, with few starts, and set the limit.
-
-    If the task gives no displacement limit, `limit` is lowered to ABOVE times the displacement that
-    no motion exceeds at the best gap.
-
-    Parameters
-    ----------
-    task : Task
-    span : tuple of float
-        Least and greatest gap, mm.
-    limit : float
-        Largest displacement of a quiet motion as far as known, mm.
-    most, starts : int
-        Most gaps, and random starts at each gap and frequency.
-    running
-        `workers` and `progress` of `outcomes.run`.
-
-    Returns
-    -------
-    Comparison
-    """
-    frequencies = task.few(COARSE_FREQUENCIES)
-    gaps = np.geomspace(*span, min(most, 2 * task.candidates + 4))
-    cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
-    records = run(task, cases, starts, "coarse", settling=task.hurried, **running)
-    found = _comparison(task, gaps, frequencies, summarise(task, records, limit), limit)
-    if task.displacement_limit is not None:
-        return found
-    limit = min(limit, ABOVE * float(found.worst.min()))
-    return _comparison(task, gaps, frequencies, summarise(task, records, limit), limit)
-
-
-def candidate_comparison(task, coarse, **running) -> Comparison:
-    """Return a comparison of the candidates from all starts, with the limit of the coarse one.
-
-    They lie around the best gap of the coarse comparison. If none of them is quiet, but most starts
-    are at one of them at all frequencies, a quiet range may lie beside it: further ones are then
-    compared there.
-    """
-    tolerance, limit = task.tolerances.get("gap", 0.0), coarse.limit
-    reach = BEYOND / (1 - tolerance)
-    gaps = coarse.choose(tolerance).gap * np.geomspace(1 / reach, reach, task.candidates)
-    found = compare(task, gaps, task.grid, limit, task.starts, "candidates", **running)
-    least = found.least_share
-    if found.quiet.any() or least.max() < PROMISING:
-        return found
-    k = int(np.argmax(least))
-    near = gaps[max(k - 1, 0)], gaps[min(k + 1, len(gaps) - 1)]
-    # the ends are compared already
-    between = np.setdiff1d(np.geomspace(*near, task.candidates)[1:-1], gaps)
-    stream = "further_candidates"
-    further = compare(task, between, task.grid, limit, task.starts, stream, **running)
-    order = np.argsort(np.concatenate([gaps, between]))
-    numbers = {
-        name: np.concatenate([found.numbers[name], further.numbers[name]])[order]
-        for name in found.numbers
-    }
-    return found._replace(gaps=np.concatenate([gaps, between])[order], numbers=numbers)

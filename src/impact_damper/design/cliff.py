@@ -12,7 +12,9 @@ import numpy as np
 
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.data.shares import escape_rate, wilson
-from impact_damper.design.choose import Choice, compare, middle_gap
+from impact_damper.design.choose import middle_gap
+from impact_damper.design.compare import compare
+from impact_damper.design.deviations import choose_with_tolerances
 from impact_damper.design.outcomes import Case, are_quiet, run
 from impact_damper.orbits.branches import Branch, follow_branch
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
@@ -21,6 +23,9 @@ from impact_damper.system.families import family_of
 
 # Bisections of each edge, and number of frequencies, those of least share, at which it is sought.
 BISECTIONS, CRITICAL = 4, 2
+# Least width of a range of quiet gaps in which a gap can be held, divided by the gap, unless the
+# tolerance given is closer.
+HOLDABLE = 0.01
 # Lives of chaotic motions: gaps, divided by that of the cliff or, at the lower end, the inverse;
 # starts at each; longest run and time before which a motion may still be on its way, in forcing
 # periods; least number of motions that last longer than this time.
@@ -103,23 +108,52 @@ def _bisect(task, comparison, last, beyond, workers):
     return Edge(float(inside), float(outside), flag("cliff_status", "found"), float(critical[0]))
 
 
-def recentre(task, choice, edges, limit, *, workers=1) -> Choice:
-    """Return the choice, moved to the middle of a narrow range of quiet gaps if that is quiet.
+def choose_with_edges(task, comparison, *, progress=None, workers=1):
+    """Return the choice of a gap and the ends of the range of quiet gaps around it.
 
-    The comparison knows such a range by a few gaps only, which may lie close to an end.
+    A range that must be held more closely than the tolerance is measured by its ends. If it is
+    narrower than HOLDABLE, no one can hold it: its gaps are left out, and the choice is made again.
 
     Parameters
     ----------
     task : Task
-    choice : Choice
-    edges : tuple of Edge
-        The lower and the upper end of the range around its gap.
-    limit : float
-        Largest displacement of a quiet motion, mm.
+    comparison : choose.Comparison
+    progress : str, optional
+        Title of a progress bar.
     workers : int
+
+    Returns
+    -------
+    Choice
+    edges : tuple of Edge
+        The lower and the upper end.
     """
-    if choice.kind != "needs_tolerance":
-        return choice
+    tolerance = task.tolerances.get("gap", 0.0)
+    while True:
+        choice = comparison.choose(tolerance)
+        choice = choose_with_tolerances(
+            task, comparison, choice, progress=progress, workers=workers
+        )
+        edges = find_edges(task, comparison, choice.gap, workers=workers)
+        if choice.kind != "needs_tolerance":
+            return choice, edges
+        if can_be_held(edges, tolerance):
+            return _recentred(task, choice, edges, comparison.limit, workers), edges
+        low, high = (edge.gap for edge in edges)
+        comparison = comparison.without(low, high)
+
+
+def can_be_held(edges, tolerance) -> bool:
+    """Return whether a gap can be held between two edges, when it deviates by a tolerance."""
+    low, high = (edge.gap for edge in edges)
+    return high - low >= min(HOLDABLE, 2 * tolerance) * np.sqrt(low * high)
+
+
+def _recentred(task, choice, edges, limit, workers):
+    """Return the choice, moved to the middle of a narrow range of quiet gaps if that is quiet.
+
+    The comparison knows such a range by a few gaps only, which may lie close to an end.
+    """
     gap = middle_gap(*(edge.gap for edge in edges))
     found = compare(task, [gap], task.grid, limit, task.starts, "middle", workers=workers)
     return choice._replace(gap=gap) if found.quiet[0] else choice

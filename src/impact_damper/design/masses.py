@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.design.choose import coarse_comparison, compare
+from impact_damper.design.compare import coarse_comparison, compare
 from impact_damper.design.outcomes import Case, run
 from impact_damper.design.screen import gap_span
 from impact_damper.motions.strobe_map import strobe_time

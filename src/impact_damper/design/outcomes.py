@@ -123,6 +123,11 @@ def are_quiet(sizes, outcomes, limit) -> np.ndarray:
     return np.where(np.isin(outcomes, LASTING), 1.0, LATER) * sizes <= limit
 
 
+def quiet_motions(task, records, limit) -> np.ndarray:
+    """Return which of several motions are quiet, from their records; the limit is in mm."""
+    return are_quiet(task.millimetres(records["maximum_displacement"]), records["outcome"], limit)
+
+
 def summarise(task, records, limit) -> dict:
     """Return numbers on the motions of each case, keyed by registered name.
 
@@ -144,7 +149,7 @@ def summarise(task, records, limit) -> dict:
     """
     size = task.millimetres(records["maximum_displacement"])
     count = size.shape[1]
-    quiet = are_quiet(size, records["outcome"], limit)
+    quiet = quiet_motions(task, records, limit)
     times = np.where(quiet & is_settled(records), records["periods_run"], np.nan)
     known = np.isfinite(times).any(axis=1)
     median, late = np.full((2, len(times)), np.nan)

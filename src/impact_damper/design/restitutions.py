@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from impact_damper.design.choose import coarse_comparison, largest_within
+from impact_damper.design.choose import largest_within
+from impact_damper.design.compare import coarse_comparison
 from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.labelled import restitutions_dataset
 from impact_damper.design.screen import gap_span

@@ -217,7 +217,8 @@ class Task:
     def hurried(self) -> Settling:
         """Settling for comparisons of many gaps: shorter runs, a few decay times of the machine.
 
-        A share after fewer periods is smaller, because slow motions are not yet quiet.
+        A share after fewer periods is smaller, because slow motions are not yet quiet: those of the
+        candidates are run on (`compare.run_until_sure`).
         """
         # forcing periods in which a free vibration decays by the factor e
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping

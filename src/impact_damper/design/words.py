@@ -3,7 +3,7 @@
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.design.cliff import LEAD, LONGEST
+from impact_damper.design.cliff import HOLDABLE, LEAD, LONGEST
 from impact_damper.design.restitutions import best_of
 
 SUMMARY = {
@@ -21,8 +21,9 @@ SUMMARY = {
         "the damper. {worst}"
     ),
     "least_worst": (
-        "No gap is quiet over the whole band. The gap of {gap:.3g} mm is the least bad: {worst}, "
-        "instead of {bare:.3g} mm without the damper. Do not build this damper for this band."
+        "No range of gaps that one can hold (at least {holdable} of the gap) is quiet over the "
+        "whole band. The gap of {gap:.3g} mm is the least bad: {worst}, instead of {bare:.3g} mm "
+        "without the damper. Do not build this damper for this band."
     ),
 }
 
@@ -48,6 +49,7 @@ def conclusion(task, kind, data) -> list[str]:
         "tolerance": _percent(tolerance),
         "edge_low": edges[0],
         "edge_high": edges[1],
+        "holdable": _percent(HOLDABLE),
         "share": _percent(task.share),
         "limit": float(data["displacement_limit"]),
         "bare": float(data["balance_displacement"].max()),

@@ -26,9 +26,10 @@ MEANING = (
     "{share}."
 )
 TIME = (
-    "A share depends on how long one waits. Gaps were compared after at most {hurried} forcing "
-    "periods ({seconds}), the other shares after at most {limit}; a motion that is chaotic for "
-    "certain was stopped after {early} and {patience} periods."
+    "A share depends on how long one waits. Comparisons ran motions for at most {hurried} forcing "
+    "periods ({seconds}), and those that were not quiet then, but would make a candidate fail, for "
+    "at most {limit}, as all others; a motion that is chaotic for certain was stopped after "
+    "{early} and {patience} periods."
 )
 DEPENDENCE = (
     "What the quiet orbit at {frequency} depends on: its change if one value grows by 1 %, by "

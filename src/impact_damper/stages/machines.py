@@ -1,8 +1,9 @@
 """Design of an impact damper for a machine: the gap, what it does, how sure that is, what it costs.
 
 The steps follow each other from cheap to costly: a first look by exact orbits (`design.screen`), a
-comparison of gaps from many starts over the band (`design.choose`), the cliff beside the chosen gap
-(`design.cliff`), then motions, deviations, other masses, transients and tuned absorbers.
+comparison of gaps from many starts over the band (`design.compare`), the gap (`design.choose`) and
+the cliff beside it (`design.cliff`), then motions, deviations, other masses, transients and tuned
+absorbers.
 """
 
 import json
@@ -15,7 +16,7 @@ from impact_damper.absorbers.responses import SHARES, absorber_responses
 from impact_damper.absorbers.tuning import den_hartog_absorber
 from impact_damper.data.datasets import SOURCE
 from impact_damper.data.variables import VARIABLES
-from impact_damper.design import choose, cliff, deviations, labelled, operating
+from impact_damper.design import choose, cliff, compare, deviations, labelled, operating
 from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.masses import alternatives, judge
 from impact_damper.design.motions import reached_motions
@@ -219,18 +220,15 @@ class _Design(NamedTuple):
     def comparison(self, first):
         span, limit = first["screened_gap"].values[[0, -1]], float(first["orbit_limit"])
         running = self.running("Gaps, coarsely")
-        coarse = choose.coarse_comparison(self.task, span, limit, **running)
+        coarse = compare.coarse_comparison(self.task, span, limit, **running)
         running = self.running("Candidates")
-        candidates = choose.candidate_comparison(self.task, coarse, **running)
+        candidates = compare.candidate_comparison(self.task, coarse, **running)
         return labelled.comparison_dataset(coarse, candidates)
 
     def cliff(self, comparison):
-        task, limit, workers = self.task, comparison.limit, {"workers": self.workers}
-        choice = comparison.choose(task.tolerances.get("gap", 0.0))
+        task, limit = self.task, comparison.limit
         running = self.running("Tolerances of gaps")
-        choice = deviations.choose_with_tolerances(task, comparison, choice, **running)
-        edges = cliff.find_edges(task, comparison, choice.gap, **workers)
-        choice = cliff.recentre(task, choice, edges, limit, **workers)
+        choice, edges = cliff.choose_with_edges(task, comparison, **running)
         known = [edge for edge in reversed(edges) if np.isfinite(edge.frequency)]
         lives = cliff.find_lives(task, known[0], limit, **self.running("Lives")) if known else None
         return labelled.cliff_dataset(choice, edges, lives)

@@ -1,0 +1,216 @@
+"""Comparisons of gaps: from how many random starts the motions end quiet, over the band.
+
+Gaps are first compared coarsely, with few starts at some of the frequencies. The candidates, around
+the best of these, are then run from all starts at all frequencies; a candidate that fails in the
+first starts is not run from the others. A start counts as not quiet only if its motion is not quiet
+after the full time of the task either, that of the unseen starts.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+
+from impact_damper.data.shares import failures_allowed
+from impact_damper.design.choose import Comparison
+from impact_damper.design.outcomes import (
+    Case,
+    draw_starts,
+    quiet_motions,
+    run,
+    run_starts,
+    summarise,
+)
+from impact_damper.motions.records import MOTION
+
+# Coarse comparison: most gaps (fewer with few candidates), number of frequencies and of starts.
+COARSE_GAPS, COARSE_FREQUENCIES, COARSE_STARTS = 28, 9, 12
+# Starts after which a gap is given up if it can no longer be quiet.
+TRIAL = 24
+# Starts of the second look, at frequencies at which the first one leaves a claim open, in all and
+# divided by those of the first look.
+SECOND = 3
+# The candidates reach beyond the tolerated deviation from the best gap of the coarse comparison by
+# this factor.
+BEYOND = 1.15
+# Largest displacement of a quiet motion, divided by the worst one at the best gap of the coarse
+# comparison. It leaves room for gaps within a tolerance, at which the quiet motion is larger.
+ABOVE = 2.5
+# Least share of quiet starts at a candidate beside which further ones are compared.
+PROMISING = 0.5
+
+
+def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progress=None):
+    """Return the motions at all gaps (mm) and frequencies (Hz).
+
+    The share is claimed in two looks at most: from the starts asked for or, at frequencies at which
+    some of them are not quiet, from SECOND times as many. That one of the two looks claims a share
+    that is not there has a chance below 5 %. A gap is given up as soon as more starts at one of the
+    frequencies are not quiet than the second look allows. So the numbers of gaps that are not quiet
+    come from fewer starts.
+
+    Parameters
+    ----------
+    task : Task
+    gaps, frequencies : array
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    starts : int
+        Random starts of the first look at each gap and frequency. Without a failure too few for a
+        claim, they are all that is run, and a gap is given up at the first that is not quiet.
+    stream, workers, progress
+        As in `outcomes.run`.
+
+    Returns
+    -------
+    Comparison
+    """
+    gaps, frequencies = np.asarray(gaps), np.asarray(frequencies)
+    cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
+    owners = np.repeat(np.arange(len(gaps)), len(frequencies))
+    first_allowed = failures_allowed(task.share, starts)
+    total = SECOND * starts if first_allowed >= 0 else starts
+    allowed = max(failures_allowed(task.share, total), 0)
+    drawn = draw_starts(task, cases, total, stream, workers=workers)
+    records = np.zeros(drawn.shape[:2], MOTION)
+    counts, failures = np.zeros((2, len(cases)), int)
+    places = np.arange(len(cases))
+    running = {"workers": workers, "progress": progress}
+    for begin, end in pairwise(np.unique([0, min(TRIAL, starts), starts, total])):
+        if not len(places):
+            break
+        records[places, begin:end] = run_until_sure(
+            task,
+            [cases[k] for k in places],
+            drawn[places, begin:end],
+            limit,
+            owners[places],
+            allowed - failures[places],
+            **running,
+        )
+        counts[places] = end
+        failures[places] += np.sum(~quiet_motions(task, records[places, begin:end], limit), axis=1)
+        hopeful = ~np.isin(owners, owners[failures > allowed])
+        is_open = failures > first_allowed if end >= starts else hopeful
+        places = np.flatnonzero(hopeful & is_open)
+    return _comparison(task, gaps, frequencies, _numbers(task, records, counts, limit), limit)
+
+
+def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
+    """Return motions that are run as long as the unseen starts if they are not quiet before.
+
+    All motions are run with the settling `Task.hurried`. Those not quiet then are run again with
+    that of the task, in turns, until all have been or so many at one case of an owner remain not
+    quiet that the owner is lost: its other motions stay as they are.
+
+    Parameters
+    ----------
+    task : Task
+    cases : sequence of Case
+    starts : array, shape (cases, count, 4)
+    limit : float
+        Largest displacement of a quiet motion, mm.
+    owners : array of int, shape (cases,)
+        Number of the gap to which a case belongs.
+    allowed : array of int, shape (cases,)
+        Motions that may be not quiet; one more, and the gap of the case is lost.
+    running
+        `workers` and `progress` of `outcomes.run`.
+
+    Returns
+    -------
+    numpy.ndarray of records.MOTION, shape (cases, count)
+    """
+    records = run_starts(task, cases, starts, settling=task.hurried, **running)
+    loud = ~quiet_motions(task, records, limit)
+    turn = (np.cumsum(loud, axis=1) - 1) // (1 + allowed.max())
+    remain = np.zeros(len(cases), int)
+    for number in range(turn.max() + 1):
+        lost = np.isin(owners, owners[remain > allowed])
+        rows, columns = np.nonzero(loud & (turn == number) & ~lost[:, None])
+        if len(rows):
+            begun = starts[rows, columns][:, None]
+            again = run_starts(task, [cases[k] for k in rows], begun, **running)[:, 0]
+            records[rows, columns] = again
+            remain += np.bincount(rows[~quiet_motions(task, again, limit)], minlength=len(cases))
+    return records
+
+
+def _numbers(task, records, counts, limit):
+    """Return the numbers of `summarise` on the first motions of each case, as many as run."""
+    numbers = {}
+    for count in np.unique(counts):
+        places = np.flatnonzero(counts == count)
+        for name, values in summarise(task, records[places, :count], limit).items():
+            whole = numbers.setdefault(
+                name, np.empty((len(counts), *values.shape[1:]), values.dtype)
+            )
+            whole[places] = values
+    return numbers
+
+
+def _comparison(task, gaps, frequencies, numbers, limit):
+    """Return a comparison from numbers on cases, those of one gap after those of another."""
+    shape = len(gaps), len(frequencies)
+    folded = {name: values.reshape(*shape, *values.shape[1:]) for name, values in numbers.items()}
+    return Comparison(gaps, frequencies, folded, limit, task.share)
+
+
+def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STARTS, **running):
+    """Return a comparison of gaps over a whole range, with few starts, and set the limit.
+
+    If the task gives no displacement limit, `limit` is lowered to ABOVE times the displacement that
+    no motion exceeds at the best gap.
+
+    Parameters
+    ----------
+    task : Task
+    span : tuple of float
+        Least and greatest gap, mm.
+    limit : float
+        Largest displacement of a quiet motion as far as known, mm.
+    most, starts : int
+        Most gaps, and random starts at each gap and frequency.
+    running
+        `workers` and `progress` of `outcomes.run`.
+
+    Returns
+    -------
+    Comparison
+    """
+    frequencies = task.few(COARSE_FREQUENCIES)
+    gaps = np.geomspace(*span, min(most, 2 * task.candidates + 4))
+    cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
+    records = run(task, cases, starts, "coarse", settling=task.hurried, **running)
+    found = _comparison(task, gaps, frequencies, summarise(task, records, limit), limit)
+    if task.displacement_limit is not None:
+        return found
+    limit = min(limit, ABOVE * float(found.worst.min()))
+    return _comparison(task, gaps, frequencies, summarise(task, records, limit), limit)
+
+
+def candidate_comparison(task, coarse, **running) -> Comparison:
+    """Return a comparison of the candidates from all starts, with the limit of the coarse one.
+
+    They lie around the best gap of the coarse comparison. If none of them is quiet, but most starts
+    are at one of them at all frequencies, a quiet range may lie beside it: further ones are then
+    compared there.
+    """
+    tolerance, limit = task.tolerances.get("gap", 0.0), coarse.limit
+    reach = BEYOND / (1 - tolerance)
+    gaps = coarse.choose(tolerance).gap * np.geomspace(1 / reach, reach, task.candidates)
+    found = compare(task, gaps, task.grid, limit, task.starts, "candidates", **running)
+    least = found.least_share
+    if found.quiet.any() or least.max() < PROMISING:
+        return found
+    k = int(np.argmax(least))
+    near = gaps[max(k - 1, 0)], gaps[min(k + 1, len(gaps) - 1)]
+    # the ends are compared already
+    between = np.setdiff1d(np.geomspace(*near, task.candidates)[1:-1], gaps)
+    stream = "further_candidates"
+    further = compare(task, between, task.grid, limit, task.starts, stream, **running)
+    order = np.argsort(np.concatenate([gaps, between]))
+    numbers = {
+        name: np.concatenate([found.numbers[name], further.numbers[name]])[order]
+        for name in found.numbers
+    }
+    return found._replace(gaps=np.concatenate([gaps, between])[order], numbers=numbers)

@@ -1,0 +1,69 @@
+"""Ranges of quiet gaps that one cannot hold, with made-up edges."""
+
+import numpy as np
+import pytest
+
+import impact_damper as idm
+from impact_damper.design import cliff
+from impact_damper.design.choose import Comparison
+from impact_damper.design.cliff import HOLDABLE, can_be_held, choose_with_edges
+from impact_damper.design.task import Task
+
+TASK = Task(
+    machine=idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40),
+    mass=0.6,
+    band=(20.3, 20.8),
+    restitution=0.7,
+    contact_stiffness=2e7,
+)
+
+
+def edges(low, high):
+    return tuple(cliff.Edge(gap, np.nan, 0, 20.5) for gap in (low, high))
+
+
+@pytest.mark.parametrize(
+    ("width", "tolerance", "held"),
+    [
+        (0.0, 0.1, False),
+        (0.9 * HOLDABLE, 0.1, False),
+        (1.1 * HOLDABLE, 0.1, True),
+        (0.003, 0.001, True),  # a closer tolerance was given
+        (0.001, 0.001, False),
+    ],
+)
+def test_a_gap_is_held_as_closely_as_one_can(width, tolerance, held):
+    assert can_be_held(edges(8.0, 8.0 * (1 + width)), tolerance) == held
+
+
+def quiet_ranges(monkeypatch, quiet, width):
+    """Choice among 9 gaps from 1 to 4 mm; quiet ranges reach a relative width beyond their gaps."""
+    shares = np.where(np.isin(np.arange(9), quiet), 1.0, 0.5)[:, None]
+    gaps = np.geomspace(1, 4, 9)
+    numbers = {"start_quiet_share": shares, "worst_displacement": np.ones((9, 1))}
+    numbers["start_quiet_interval"] = np.stack([shares - 0.04, shares], axis=-1)
+
+    def compare(task, gaps, frequencies, *_, **__):
+        ranges = [(comparison.gaps[k], comparison.gaps[k] * (1 + width)) for k in quiet]
+        is_quiet = any(low <= gaps[0] <= high for low, high in ranges)
+        share = np.full((1, 1), 1.0 if is_quiet else 0.5)
+        found = {"start_quiet_share": share, "start_quiet_interval": np.stack([share, share], -1)}
+        return Comparison(np.array(gaps), frequencies, found, 2.0, 0.95)
+
+    comparison = Comparison(gaps, np.array([20.5]), numbers, 2.0, 0.95)
+    monkeypatch.setattr(cliff, "compare", compare)
+    return gaps, choose_with_edges(TASK, comparison)
+
+
+def test_a_quiet_gap_without_a_range_is_no_design(monkeypatch):
+    _, (choice, (low, high)) = quiet_ranges(monkeypatch, (2, 6), 0.0)
+    assert choice.kind == "least_worst"
+    assert np.isnan(low.gap) and np.isnan(high.gap)
+
+
+def test_a_narrow_range_is_measured_and_its_middle_taken(monkeypatch):
+    gaps, (choice, (low, high)) = quiet_ranges(monkeypatch, (4,), 0.06)
+    assert choice.kind == "needs_tolerance"
+    assert low.gap == gaps[4]
+    assert high.gap <= gaps[4] * 1.06 < high.beyond
+    assert low.gap < choice.gap < high.gap

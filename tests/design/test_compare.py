@@ -1,0 +1,121 @@
+"""Comparison of gaps: starts that become quiet late, second looks, and the chance of a mistake."""
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+import impact_damper as idm
+from impact_damper.data.shares import failures_allowed
+from impact_damper.design import compare as compare_module
+from impact_damper.design.compare import SECOND, TRIAL, compare
+from impact_damper.design.task import Task
+from impact_damper.motions.records import MOTION, SETTLED
+
+STARTS = 73
+TASK = Task(
+    machine=idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40),
+    mass=0.6,
+    band=(20.3, 20.8),
+    restitution=0.7,
+    contact_stiffness=2e7,
+    starts=STARTS,
+)
+FREQUENCIES = np.array([20.4, 20.6])
+NEVER = 10**6
+# Periods after which a motion becomes quiet: within a comparison, and within the full time only.
+EARLY, LATE = 50, TASK.hurried.limit + 1
+
+
+@pytest.fixture
+def made_up(monkeypatch):
+    """Compare gaps whose starts become quiet after given times, shape (cases, starts).
+
+    Starts without a time become quiet early. Returns the comparison, and the number of starts that
+    were run again with the full time.
+    """
+
+    def made_up_comparison(gaps, times, starts=STARTS):
+        counted = []
+
+        def draw(task, cases, count, stream, **_):
+            states = np.zeros((len(cases), count, 4))
+            states[..., 0] = EARLY
+            states[:, : times.shape[1], 0] = times
+            return states
+
+        def run(task, cases, states, *, settling=None, **_):
+            if settling is None:
+                counted.append(states.shape[0] * states.shape[1])
+            assert states.size  # an ensemble has motions
+            records = np.zeros(states.shape[:2], MOTION)
+            records["outcome"] = SETTLED
+            quiet = states[..., 0] <= (settling or task.settling).limit
+            records["maximum_displacement"] = np.where(quiet, 0.0, np.inf)
+            return records
+
+        monkeypatch.setattr(compare_module, "draw_starts", draw)
+        monkeypatch.setattr(compare_module, "run_starts", run)
+        found = compare(TASK, gaps, FREQUENCIES, 2.0, starts, "candidates")
+        return found, sum(counted)
+
+    return made_up_comparison
+
+
+def test_starts_that_become_quiet_late_are_quiet(made_up):
+    times = np.full((2, STARTS), EARLY)
+    times[0, [3, TRIAL + 1]] = times[1, :TRIAL] = LATE
+    found, run_again = made_up([8.0], times)
+    assert found.quiet.all() and (found.numbers["start_count"] == STARTS).all()
+    assert run_again == 2 + TRIAL
+
+
+def test_a_loud_start_is_judged_by_the_interval_of_more_starts(made_up):
+    times = np.full((2, STARTS), EARLY)
+    times[0, [3, 40]] = NEVER
+    found, _ = made_up([8.0], times)
+    assert list(found.numbers["start_count"][0]) == [SECOND * STARTS, STARTS]
+    share = 1 - 2 / (SECOND * STARTS)
+    assert found.numbers["start_quiet_share"][0] == pytest.approx([share, 1])
+    assert found.numbers["start_quiet_interval"][0, 0, 0] >= TASK.share
+    assert found.quiet.all()
+
+
+@pytest.mark.parametrize("more", [0, 1])
+def test_the_second_look_allows_as_many_as_its_interval(made_up, more):
+    allowed = failures_allowed(TASK.share, SECOND * STARTS)
+    times = np.full((2, SECOND * STARTS), EARLY)
+    times[1, [5, *range(STARTS, STARTS + allowed - 1 + more)]] = NEVER
+    found, _ = made_up([8.0], times)
+    assert found.quiet[0] == (more == 0)
+
+
+def test_a_gap_is_given_up_as_soon_as_the_claim_is_lost(made_up):
+    times = np.full((4, STARTS), EARLY)
+    times[:2] = NEVER  # both frequencies of the first gap
+    times[3, 0] = LATE
+    found, run_again = made_up([8.0, 9.0], times)
+    assert list(found.quiet) == [False, True]
+    assert list(found.numbers["start_count"].ravel()) == [TRIAL, TRIAL, STARTS, STARTS]
+    allowed = failures_allowed(TASK.share, SECOND * STARTS)
+    assert run_again == 2 * (allowed + 1) + 1
+
+
+def test_starts_too_few_for_a_claim_must_all_be_quiet(made_up):
+    times = np.full((4, 12), EARLY)
+    times[2, 3] = NEVER
+    found, _ = made_up([8.0, 9.0], times, starts=12)
+    assert list(found.quiet) == [True, False]
+    assert (found.numbers["start_count"] == 12).all()
+
+
+@pytest.mark.parametrize("share", [0.8, 0.95, 0.99])
+def test_two_looks_err_with_a_chance_below_five_per_cent(share):
+    """At exactly the share claimed, where a claim is as good as wrong, by the binomial law."""
+    least = next(n for n in range(1, 1000) if failures_allowed(share, n) == 0)
+    for starts in range(least, 3 * least, max(1, least // 16)):
+        total, loud = SECOND * starts, 1 - share
+        first, both = (failures_allowed(share, n) for n in (starts, total))
+        late = np.arange(first + 1, both + 1)
+        further = binom.cdf(both - late, total - starts, loud)
+        chance = binom.cdf(first, starts, loud) + binom.pmf(late, starts, loud) @ further
+        assert chance < 0.05
