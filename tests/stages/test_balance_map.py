@@ -12,6 +12,7 @@ from impact_damper.stages.balance_map import balance_map
 from impact_damper.stages.harmonic_balance import harmonic_balance_response, optimum_clearance
 from impact_damper.system.parameters import Damper
 from impact_damper.system.settling import Settling
+from impact_damper.tables.balance_map import SHOWN
 from impact_damper.tables.balance_map import balance_map as table_of
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_folds
@@ -147,6 +148,7 @@ def test_clearance_follows_the_rule_where_none_is_given():
 
 def test_counts_add_up(over_restitution):
     table = table_of({"balance_map": {"made": over_restitution}})
+    assert SHOWN["balance_map"].keys() <= set(table)
     cells = over_restitution["quiet_verdict"].size
     for question in ("quiet motion", "high motion", "start at the quiet solution"):
         assert table[table.question == question].cells.sum() == cells

@@ -15,6 +15,7 @@ from impact_damper.figures.contact_model import draw_contact_model
 from impact_damper.motions.simulate import simulate
 from impact_damper.stages.contact_model import contact_map, contact_model, spread_loads
 from impact_damper.system.settling import Settling
+from impact_damper.tables.contact import SHOWN
 from impact_damper.tables.contact import contact_model as model_table
 from impact_damper.tables.contact import contact_motions as motion_table
 
@@ -110,7 +111,10 @@ def test_tables_and_figure(model):
     counts = model_table(data).dropna(subset="cells")
     verdicts = ["close", "fair", "off", "falls back", "no release"]
     assert (counts[verdicts].sum(axis=1) == 9).all()
-    assert len(motion_table(data)) == 4
+    motions = motion_table(data)
+    assert len(motions) == 4
+    assert SHOWN["contact_motions"].keys() <= set(motions)
+    assert SHOWN["contact_model"].keys() <= set(model_table(data))
     assert len(draw_contact_model(contact_model=[model]).axes) == 6
 
 

@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 from impact_damper.data.datasets import flag
 from impact_damper.stages import method_verdicts as judged
 from impact_damper.system.parameters import Damper
+from impact_damper.tables.integrators import SHOWN
 from impact_damper.tables.integrators import method_verdicts as verdict_table
 
 QUIET = dict(
@@ -84,6 +85,7 @@ def test_verdicts_of_the_taylor_series_and_of_coarse_steps():
     not_run = data.verdict.sel(verdict_method="LSODA") == flag("verdict", "not_run")
     assert not_run.all()
     row = verdict_table({"method_verdicts": {"one": data}}).iloc[0]
+    assert SHOWN["method_verdicts"].keys() <= set(row.index)
     assert (row["taylor"], row["heun"], row["LSODA"]) == (1e-6, "never right", "not run")
     data.verdict.loc["quiet", "heun", 1e-6] = flag("verdict", "right")
     row = verdict_table({"method_verdicts": {"one": data}}).iloc[0]

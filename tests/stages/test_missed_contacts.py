@@ -17,7 +17,7 @@ from impact_damper.rivals.passages import draw_passages, free_flight
 from impact_damper.rivals.scipy_methods import UNLIMITED, derivative
 from impact_damper.stages import missed_contacts as missed
 from impact_damper.system.packed import pack
-from impact_damper.tables.integrators import missed_contacts
+from impact_damper.tables.integrators import SHOWN, missed_contacts
 
 PERIOD = math.pi
 DEPTHS = np.geomspace(1e-12, 1e-1, 12)
@@ -159,12 +159,9 @@ def test_failed_runs_are_neither_found_nor_missed(counted):
     given[0] = 0
     given.loc[{"contact_outcome": "failed"}][0] = data.passages.sel(integrator="merson")
     assert missed_share(data).sel(integrator="merson")[0].isnull().all()
-    row = (
-        missed_contacts({"missed_contacts": {"one": data}})
-        .set_index("method")
-        .loc["merson"]
-        .iloc[0]
-    )
+    table = missed_contacts({"missed_contacts": {"one": data}})
+    assert SHOWN["missed_contacts"].keys() <= set(table)
+    row = table.set_index("method").loc["merson"].iloc[0]
     assert row["failed"] == row["contacts"] and np.isnan(row["half missed to depth"])
     drawn = draw_missed_contacts(missed_contacts=[data])
     assert any("failed" in text.get_text() for text in drawn.legends[0].get_texts())

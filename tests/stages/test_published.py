@@ -5,6 +5,7 @@ import pytest
 
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.stages.published import GROUPS, published
+from impact_damper.tables.published import SHOWN
 from impact_damper.tables.published import published as table_of
 
 SETTINGS = {
@@ -101,6 +102,7 @@ def test_table_explains_every_difference(data, tmp_path):
     path = tmp_path / "published" / "dampers.nc"
     save(data, path)
     table = table_of({"published": {"dampers": load(path)}})
+    assert SHOWN["published"].keys() <= set(table)
     assert len(table) == data.sizes["comparison"]
     assert table.explanation.str.contains("right").all()
     assert not table.explanation.str.contains("nan").any()

@@ -13,6 +13,7 @@ from impact_damper.figures.rigid_limit import draw_rigid_limit
 from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.stages.rigid_limit import rigid_limit
 from impact_damper.system.packed import pack
+from impact_damper.tables.contact import SHOWN
 from impact_damper.tables.contact import rigid_limit as table
 
 NEAR = 0.2
@@ -83,6 +84,7 @@ def test_stiffness_needed(limit):
 
 def test_table_and_figure(limit):
     made = table({"rigid_limit": {"one": limit}})
+    assert SHOWN["rigid_limit"].keys() <= set(made)
     row = made.iloc[0]
     verdicts = ["both stable", "both unstable", "stability differs", "rigid only"]
     assert row[[*verdicts, "compliant only", "neither"]].sum() == row["cells"] == 15

@@ -37,6 +37,29 @@ def as_markdown(frame) -> str:
     return text.to_markdown(index=False, disable_numparse=True)
 
 
+def for_people(frame, title, heads, csv_name) -> str:
+    """Return the Markdown text of the columns of a table that people read first.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+        Table of strings.
+    title : str
+    heads : dict of str
+        Keyed by the names of the columns shown: their heads, in words, with symbol and unit. A
+        column that the frame does not have, since its data were not computed, is left out.
+    csv_name : str
+        Name of the file with all columns.
+    """
+    shown = frame[[name for name in heads if name in frame]].rename(columns=heads)
+    note = (
+        "Numbers without a unit are dimensionless; an empty cell is a quantity that does not "
+        f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns."
+    )
+    body = "The configuration has no data for this table." if frame.empty else as_markdown(shown)
+    return "\n\n".join([f"# {title}", note, body])
+
+
 def _write(path, content):
     with whole(path) as part:
         part.write_text(content)

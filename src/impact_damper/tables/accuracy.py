@@ -26,6 +26,31 @@ WORDS = {
 }
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "models": {
+        "scene": "scene",
+        "asks": "required accuracy",
+        "method": "method",
+        "setting": "tolerance or highest harmonic",
+        "operations": "work [floating-point operations]",
+        "meets it": "meets it",
+        "choice": "choice",
+        "of max |Z1|": "error of max |Z1|",
+        "contacts a period": "contacts a forcing period",
+    },
+    "readings": {
+        "data": "data",
+        "quantity": "quantity",
+        "model": "model",
+        "by the model": "by the model",
+        "by the motions": "by the motions",
+        "or up to": "or up to",
+        "relative error": "relative error",
+    },
+}
+
+
 def models(datasets) -> pd.DataFrame:
     """Return a row for each method and scene, at the setting of least work that meets the accuracy.
 

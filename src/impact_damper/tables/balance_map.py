@@ -21,6 +21,22 @@ AMPLITUDES = {
 }
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "balance_map": {
+        "map": "map",
+        "question": "question",
+        "balance": "harmonic balance says",
+        "truth": "exact motions",
+        "cells": "map cells",
+        "of": "of cells",
+        "share": "share",
+        "lower": "share at least (95 %)",
+        "upper": "share at most (95 %)",
+    },
+}
+
+
 def balance_map(datasets) -> pd.DataFrame:
     """Count the cells of each map with each verdict, with chaos, and with accurate amplitudes.
 

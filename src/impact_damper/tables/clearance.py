@@ -20,6 +20,33 @@ SWEEPS = "clearance sweeps of figures 6, 7 and 11"
 CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"}
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "optimum": {
+        "sweep": "sweep",
+        "h": "damping h",
+        "W": "forcing frequency Ω",
+        "rm": "mass ratio rm",
+        "e": "restitution e",
+        "optimum d0": "optimum clearance d0, simulated",
+        "optimum d0 of (7)": "optimum d0 by equations (7)",
+        "d0 of (18) at W": "d0 by rule (18)",
+        "least max |Z1|": "least displacement max |Z1|",
+    },
+    "design_rules": {
+        "group": "designs",
+        "criterion": "quantity made smallest",
+        "rule": "rule for rm Ω^2 d0",
+        "optima predicted": "optima predicted",
+        "within 1 %": "within 1 %",
+        "within 10 %": "within 10 %",
+        "median error, %": "median error of d0 [%]",
+        "largest error, %": "largest error of d0 [%]",
+        "median excess of max |Z1|, %": "median excess of max |Z1| [%]",
+    },
+}
+
+
 def optimum(datasets) -> pd.DataFrame:
     """Optimum clearance of each sweep: by simulation, equations (7), rules and straight flight."""
     rows = []

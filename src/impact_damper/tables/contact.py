@@ -11,6 +11,43 @@ from impact_damper.claims import extract
 from impact_damper.data.variables import VARIABLES
 from impact_damper.tables.columns import parameter_columns
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "contact_model": {
+        "case": "case",
+        "exit": "exit rule",
+        "e": "restitution e, given",
+        "realised e": "restitution e, realised",
+        "energy lost": "share of energy lost",
+        "cells": "map cells",
+        "close": "cells within 1 % of e",
+        "fair": "cells 1 % to 5 % off",
+        "off": "cells further off",
+    },
+    "contact_motions": {
+        "case": "case",
+        "e": "restitution e",
+        "W": "forcing frequency Ω",
+        "motion": "motion",
+        "outcome": "outcome",
+        "max |Z1|": "displacement max |Z1|",
+        "change without pull": "change of max |Z1| without pull",
+        "least e": "least e realised",
+        "largest e": "largest e realised",
+    },
+    "rigid_limit": {
+        "case": "case",
+        "rm": "mass ratio rm",
+        "e": "restitution e",
+        "max |Z1|": "displacement max |Z1|",
+        "rigid error": "relative error of rigid walls",
+        "mended error": "relative error, corrected",
+        "order": "exponent n, error ~ r1^-n",
+        "r1 for 1%": "stiffness r1 for 1 %",
+        "stability differs": "map cells in which stability differs",
+    },
+}
+
 
 def _counts(name, values):
     """Number of cells with each value of a flag, keyed by the meaning of the value."""

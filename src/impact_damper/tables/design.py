@@ -28,6 +28,33 @@ COLD_STARTS = {
 }
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "harmonic_balance": {
+        "curve": "curve",
+        "h": "damping h",
+        "rm": "mass ratio rm",
+        "d0": "clearance d0",
+        "Wp": "peak frequency Ωp",
+        "d0 of (19)": "d0 by rule (19)",
+        "|a| at Wp": "amplitude |a| at Ωp, balance",
+        "max |Z1| of quiet orbit": "max |Z1| at Ωp, exact orbit",
+        "quiet orbit": "stability of the exact orbit",
+    },
+    "harmonic_convergence": {
+        "motion": "motion",
+        "max |Z1|": "displacement max |Z1|",
+        "N for 1 %": "harmonics for an error of 1 %",
+        "N for 1e-6": "harmonics for an error of 1e-6",
+        "decay": "decay with harmonics N",
+        "max |Z1|, observed": "power or rate, observed",
+        "max |Z1|, predicted": "power or rate, predicted",
+        "cold starts": "cold starts",
+        "same motion": "cold starts that find the motion",
+    },
+}
+
+
 def harmonic_balance(datasets) -> pd.DataFrame:
     """For each curve at its peak frequency: rule (19), harmonic balance and exact quiet orbit."""
     rows = []

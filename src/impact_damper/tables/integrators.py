@@ -6,7 +6,44 @@ import pandas as pd
 from impact_damper.claims import extract
 from impact_damper.data.datasets import flag
 from impact_damper.data.shares import missed_share
-from impact_damper.rivals.methods import METHODS
+from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
+
+
+def _setting(label):
+    """Return the setting of a method: steps in a forcing period or tolerance."""
+    return "steps a period" if METHODS[name_and_mode(label)[0]].fixed else "tolerance"
+
+
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "missed_contacts": {
+        "data": "data",
+        "method": "method",
+        "tolerance": "tolerance",
+        "fixed steps": "fixed steps a period",
+        "contacts": "contacts near grazing",
+        "found": "found",
+        "unseen": "passed unseen",
+        "not reached": "not reached",
+        "spurious": "spurious",
+    },
+    "stable_steps": {
+        "data": "data",
+        "method": "method",
+        "within": "allowed error",
+        "r1": "contact stiffness r1",
+        "h": "largest step h",
+        "steps a period": "steps a forcing period",
+        "h omega_c": "h ωc, ωc the contact frequency",
+        "slope of 1/h in r1": "slope of log 1/h over log r1",
+        "its error": "standard error of the slope",
+    },
+    "method_verdicts": {"scene": "scene"}
+    | {
+        label: f"{title_with_mode(label)} [{_setting(label)}]"
+        for label in COMPARED["method_verdicts"]
+    },
+}
 
 
 def missed_contacts(datasets) -> pd.DataFrame:

@@ -23,6 +23,22 @@ PROMISES = {
 }
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "machines": {
+        "machine": "machine",
+        "loose mass, kg": "loose mass [kg]",
+        "band, Hz": "band [Hz]",
+        "gap (full play), mm": "gap, full play [mm]",
+        "advice": "advice",
+        "largest without damper, mm": "largest displacement without damper [mm]",
+        "largest with it, mm": "largest displacement with damper [mm]",
+        "promise": "promise, tested with unseen starts",
+        "best tuned absorber, mm": "largest with the best tuned absorber [mm]",
+    },
+}
+
+
 def machines(datasets) -> pd.DataFrame:
     """For each machine: what to build, what that does, how sure it is, and the best alternative."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])

@@ -10,6 +10,43 @@ from impact_damper.claims import extract
 from impact_damper.data.datasets import flag
 from impact_damper.tables.columns import parameter_columns, runs_of_true
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "migration": {
+        "case": "case",
+        "W": "forcing frequency Ω",
+        "released from": "released from",
+        "to non-resonance": "share to the non-resonance",
+        "to resonance": "share to the resonance",
+        "to subharmonic": "share to the subharmonic",
+        "to unresolved": "share unresolved",
+        "within 350 cycles": "share of control runs within 350 cycles",
+        "median cycles, all runs": "median time [forcing cycles]",
+    },
+    "release_scan": {
+        "scan": "scan",
+        "released from": "released from",
+        "period": "its period [forcing periods]",
+        "leads to": "leads to",
+        "at W": "at Ω",
+        "frequencies": "frequencies",
+        "to non-resonance": "share to the non-resonance",
+        "to resonance": "share to the resonance",
+        "to subharmonic": "share to the subharmonic",
+    },
+    "release_policies": {
+        "rm": "mass ratio rm",
+        "d0": "clearance d0",
+        "e": "restitution e",
+        "W": "forcing frequency Ω",
+        "policy": "policy",
+        "within 350 cycles": "share within 350 cycles",
+        "median cycles": "median time [forcing cycles]",
+        "95 % of cycles": "95 % arrive within [forcing cycles]",
+        "median damper on": "median time with damper [forcing cycles]",
+    },
+}
+
 
 def migration(datasets) -> pd.DataFrame:
     """Shares of each damped motion's releases that lead to each free motion; controller runs."""

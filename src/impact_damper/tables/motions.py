@@ -21,6 +21,44 @@ OTHERS = ("diverged", "escaped", "at_rest")
 NEUTRAL = 3.0
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "outcomes": {
+        "stage": "stage",
+        "data": "data",
+        "settled": "settled",
+        "chaotic": "chaotic",
+        "quasi periodic": "quasi-periodic",
+        "non colliding": "without contact",
+        "drifting": "drifting",
+        "unresolved": "unresolved",
+        "other": "diverged, escaped or at rest",
+    },
+    "quasi_periodic": {
+        "data": "curve",
+        "rm": "mass ratio rm",
+        "d0": "clearance d0",
+        "W": "forcing frequency Ω",
+        "max |Z1|": "displacement max |Z1|",
+        "starts": "random starts",
+        "second frequency": "second frequency",
+        "its error": "error of the second frequency",
+        "rotation number": "rotation number",
+    },
+    "chaos": {
+        "data": "curve",
+        "W": "forcing frequency Ω",
+        "max |Z1|": "displacement max |Z1|",
+        "Lyapunov exponent": "Lyapunov exponent",
+        "runs that end": "runs in which chaos ends",
+        "of": "of runs",
+        "mean life, periods": "mean life [forcing periods]",
+        "at least": "at least [forcing periods]",
+        "at most": "at most [forcing periods]",
+    },
+}
+
+
 def outcomes(datasets) -> pd.DataFrame:
     """Number of random starts with each outcome; why motions are unresolved, by their exponent."""
     rows = []

@@ -40,6 +40,19 @@ REASONS = {
 }
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "published": {
+        "source": "source",
+        "quantity": "quantity",
+        "published or closed form": "published or closed form",
+        "ours": "ours",
+        "difference": "relative difference",
+        "explanation": "explanation",
+    },
+}
+
+
 def published(datasets) -> pd.DataFrame:
     """For each comparison: published number, number computed here, difference and explanation."""
     rows = []

@@ -16,6 +16,55 @@ from impact_damper.tables.columns import parameter_columns, runs_of_true
 DAMPER = ("mass_ratio", "clearance", "restitution")
 
 
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "bands": {
+        "curve": "curve",
+        "h": "damping h",
+        "rm": "mass ratio rm",
+        "d0": "clearance d0",
+        "e": "restitution e",
+        "lower edge, balance": "lower edge Ω by harmonic balance",
+        "upper edge, balance": "upper edge Ω by harmonic balance",
+        "lower edge, motions": "lower edge Ω by the motions",
+        "upper edge, motions": "upper edge Ω by the motions",
+    },
+    "subharmonic": {
+        "data": "curve",
+        "damper": "damper",
+        "h": "damping h",
+        "rm": "mass ratio rm",
+        "d0": "clearance d0",
+        "branch": "branch",
+        "from W": "stable from Ω",
+        "to W": "stable to Ω",
+        "largest max |Z1|": "largest displacement max |Z1|",
+    },
+    "orbits": {
+        "data": "curve",
+        "branch": "branch",
+        "period": "period [forcing periods]",
+        "from W": "from Ω",
+        "to W": "to Ω",
+        "stable W": "stable Ω",
+        "largest max |Z1|": "largest displacement max |Z1|",
+        "one end": "one end",
+        "other end": "other end",
+    },
+    "bifurcations": {
+        "data": "curve",
+        "branch": "branch",
+        "period": "period [forcing periods]",
+        "W": "forcing frequency Ω",
+        "event": "event",
+        "max |Z1|": "displacement max |Z1|",
+        "walls before": "walls touched before",
+        "walls after": "walls touched after",
+        "least speed of contact": "least speed of contact",
+    },
+}
+
+
 def bands(datasets) -> pd.DataFrame:
     """Suppression band of each curve, by harmonic balance and by the exact and chaotic motions."""
     designs = extract.damped(datasets, "harmonic_balance")

@@ -1,5 +1,6 @@
 """Figures and tables of a chapter of the report, each in two formats and with its caption."""
 
+from functools import partial
 from importlib import import_module
 
 from impact_damper.data.whole_files import whole
@@ -26,8 +27,13 @@ def make_table(name, datasets, path) -> None:
     module = import_module(f"impact_damper.{table.module}")
     read = {stage: datasets.get(stage, {}) for stage in table.stages}
     frame = getattr(module, name)(read)
-    # A module may have a layout of its own for Markdown.
-    document = getattr(module, "document", None)
+    # A module either has a layout of its own for Markdown or names the columns shown in it.
+    document = getattr(module, "document", None) or partial(
+        table_files.for_people,
+        title=table.caption.removesuffix("."),
+        heads=module.SHOWN[name],
+        csv_name=f"{name}.csv",
+    )
     table_files.save_table(frame, f"{path}.csv", f"{path}.md", document)
     _write(f"{path}.rst", table.caption)
 

@@ -38,6 +38,9 @@ class Stage(NamedTuple):
 class Table(NamedTuple):
     """A table, made by the function with the same name as the table.
 
+    Its CSV has all columns. `SHOWN` of its module, keyed by name of table, has the heads of the
+    columns of its Markdown, at most nine.
+
     Attributes
     ----------
     name : str
