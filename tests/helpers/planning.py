@@ -8,7 +8,7 @@ from impact_damper.workflow import selection
 from impact_damper.workflow.registry import CHAPTERS, STAGES, TABLES
 
 # Stages whose entries are all computed by one job.
-TOGETHER = ("collisions", "rigid_limit")
+TOGETHER = ("collisions", "design_orbit", "rigid_limit")
 
 
 class Job(NamedTuple):

@@ -40,12 +40,12 @@ VALUES = {
         *(f"{stage}/free_h150" for stage in ("harmonic_balance", "response", "branches")),
         *chapters("design", "responses", "claims"),
     },
-    ("points", "clearances"): {"optimum/*", *chapters("clearance", "claims")},
+    ("points", "clearances"): {"optimum/*", *chapters("clearance", "responses", "claims")},
     ("collisions", "figure_05a", "mass_ratio"): {"collisions", *chapters("claims")},
     ("comparison", "harmonics"): {"accuracy/*", *chapters("methods")},
     ("oscillators", "l100", "damping"): {
         *(f"{stage}/free_l100" for stage in ("harmonic_balance", "response", "branches")),
-        *(f"{stage}/figure_03b*" for stage in ("harmonic_balance", "design_orbit")),
+        *("harmonic_balance/figure_03b*", "design_orbit"),
         *chapters("design", "responses", "claims"),
     },
     ("oscillators", "l150", "frequencies", "last"): {

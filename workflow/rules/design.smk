@@ -16,21 +16,21 @@ rule harmonic_balance:
         "../scripts/harmonic_balance.py"
 
 
+# One job computes all entries: each takes less time than the start of a job.
 rule design_orbit:
     input:
         code=code("design_orbit"),
         kernels=KERNELS,
     output:
-        "<results>/design_orbit/{name}.nc",
+        data("design_orbit"),
     log:
-        "<logs>/design_orbit/{name}.log",
-    cache: SHARED
+        "<logs>/design_orbit.log",
     conda:
         ENVIRONMENT
     params:
-        **parameters("design_orbit"),
+        **parameters_of_all("design_orbit"),
     message:
-        "Exact quiet orbit at the design point of the curve {wildcards.name}"
+        "Exact quiet orbits at the design points of curves"
     script:
         "../scripts/design_orbit.py"
 

@@ -1,7 +1,10 @@
-"""The exact quiet orbit at the peak frequency, followed in damping (figure 3)."""
+"""The exact quiet orbits at the peak frequencies, followed in damping (figure 3)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.design_orbit import design_orbit
 
 job = Job(snakemake)
-job.save(design_orbit(job.oscillator, job.damper, **job["search"], settling=job.settling))
+for entry in job.entries():
+    entry.save(
+        design_orbit(entry.oscillator, entry.damper, **entry["search"], settling=entry.settling)
+    )
