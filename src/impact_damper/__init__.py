@@ -18,6 +18,7 @@ Motions
     steady_motion               the motion that a state settles to
     frequency_response          all motions at each frequency
     subharmonic_suppression     the one-third subharmonic without and with a damper
+    basins                      the motion that each state of a plane leads to
     migrate                     from the resonance to the small motion, by switching the damper
 
 Periodic orbits, stable or not

@@ -6,8 +6,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import solve_ivp
 from scipy.spatial import cKDTree
 
+from impact_damper.attraction import labels
 from impact_damper.attraction.attractors import find_attractors
 from impact_damper.attraction.labels import label_states
+from impact_damper.data.variables.basins import BASIN_LABEL
 from impact_damper.stages.basins import basins, free_attractors
 from impact_damper.stages.branches import periodic_orbit
 from impact_damper.system.packed import pack
@@ -200,3 +202,9 @@ def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():
         for data in (one, two)
     ]
     assert_allclose(sizes[0], sizes[1][::-1, ::-1], rtol=1e-4)
+
+
+def test_the_numbers_of_labels_stand_in_the_registry():
+    """The kernels may not import it."""
+    assert labels.ESCAPED == BASIN_LABEL["escaped"]
+    assert labels.UNRESOLVED == BASIN_LABEL["unresolved"]

@@ -64,9 +64,12 @@ FILES = {
     "src/impact_damper/tables/migration.py": chapters("migration"),
     "src/impact_damper/figures/response.py": chapters("responses"),
     "workflow/scripts/motion.py": {"motion/figure_04", *chapters("responses", "claims")},
-    "src/impact_damper/stages/studies.py": {"studies/design_plane", *chapters("clearance")},
+    "src/impact_damper/stages/studies.py": {
+        "studies/design_plane",
+        *chapters("clearance", "responses"),
+    },
     "src/impact_damper/migration/legs.py": {
-        *("migration/*", "release_scan/*"),
+        *("migration/*", "release_scan/*", "release_policies/*"),
         *chapters("migration", "claims"),
     },
 }

@@ -8,7 +8,6 @@ import math
 
 import numpy as np
 
-from impact_damper.data.variables.basins import BASIN_LABEL
 from impact_damper.kernel.batch import LANES, RESIDENT, STATE, advance_some, enter, make_pool, send
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
@@ -16,7 +15,8 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.packed import FREQUENCY
 
-ESCAPED, UNRESOLVED = BASIN_LABEL["escaped"], BASIN_LABEL["unresolved"]
+# As in `data.variables.basins.BASIN_LABEL`, which no file with kernels imports.
+ESCAPED, UNRESOLVED = -2, -1
 # States that a thread labels at once, a fraction of a second.
 CHUNK = 4096
 

@@ -18,7 +18,7 @@ Displacement of the primary mass against time, (a) in a whole run and (b) around
 when the damper is switched off. The damper is on where the background is shaded. The run drawn is
 the first one that arrives on the non-resonance branch with the median number of switchings, or the
 first of all runs if none arrives. A run of more than 100 forcing periods is drawn by its envelope,
-least and largest displacement in each period. The scale of (b) is that of the motion in it.
+the least and largest displacement of each period. Panel (b) has its own scale.
 """
 
 # Forcing periods of a run from which on the envelope is drawn.

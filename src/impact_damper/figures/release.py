@@ -8,8 +8,8 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, lette
 
 CAPTION = """
 States of the primary mass at which the damper is switched off, marked by the motion on which the
-free oscillator then settles: first the releases before the motion with the damper has settled, then
-the releases from each settled motion, evenly spaced over its period. The paper draws one motion
+free oscillator then settles: first releases before the motion with the damper has settled, then
+releases from each settled motion. The paper draws one motion
 with releases to the subharmonic and to the non-resonance motion. The panels have scales of their
 own: the quiet motion is far smaller than the others. Where the free oscillator has no
 one-third subharmonic (see table `subharmonic`), no release can lead to it.

@@ -14,13 +14,11 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-When to let go of the damper. Above, for each damper, the share of trials that reach the goal, the
-non-resonance motion, within 350 cycles, with 95 % intervals, by policy: at a random phase once the
-damped motion has settled (the paper's), after a fixed number of cycles, at a fixed phase, and as
-soon as the state lies in the goal's basin. In the middle the median of the cycles until the goal;
-curves end where less than half of the trials reach it. Below, with the first damper at one
-frequency, what an error of the measured state, over the size of the resonance motion, and a late
-release do to the policy by state, against the margin inside the basin.
+When to switch the damper off. Above: share of trials that reach the non-resonance motion within 350
+cycles, with 95 % intervals, for four rules: at a random phase once the motion has settled (the
+paper's), after a fixed number of cycles, at a fixed phase, and as soon as the state lies in the basin
+of the goal. Middle: median of the cycles until the goal. Below: effect of errors of the measured
+state, relative to the resonance motion, and of delay, against the margin inside the basin.
 """
 
 WORDS = {

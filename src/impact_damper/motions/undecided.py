@@ -24,10 +24,10 @@ from impact_damper.motions.records import (
     SETTLED,
     UNRESOLVED,
 )
+from impact_damper.motions.rotation_numbers import find_rotation
 from impact_damper.motions.settling import CONFIDENCE, LONGEST_PERIOD, NEAR
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.system.packed import CLEARANCE, FORCE, FREQUENCY, UNBALANCE
-from impact_damper.theory.rotation_numbers import find_rotation
 
 # Most forcing periods of the first block.
 FIRST = 1500

@@ -13,17 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from impact_damper.kernel.compiling import kernel
-from impact_damper.kernel.single import (
-    CONTACT_ORDER,
-    FLIGHT_ORDER,
-    X,
-    advance,
-    side_of,
-    step,
-    workspace,
-)
+from impact_damper.kernel.single import advance, side_of, workspace
 from impact_damper.motions import records
+from impact_damper.motions.segment_runs import flow_all, largest_displacement, sweep
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
 from impact_damper.system.packed import FREQUENCY
@@ -150,44 +142,6 @@ def _advance(p, state, tangents, begin, end):
     return advance(p, state, tangents, side, *times, POLISH_TOLERANCE, workspace())[2]
 
 
-@kernel
-def largest_displacement(p, y, t, end, tolerance):
-    """Return the largest |Z1| of a motion from y, replaced by its last state, between two times."""
-    work, none = workspace(), np.empty((0, 4))
-    side, largest = side_of(p, y), abs(y[0])
-    while t < end:
-        order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
-        length, side = step(p, y, none, side, t, end - t, tolerance, work)
-        largest = records.extremum(work[X:], order, length, largest)
-        t = end if length >= end - t else t + length
-    return largest
-
-
-@kernel
-def flow_all(p, states, tangents, times, tolerance):
-    """Integrate all segments of a chain; return the time in contact.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    states : array, shape (m, 4)
-        States at the beginnings; replaced by those at the ends.
-    tangents : array, shape (m, 0, 4) or (m, 4, 4)
-        Solutions of the variational equations; replaced.
-    times : array, shape (m + 1,)
-    tolerance : float
-        Local error allowed.
-    """
-    work, touching = workspace(), 0.0
-    for k in range(len(states)):
-        side = side_of(p, states[k])
-        begin, end = times[k], times[k + 1]
-        _, _, time = advance(p, states[k], tangents[k], side, begin, end, tolerance, work)
-        touching += time
-    return touching
-
-
 def chain_of(p, phases, states, sign) -> Chain:
     """Integrate all segments of a chain; arguments as its attributes."""
     ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
@@ -212,47 +166,6 @@ def cyclic(factors):
         matrix[k, :, k] = factors[k]
         matrix[k, :, (k + 1) % m] -= np.eye(n)
     return matrix.reshape(m * n, m * n)
-
-
-@kernel
-def sweep(factors, basis, triangles):
-    """Carry a basis through factors, A_k Q_(k-1) = Q_k R_k, by Gram and Schmidt's method, twice.
-
-    Parameters
-    ----------
-    factors : array, shape (m, n, n)
-    basis : array, shape (n, n)
-        Orthonormal columns; replaced by those after the last factor.
-    triangles : array, shape (m, n, n)
-        Gets the upper triangles R_k.
-    """
-    m, n = factors.shape[:2]
-    moved = np.empty((n, n))
-    for k in range(m):
-        for i in range(n):
-            for j in range(n):
-                moved[i, j] = 0.0
-                triangles[k, i, j] = 0.0
-                for s in range(n):
-                    moved[i, j] += factors[k, i, s] * basis[s, j]
-        for j in range(n):
-            for i in range(2 * j):
-                c, product = i % j, 0.0
-                for s in range(n):
-                    product += moved[s, c] * moved[s, j]
-                triangles[k, c, j] += product
-                for s in range(n):
-                    moved[s, j] -= product * moved[s, c]
-            norm = 0.0
-            for s in range(n):
-                norm += moved[s, j] * moved[s, j]
-            norm = np.sqrt(norm)
-            triangles[k, j, j] = norm
-            for s in range(n):
-                moved[s, j] /= norm
-        for i in range(n):
-            for j in range(n):
-                basis[i, j] = moved[i, j]
 
 
 def multipliers(factors):
