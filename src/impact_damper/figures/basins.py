@@ -23,11 +23,12 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Basins of attraction: each state of the primary mass, at the phase named, has the colour of the motion
-that it leads to. Circles are these motions. Without a damper crosses are unstable orbits, and black
-lines their stable manifolds, computed apart, on which the boundaries lie; a manifold without end is
-drawn in part. With the damper the loose mass starts at rest at five places in the gap, and the shade
-is the share of them that leads to the smallest motion. Legends give shares of all states.
+Basins of attraction: each state of the primary mass, at the phase named, has the colour of the
+motion that it leads to. Circles are these motions. Without a damper crosses are unstable orbits,
+and black lines their stable manifolds, computed apart, on which the boundaries lie; a manifold
+without end is drawn in part. With the damper the loose mass starts at rest at five places in the
+gap, and the shade is the share of them that leads to the smallest motion. Legends give shares of
+all states.
 """
 
 # Colours of attractors by rising max |Z1|, with the largest in the last one; of chaos, and of
