@@ -75,7 +75,8 @@ def commands():
     ]
     os.environ["TERM"] = "dumb"
     for name in ("", *sorted(each.callback.__name__ for each in command.registered_commands)):
-        told = CliRunner().invoke(command, [name, "--help"] if name else ["--help"]).stdout
+        asked = [name, "--help"] if name else ["--help"]
+        told = CliRunner().invoke(command, asked, prog_name="impact-damper").stdout
         parts.append(f"## impact-damper {name}".rstrip() + "\n")
         parts.append(f"```text\n{told.strip()}\n```\n")
     return "\n".join(parts)
