@@ -49,6 +49,7 @@ LARGE = {
     "figures": "one file for each kind of figure; they share only drawing and style",
     "kernel": "one file for each part of the kernel and of its compilation",
     "motions": "one file for each way to start or to run motions",
+    "orbits": "one file for each way to find or to follow orbits, and what these share",
     "rivals": "one file for each integrator, and what they and the models share",
     "stages": "one file for each stage of the workflow; some stages have a second one",
     "theory": "one file for each approximation, and the mathematics they share",

@@ -9,6 +9,7 @@ from helpers.known_orbits import DESIGN, PAPER
 from impact_damper.data.datasets import flag
 from impact_damper.motions import ensemble, strobe_map
 from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.quiet_orbits import (
     PHASE,
     find_quiet_orbit,
@@ -16,7 +17,7 @@ from impact_damper.orbits.quiet_orbits import (
     is_symmetric_pair,
     straight_flight_end,
 )
-from impact_damper.orbits.shooting import STROBE, shoot
+from impact_damper.orbits.shooting import shoot
 from impact_damper.system import packed
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator

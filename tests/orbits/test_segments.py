@@ -11,7 +11,8 @@ from numpy.testing import assert_allclose
 from references import extended
 
 from impact_damper.orbits import segments
-from impact_damper.orbits.shooting import STROBE, find_orbit, orbit_of, polish, shoot
+from impact_damper.orbits.orbit import STROBE
+from impact_damper.orbits.shooting import find_orbit, orbit_of, polish, shoot
 from impact_damper.system.packed import FREQUENCY, pack
 
 # A state of a chaotic motion at W = 1.55 which comes back close to itself after 12 periods.

@@ -8,9 +8,10 @@ from helpers.known_orbits import DESIGN, PAPER, polished_orbit
 from helpers.symmetric import CENTRAL, converged, linear_orbit
 from numpy.testing import assert_allclose
 
+from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.paths import follow_path
 from impact_damper.orbits.sensitivity import _displacement, _modulus, path_of, sensitivity
-from impact_damper.orbits.shooting import TURN, find_orbit, shoot
+from impact_damper.orbits.shooting import find_orbit, shoot
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import (
     CLEARANCE,

@@ -8,7 +8,8 @@ from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS, polished_orbi
 from numpy.testing import assert_allclose
 
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.shooting import STROBE, TURN, find_orbit, shoot
+from impact_damper.orbits.orbit import STROBE, TURN
+from impact_damper.orbits.shooting import find_orbit, shoot
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper
 

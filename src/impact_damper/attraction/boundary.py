@@ -49,7 +49,7 @@ def saddles(p, states, periods, phase):
 
     Returns
     -------
-    list of orbits.shooting.Orbit
+    list of orbits.orbit.Orbit
         By rising period; each orbit once.
     """
     found, known = [], np.empty((0, 2))
@@ -97,7 +97,7 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
 
     Parameters
     ----------
-    orbit : orbits.shooting.Orbit
+    orbit : orbits.orbit.Orbit
         A saddle of the free oscillator.
     tolerance : float
         Local error allowed.

@@ -13,7 +13,8 @@ from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.literature.masri_caughey import flight_with_speed
 from impact_damper.orbits.compliant_orbits import CONTACTS
-from impact_damper.orbits.shooting import Orbit, shoot
+from impact_damper.orbits.orbit import Orbit
+from impact_damper.orbits.shooting import shoot
 from impact_damper.system.packed import pack
 
 # Newton's method: most corrections, and largest residual relative to the state.

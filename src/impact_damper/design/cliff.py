@@ -17,8 +17,9 @@ from impact_damper.design.compare import compare
 from impact_damper.design.deviations import choose_with_tolerances
 from impact_damper.design.outcomes import Case, are_quiet, run
 from impact_damper.orbits.branches import Branch, follow_branch
+from impact_damper.orbits.orbit import STROBE, Orbit
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
-from impact_damper.orbits.shooting import STROBE, Orbit, find_orbit
+from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.families import family_of
 
 # Bisections of each edge, and number of frequencies, those of least share, at which it is sought.

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from impact_damper.edges.problem import KINDS, ROUNDING, Problem, concerned
-from impact_damper.orbits.shooting import Orbit
+from impact_damper.orbits.orbit import Orbit
 from impact_damper.system.bounds import shown
 
 # First, shortest and longest step, and growth. If the shortest step fails, the edge ends, and the

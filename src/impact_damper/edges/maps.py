@@ -23,9 +23,10 @@ from impact_damper.edges.problem import (
 )
 from impact_damper.motions.following import Followed
 from impact_damper.orbits.grid_following import Grid
+from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.orbits.paths import Path
 from impact_damper.orbits.sensitivity import path_of
-from impact_damper.orbits.shooting import TURN, Orbit, shoot
+from impact_damper.orbits.shooting import shoot
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import CLEARANCE
 

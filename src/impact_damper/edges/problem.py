@@ -22,8 +22,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.paths import Path, follow_path
-from impact_damper.orbits.shooting import TURN, shoot
+from impact_damper.orbits.shooting import shoot
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 

@@ -17,7 +17,7 @@ from impact_damper.orbits.continuation import (
     Problem,
 )
 from impact_damper.orbits.grazing import through_grazing
-from impact_damper.orbits.shooting import Orbit
+from impact_damper.orbits.orbit import Orbit
 
 # Most orbits in one direction.
 MOST_POINTS = 10_000

@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.orbits import segments
-from impact_damper.orbits.shooting import AMPLIFYING, TURN, Orbit, orbit_of, shoot
+from impact_damper.orbits.orbit import TURN, Orbit
+from impact_damper.orbits.shooting import AMPLIFYING, orbit_of, shoot
 from impact_damper.system.packed import CLEARANCE
 
 # Change of the parameter in the central difference.

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.orbits.paths import POINTS, Path, follow_path
-from impact_damper.orbits.shooting import TURN, Orbit
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import COUNT, DESIGN, FREQUENCY, design_slopes
 

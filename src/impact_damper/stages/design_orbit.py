@@ -15,7 +15,7 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.start_states import search_starts
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.stages.branches import branches_dataset
+from impact_damper.stages.branch_datasets import branches_dataset
 from impact_damper.system.bounds import SEED_RANGE, check_count
 from impact_damper.system.families import family_of
 from impact_damper.system.packed import pack

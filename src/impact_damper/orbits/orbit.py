@@ -1,0 +1,256 @@
+"""A periodic orbit, stable or not: its multipliers, contacts, motion, and phases far from contacts.
+
+The state of an orbit is given at a phase W T of the forcing at which the loose mass is in flight,
+far from contacts, where the map over the period is smooth and well scaled.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.motions import records
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.orbits import segments
+from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
+
+TURN = 2 * math.pi
+STROBE = math.pi / 2
+# A phase is kept while the nearest contact is further away than this, in radians of the forcing.
+MARGIN = 0.15
+# Largest number of contacts in a forcing period that are listed.
+CONTACTS = 64
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """A periodic orbit.
+
+    Attributes
+    ----------
+    p : numpy.ndarray, shape (packed.COUNT,)
+        Packed parameters.
+    periods : int
+        Period n in forcing periods.
+    phase : float
+        Phase W T of the state, radian; W is the forcing frequency.
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at that phase; Z2 is the displacement of the primary mass, Z1, relative to
+        the loose mass.
+    monodromy : numpy.ndarray, shape (4, 4)
+        Derivative of the map over n periods.
+    root : numpy.ndarray, shape (4, 4), or None
+        For a symmetric orbit of odd n, derivative of the map over n/2 periods with a change of
+        sign. Its square is the monodromy matrix.
+    residual : float
+        Largest difference between the state and the state a period later.
+    touching : float
+        Time in contact during a period.
+    converged : bool
+        Whether the residual is at most RESIDUAL times the largest component of the state, or times
+        1 if that is less. Otherwise the state is the best that Newton's method found.
+    maps : int
+        Number of maps over the period that Newton's method computed.
+    chain : segments.Chain or None
+        Segments of an orbit by multiple shooting. The state is that of the first segment; the
+        monodromy matrix and its root are products of factors, which are exact only relative to
+        their norm. Everything else is computed from the segments, with their accuracy.
+    """
+
+    p: np.ndarray
+    periods: int
+    phase: float
+    state: np.ndarray
+    monodromy: np.ndarray
+    root: np.ndarray | None
+    residual: float
+    touching: float
+    converged: bool
+    maps: int = 1
+    chain: segments.Chain | None = None
+
+    @property
+    def cycle(self):
+        """Phase after which the motion repeats, with a change of sign if the orbit has a root."""
+        return self.periods * TURN * (1.0 if self.root is None else 0.5)
+
+    @property
+    def factors(self):
+        """Derivatives of the segments of a cycle, shape (m, 4, 4)."""
+        if self.chain is not None:
+            return self.chain.factors
+        return (self.monodromy if self.root is None else self.root)[None]
+
+    @property
+    def amplification(self):
+        """Norm of the derivative of the map over a cycle."""
+        matrix = self.monodromy if self.root is None else self.root
+        return np.linalg.norm(matrix, 2) if np.all(np.isfinite(matrix)) else np.inf
+
+    @property
+    def active(self):
+        """Number of unknowns: 4, or 2 if no wall is touched and the loose mass keeps its place."""
+        return 4 if self.touching > 0 else 2
+
+    @cached_property
+    def multipliers(self):
+        """Floquet multipliers by falling modulus, shape (4,); two are NaN without contacts."""
+        values = np.full(4, complex(np.nan, np.nan))
+        n = self.active
+        active = self.cycle_multipliers if self.root is None else self.cycle_multipliers**2
+        values[:n] = active[np.lexsort((-active.imag, -np.abs(active)))]
+        return values
+
+    @cached_property
+    def cycle_multipliers(self):
+        """Multipliers of a cycle, shape (active,): those of the root if the orbit has one."""
+        n = self.active
+        return segments.multipliers(self.factors[:, :n, :n])
+
+    @property
+    def stable(self):
+        """Whether all multipliers are less than 1 in modulus."""
+        return bool(abs(self.multipliers[0]) < 1)
+
+    @property
+    def liouville_error(self):
+        """Return the relative error of the determinant of the monodromy matrix.
+
+        By Liouville's theorem the determinant is exp(-h n 2 pi/W - c (1 + 1/rm) t_c), with the
+        dashpot's coefficient c = 2 zeta_c sqrt(r1 rm) and the time in contact t_c.
+        """
+        p = self.p
+        contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
+        rate = p[DAMPING] * self.periods * TURN / p[FREQUENCY] + contact_damping * self.touching
+        cycles = 1 if self.root is None else 2
+        return abs(math.expm1(cycles * segments.log_determinant(self.factors) + rate))
+
+    @cached_property
+    def contacts(self):
+        """Contacts in order, shape (k, 5): wall (-1 or 1), time of beginning and end, Z2' at both.
+
+        Raises
+        ------
+        ArithmeticError
+            If there are more than CONTACTS in a forcing period.
+        """
+        if self.chain is not None:
+            log = self.chain.log()
+            if self.root is None:
+                return log
+            shift = self.cycle / self.p[FREQUENCY]
+            return np.concatenate([log, log * [-1, 1, 1, -1, -1] + [0, shift, shift, 0, 0]])
+        begin = self.phase / self.p[FREQUENCY]
+        end = begin + self.periods * TURN / self.p[FREQUENCY]
+        # a contact at the phase itself is complete only a period later
+        touching = side_of(self.p, self.state) != 0
+        last = end + touching * (end - begin)
+        log = np.empty(((1 + touching) * self.periods * CONTACTS, 5))
+        count = records.trace(
+            self.p,
+            self.state.copy(),
+            begin,
+            np.array([last]),
+            POLISH_TOLERANCE,
+            np.empty((1, 4)),
+            log,
+        )
+        if count > len(log):
+            raise ArithmeticError(
+                f"{count} contacts in an orbit: more than {CONTACTS} a forcing period"
+            )
+        log = log[touching:count]
+        return log[log[:, 1] < end]
+
+    @property
+    def sequence(self):
+        """Walls touched in order, such as "+-"; of all cyclic shifts the first in the alphabet."""
+        walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
+        return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
+
+    @property
+    def least_speed(self):
+        """Least |Z2'| at which a contact begins, small near grazing; NaN without contacts."""
+        return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
+
+    @property
+    def restitution(self):
+        """Least ratio of |Z2'| after a contact to |Z2'| before; NaN without contacts."""
+        before, after = np.abs(self.contacts[:, 3]), np.abs(self.contacts[:, 4])
+        return np.min(after / before, initial=np.inf) if self.touching else np.nan
+
+    def at(self, phase):
+        """Return the state, shape (4,), at a phase W T not before that of the orbit, radian."""
+        if self.chain is not None:
+            return self.chain.at(phase)
+        y = self.state.copy()
+        begin = self.phase / self.p[FREQUENCY]
+        end = begin + (phase - self.phase) / self.p[FREQUENCY]
+        side = side_of(self.p, y)
+        advance(self.p, y, np.empty((0, 4)), side, begin, end, POLISH_TOLERANCE, workspace())
+        return y
+
+    @cached_property
+    def strobe_states(self):
+        """States at W T = pi/2 of every forcing period, shape (n, 4)."""
+        first = self.phase + (STROBE - self.phase) % TURN
+        return np.array([self.at(first + k * TURN) for k in range(self.periods)])
+
+    @cached_property
+    def record(self):
+        """Largest |Z1|, contacts, asymmetry and first harmonics: a `records.MOTION`."""
+        if self.chain is not None:
+            return self._record_of_chain()
+        return records.measured(self.p, self.strobe_states[0], self.periods, POLISH_TOLERANCE)
+
+    def _record_of_chain(self):
+        """Return the `record` from the segments."""
+        record = np.zeros(1, records.MOTION)[0]
+        record["maximum_displacement"] = self.chain.largest()
+        record["contacts"] = len(self.contacts) / self.periods
+        begin = self.phase + (STROBE - self.phase) % TURN
+        sums = self.at(begin) + self.at(begin + self.periods * TURN / 2)
+        record["asymmetry"] = np.max(np.abs(sums)) if self.periods % 2 else np.nan
+        # half a symmetric orbit has the mean of the whole, since it has only odd harmonics
+        phases, states = self.chain.samples(STROBE, TURN / records.SAMPLES)
+        first, _, second, _ = 2 / len(states) * (np.exp(-1j * phases) @ states)
+        record["harmonic_displacement"], record["harmonic_relative"] = first, second
+        return record
+
+    def is_same(self, other, tolerance=1e-6):
+        """Return whether another orbit is this one or its mirror image, up to a shift in time."""
+        if other.periods != self.periods:
+            return False
+        first = self.phase + (STROBE - self.phase) % TURN + TURN / 2
+        mirrored = [-self.at(first + k * TURN) for k in range(self.periods)]
+        states = np.concatenate([self.strobe_states, mirrored])
+        return bool(np.min(np.max(np.abs(states - other.strobe_states[0]), axis=1)) < tolerance)
+
+    def repeats_sooner(self, tolerance=1e-6):
+        """Return whether the state repeats after fewer periods, a divisor of n."""
+        shift = np.max(np.abs(self.strobe_states - self.strobe_states[0]), axis=1)
+        return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
+
+    def margin(self, phase):
+        """Return the distance of a phase from the nearest contact, radian; -1 during a contact."""
+        begins, ends = (self.p[FREQUENCY] * self.contacts[:, k] for k in (1, 2))
+        cycle = self.periods * TURN
+        ahead, behind = (begins - phase) % cycle, (phase - ends) % cycle
+        inside = (phase - begins) % cycle < (ends - begins)
+        return -1.0 if inside.any() else np.min([ahead, behind], initial=np.inf)
+
+    def quiet_phase(self):
+        """Return a phase far from contacts, radian, less than a period after that of the orbit.
+
+        The phase of the orbit itself if it is further than MARGIN from all contacts, else the
+        middle of the longest flight.
+        """
+        if not self.touching or self.margin(self.phase) > MARGIN:
+            return self.phase
+        ends = self.p[FREQUENCY] * self.contacts[:, 2]
+        begins = self.p[FREQUENCY] * np.append(self.contacts[1:, 1], self.contacts[0, 1])
+        flights = (begins - ends) % (self.periods * TURN)
+        k = np.argmax(flights)
+        return self.phase + (ends[k] + flights[k] / 2 - self.phase) % (self.periods * TURN)
