@@ -105,8 +105,8 @@ def draw_plane(axes, data):
     names = ("mass_ratio", "clearance") if has_damper(data) else ()
     words = parameter_label(made, "frequency", *names)
     turn = float(data["basin_phase"]) / np.pi
+    axes.set_title(rf"{words}, phase ${turn:.3g}\pi$", loc="right")
     axes.set(
-        title=rf"{words}, phase ${turn:.3g}\pi$",
         xlabel=axis_label(data["basin_displacement"]),
         ylabel=axis_label(data["basin_velocity"]),
         xlim=data["basin_displacement"].values[[0, -1]],
