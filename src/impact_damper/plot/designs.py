@@ -4,7 +4,7 @@ from impact_damper.figures.machines.cliff import share_panel, size_panel
 from impact_damper.figures.machines.response import response_panel
 from impact_damper.figures.optimum import sweeps_panel
 from impact_damper.figures.style import CURVES
-from impact_damper.plot.drawing import axes_for, datasets_in, key, looks
+from impact_damper.plot.drawing import axes_for, dataset_in, datasets_in, key, looks
 
 
 def sweep(data, *, ax=None):
@@ -53,13 +53,11 @@ def design(data, *, ax=None):
     TypeError
         If something else is given.
     """
-    given = datasets_in(data, lambda each: "design_gap" in each, "design_damper")
-    if len(given) > 1:
-        raise TypeError(f"data = {len(given)} datasets: must be one result of design_damper")
+    found = dataset_in(data, lambda each: "design_gap" in each, "design_damper")
     with looks(ax):
         axes = axes_for(ax, 3, height=4.2)
         for panel, each in zip((response_panel, size_panel, share_panel), axes, strict=True):
-            panel(each, given[0])
+            panel(each, found)
             key(each, 1)
         for each in axes[1:]:
             each.set_xlabel("Gap, full play (mm)")

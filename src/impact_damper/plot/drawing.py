@@ -39,6 +39,20 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
     return list(found)
 
 
+def dataset_in(data, takes, words) -> xr.Dataset:
+    """Return the one dataset that is given; arguments as for `datasets_in`.
+
+    Raises
+    ------
+    TypeError
+        If there is none, or more than one, or it cannot be drawn.
+    """
+    found = datasets_in(data, takes, words)
+    if len(found) > 1:
+        raise TypeError(f"data = {len(found)} datasets: must be one result of {words}")
+    return found[0]
+
+
 def looks(ax):
     """Return a context with the style of the paper's figures for new axes only."""
     return style() if ax is None else nullcontext()
@@ -69,7 +83,7 @@ def key(axes, columns=2):
     handles, labels = axes.get_legend_handles_labels()
     entries = dict(reversed(list(zip(labels, handles, strict=True))))
     if entries:
-        order = [label for label in dict.fromkeys(labels)]
+        order = list(dict.fromkeys(labels))
         axes.legend(
             [entries[label] for label in order],
             order,

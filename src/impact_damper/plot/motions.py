@@ -13,7 +13,7 @@ from impact_damper.figures.style import axis_label
 from impact_damper.machine.arguments import takes_machine
 from impact_damper.machine.machine import Machine
 from impact_damper.motions.simulate import simulate
-from impact_damper.plot.drawing import axes_for, datasets_in, key, looks
+from impact_damper.plot.drawing import axes_for, dataset_in, key, looks
 
 
 def orbit(data, *, ax=None):
@@ -37,10 +37,7 @@ def orbit(data, *, ax=None):
         If something else is given.
     """
     words = "simulate, steady_motion or periodic_orbit"
-    given = datasets_in(data, _is_motion, words)
-    if len(given) > 1:
-        raise TypeError(f"data = {len(given)} datasets: must be one result of {words}")
-    (found,) = given
+    found = dataset_in(data, _is_motion, words)
     run = found if "time" in found.coords else _one_period(found)
     with looks(ax):
         left, right = axes_for(ax, 2)
@@ -97,12 +94,10 @@ def basins(data, *, ax=None):
     TypeError
         If something else is given.
     """
-    given = datasets_in(data, lambda each: "basin_label" in each, "basins")
-    if len(given) > 1:
-        raise TypeError(f"data = {len(given)} datasets: must be one result of basins")
+    found = dataset_in(data, lambda each: "basin_label" in each, "basins")
     with looks(ax):
         (axes,) = axes_for(ax, height=5.0)
-        draw_plane(axes, given[0])
+        draw_plane(axes, found)
     return axes
 
 
@@ -124,10 +119,7 @@ def migration(data, *, ax=None):
     TypeError
         If something else is given.
     """
-    given = datasets_in(data, lambda each: {"on_time", "displacement"} <= each.keys(), "migrate")
-    if len(given) > 1:
-        raise TypeError(f"data = {len(given)} datasets: must be one result of migrate")
-    (run,) = given
+    run = dataset_in(data, lambda each: {"on_time", "displacement"} <= each.keys(), "migrate")
     with looks(ax):
         (axes,) = axes_for(ax)
         draw_run(axes, run, run["time"].values[[0, -1]], 0.4)

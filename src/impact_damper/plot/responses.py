@@ -18,7 +18,7 @@ from impact_damper.figures.style import (
     axis_label,
     tex,
 )
-from impact_damper.plot.drawing import axes_for, datasets_in, key, looks
+from impact_damper.plot.drawing import axes_for, dataset_in, datasets_in, key, looks
 from impact_damper.system.parameters import SYMBOLS
 
 # A sweep of steady motions.
@@ -223,10 +223,7 @@ def shares(data, *, ax=None):
         If something else is given.
     """
     words = "frequency_response, subharmonic_suppression or clearance_sweep"
-    given = datasets_in(data, lambda each: "run_outcome" in each, words)
-    if len(given) > 1:
-        raise TypeError(f"data = {len(given)} datasets: must be one result of {words}")
-    (found,) = given
+    found = dataset_in(data, lambda each: "run_outcome" in each, words)
     name = found["run_outcome"].dims[0]
     with looks(ax):
         (axes,) = axes_for(ax)
