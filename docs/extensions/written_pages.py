@@ -4,14 +4,15 @@ The claims and the figures come from `results/`, or from the reduced run in `res
 it; without both the pages say which command makes them.
 """
 
-import csv
 import os
 import re
 import shutil
 from pathlib import Path
 
+import pandas as pd
 from typer.testing import CliRunner
 
+from impact_damper.claims.verdicts import document
 from impact_damper.data.variables import MODULES
 from impact_damper.workflow.command_line import app as command
 from impact_damper.workflow.models.reference import reference
@@ -19,14 +20,6 @@ from impact_damper.workflow.models.reference import reference
 ROOT = Path(__file__).parents[2]
 RUNS = {"results": "the full run", "results-smoke": "the reduced run, which leaves most open"}
 MISSING = "No run was found: `make reproduce`, then `make docs`.\n"
-# Figure that shows a claim; for the others the numbers say all.
-SHOWN = {
-    "1": "figure_03c", "2": "figure_05a", "3": "figure_03b", "4": "figure_10", "5": "figure_04",
-    "6": "figure_05a", "9": "figure_06", "10": "figure_05c", "11": "figure_11",
-    "12": "figure_13", "13": "figure_14", "14": "figure_15", "15": "contact_model",
-    "16": "figure_05a", "17": "figure_05b", "18": "figure_08", "19": "figure_16",
-    "S2": "figure_03a", "S3": "figure_04", "S4": "figure_06", "S5": "figure_07", "S6": "figure_08",
-}  # fmt: skip
 
 
 def write_pages(app):
@@ -83,35 +76,10 @@ def commands():
 
 
 def claims(run, folder):
-    """Return the page of the claims: verdict, one sentence, figure, and the numbers folded."""
-    with open(ROOT / run / "tables/claims.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    parts = [
-        f"# The paper, claim by claim\n\nFrom {RUNS[run]}.\n",
-        "| | claim | verdict |\n|---|---|---|",
-    ]
-    parts += [
-        f"| [{row['number']}](#claim-{row['number'].lower()}) | {row['claim']} | {row['verdict']} |"
-        for row in rows
-    ]
-    for row in rows:
-        parts += [
-            f"\n(claim-{row['number'].lower()})=\n## {named(row['number'])}\n",
-            f"> {row['claim']}\n",
-            f"**{row['verdict'].capitalize()}.** {row['difference']}\n",
-            picture(run, SHOWN.get(row["number"]), folder),
-            "<details><summary>Reading, criterion and numbers</summary>\n",
-            f"- **Where:** {row['source']}\n- **Our reading:** {row['interpretation']}",
-            f"- **Criterion:** {row['criterion']}",
-            "- **Numbers:** " + row["evidence"].replace("; ", "\n  - "),
-            "\n</details>\n",
-        ]
-    return "\n".join(parts)
-
-
-def named(number):
-    """Return the heading of a claim or slip."""
-    return f"Slip {number}" if number.startswith("S") else f"Claim {number}"
+    """Return the page of the claims, with the figures that the run has drawn."""
+    table = pd.read_csv(ROOT / run / "tables/claims.csv", dtype=str, keep_default_na=False)
+    title, *parts = document(table, lambda name: picture(run, name, folder)).split("\n\n")
+    return "\n\n".join([title, f"From {RUNS[run]}.", *parts])
 
 
 def figures(run, folder):

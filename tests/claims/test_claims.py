@@ -2,10 +2,13 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
+import yaml
 from helpers.made_up import PEAKS, damped_branches, world
+from helpers.running import ROOT
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import (
@@ -20,7 +23,7 @@ from impact_damper.claims.claim import (
 )
 from impact_damper.claims.extract import ELASTIC
 from impact_damper.claims.suppression import suppression_band
-from impact_damper.claims.verdicts import CLAIMS, claims
+from impact_damper.claims.verdicts import CLAIMS, claims, document, title
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.motions.steady import steady_motion
 from impact_damper.stages.branches import orbit_branch
@@ -206,8 +209,7 @@ def test_all_are_reproduced_in_a_world_made_so(data):
     expected |= dict.fromkeys(slips, "the print is consistent")
     table = claims(data)
     assert dict(zip(table.number, table.verdict, strict=True)) == expected
-    agrees = table.verdict.isin([REPRODUCED, SLIP_WORDS[REPRODUCED]])
-    assert ((table.difference == "") == agrees).all()
+    assert table.finding.str.endswith(".").all()
     assert (table.evidence != "").all()
 
 
@@ -217,9 +219,7 @@ def test_data_refute(number, data):
     row = BY_NUMBER[number].judge(data)
     words = SLIP_WORDS if BY_NUMBER[number].is_slip else {}
     assert row["verdict"] == words.get(NOT_REPRODUCED, NOT_REPRODUCED), row["evidence"]
-    corrected = BY_NUMBER[number].correction is not None
-    assert row["difference"].startswith("Computed: ") != corrected
-    assert row["difference"].endswith(".")
+    assert row["finding"] != BY_NUMBER[number].judge(world())["finding"]
 
 
 @pytest.mark.parametrize("number", DIFFERENCES)
@@ -233,7 +233,7 @@ def test_data_make_a_difference(number, data):
 def test_missing_data_leave_it_open(number):
     row = BY_NUMBER[number].judge({})
     assert row["verdict"] == NOT_DECIDABLE
-    assert row["difference"].startswith("There ")
+    assert row["finding"].startswith("There ")
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
@@ -268,9 +268,63 @@ def test_made_up_evidence_flips_the_verdict(claim):
             assert claim.verdict(values | {measure.name: math.nan}) == NOT_DECIDABLE
 
 
+# Names that are written so in texts of the paper.
+SYMBOLS = {"omega_l"}
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
+def test_a_sentence_for_each_verdict_says_its_reason(claim, data):
+    """Each number beyond its bounds changes the sentence; unknown ones are named."""
+    values = claim.evidence(data) | fitting(claim)
+    told = {claim.sentence(values)}
+    for measure in claim.measures:
+        if measure.requirement:
+            unknown = claim.sentence(values | {measure.name: math.nan})
+            assert unknown.startswith("The data do not determine: ")
+            assert measure.description in unknown
+            beyond = measure.least - 0.5 if math.isfinite(measure.least) else measure.most + 0.5
+            changed = claim.sentence(values | {measure.name: beyond})
+            assert changed != claim.sentence(values), measure.name
+            told.add(changed)
+        else:
+            told.add(claim.sentence(values | {measure.name: math.nan}))
+    for sentence in told:
+        assert sentence.endswith(".") and "nan" not in sentence.replace("resonan", ""), sentence
+        assert set(re.findall(r"[A-Za-z]+_\w+", sentence)) <= SYMBOLS, sentence
+        assert re.search(r"\d|all|none", sentence), sentence
+
+
+def test_claims_are_shown_by_figures_of_the_configuration():
+    figures = yaml.safe_load((ROOT / "config/config.yaml").read_text())["figures"]
+    assert {name for claim in CLAIMS for name in claim.figures} <= figures.keys()
+
+
+def test_page_has_verdict_sentence_figure_and_folded_numbers_of_each_claim(data):
+    table = claims(data)
+    page = document(table)
+    for row in table.to_dict("records"):
+        _, _, section = page.partition(f"\n## {title(row['number'])}\n")
+        section = section.partition("\n## ")[0]
+        top, _, folded = section.partition("<details>")
+        assert row["claim"] in top and row["finding"] in top and row["interpretation"] in top
+        assert row["verdict"].capitalize() in top
+        assert all(f"figures/{name}.png" in top for name in row["figures"].split())
+        assert row["criterion"] in folded
+    assert page.count("<details>") == len(table)
+
+
 SHARP = Measure("sharp", "the sharp number", most=1.0, decisive=True)
 FULL = Measure("full", "the full number", least=0.0, most=2.0)
 NOTE = Measure("note", "the note")
+
+
+def made_up(evidence):
+    """Claim with the measures above, for this evidence."""
+    return Claim(
+        "1", "", "", "", (SHARP, FULL, NOTE),
+        evidence=lambda datasets: evidence,
+        finding=lambda sharp, **others: f"The number is {sharp}.",
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -286,21 +340,20 @@ NOTE = Measure("note", "the note")
 )
 def test_verdict(values, verdict):
     evidence = dict(zip(("sharp", "full", "note"), values, strict=True))
-    claim = Claim("1", "", "", "", (SHARP, FULL, NOTE), lambda datasets: evidence)
+    claim = made_up(evidence)
     assert claim.judge({})["verdict"] == verdict
 
 
 def test_words():
     evidence = {"sharp": 1.23456, "full": math.nan, "note": math.nan}
-    row = Claim("1", "", "", "", (SHARP, FULL, NOTE), lambda datasets: evidence).judge({})
+    row = made_up(evidence).judge({})
     assert row["criterion"] == (
         "Decided by: the sharp number at most 1. Full agreement: the full number from 0 to 2."
     )
     assert row["evidence"] == "the sharp number: 1.235; the full number: none; the note: none"
-    assert row["difference"] == (
-        "Computed: the sharp number is 1.235, where the claim requires at most 1; "
-        "the full number is unknown."
-    )
+    assert row["finding"] == "The number is 1.23456."
+    row = made_up(evidence | {"sharp": 1.0}).judge({})
+    assert row["finding"] == "The data do not determine: the full number."
 
 
 def test_an_unstable_quiet_orbit_refutes_whatever_omega_l(data):

@@ -9,6 +9,7 @@ import pandas as pd
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import balance as balance_findings
 from impact_damper.claims.suppression import suppression_band
 from impact_damper.data.datasets import flag, is_settled
 
@@ -199,6 +200,8 @@ CLAIMS = (
             ),
         ),
         evidence=small_motion,
+        finding=balance_findings.small_motion,
+        figures=("figure_03c",),
     ),
     Claim(
         number="2",
@@ -228,6 +231,8 @@ CLAIMS = (
             ),
         ),
         evidence=rigid_against_elastic,
+        finding=balance_findings.rigid_against_elastic,
+        figures=("figure_05a",),
     ),
     Claim(
         number="3",
@@ -301,5 +306,7 @@ CLAIMS = (
             ),
         ),
         evidence=quiet_and_high,
+        finding=balance_findings.quiet_and_high,
+        figures=("figure_03b",),
     ),
 )

@@ -8,6 +8,7 @@ import numpy as np
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import balance as balance_findings
 from impact_damper.claims.suppression import suppression_band
 
 
@@ -140,6 +141,8 @@ CLAIMS = (
             Measure("reduction", "largest minus smallest reduction over omega_l", most=0.1),
         ),
         evidence=widening,
+        finding=balance_findings.band_width,
+        figures=("figure_10",),
     ),
     Claim(
         number="16",
@@ -177,6 +180,8 @@ CLAIMS = (
             ),
         ),
         evidence=accuracy,
+        finding=balance_findings.accuracy,
+        figures=("figure_05a",),
     ),
     Claim(
         number="17",
@@ -199,5 +204,7 @@ CLAIMS = (
             Measure("balance", "the same ratio by harmonic balance", most=1),
         ),
         evidence=amplitude_by_mass,
+        finding=balance_findings.amplitude_by_mass,
+        figures=("figure_05b",),
     ),
 )

@@ -85,9 +85,11 @@ class Claim:
     evidence : callable
         Takes all datasets, a dict keyed by stage of dicts keyed by name, and returns a dict with
         the value of each measure; NaN if the datasets do not determine it. May raise `Missing`.
-    correction : callable, optional
-        Takes the values of the measures and returns a sentence that says what is right, where the
-        claim is refuted; by default the measures out of bounds are named.
+    finding : callable
+        Takes these values as keyword arguments, the bounded ones known, and returns sentences that
+        say what the data show, true whatever the verdict is.
+    figures : tuple of str
+        Names of the figures that show it, the most telling one first; empty for numbers alone.
     """
 
     number: str
@@ -96,7 +98,8 @@ class Claim:
     interpretation: str
     measures: tuple[Measure, ...]
     evidence: Callable[[dict], dict]
-    correction: Callable[[dict], str] | None = None
+    finding: Callable[..., str]
+    figures: tuple[str, ...] = ()
 
     @property
     def is_slip(self) -> bool:
@@ -131,48 +134,36 @@ class Claim:
                 parts.append(f"{lead}: {'; '.join(required)}.")
         return " ".join(parts)
 
-    def difference(self, values) -> str:
-        """Sentence on the measures that are out of bounds or unknown; "" without any."""
-        if self.correction is not None and self.verdict(values) == NOT_REPRODUCED:
-            return self.correction(values)
-        parts, told = [], set()
-        for measure in self.measures:
-            value = values[measure.name]
-            if measure.name in told:
-                continue
-            if measure.requirement and math.isnan(value):
-                parts.append(f"{measure.description} is unknown")
-            elif measure.requirement and not measure.holds(value):
-                told.add(measure.name)
-                parts.append(
-                    f"{measure.description} is {readable(value)}, "
-                    f"where the claim requires {measure.requirement}"
-                )
-        return f"Computed: {'; '.join(parts)}." if parts else ""
-
-    def _in_words(self, verdict):
-        """Return the verdict as tables print it; one on a slip is about the print."""
-        return SLIP_WORDS[verdict] if self.is_slip else verdict
+    def sentence(self, values) -> str:
+        """What the data show, with numbers; or which numbers they do not determine."""
+        if self.verdict(values) != NOT_DECIDABLE:
+            return self.finding(**values)
+        unknown = [
+            measure.description
+            for measure in self.measures
+            if measure.requirement and math.isnan(values[measure.name])
+        ]
+        return f"The data do not determine: {'; '.join(dict.fromkeys(unknown))}."
 
     def judge(self, datasets) -> dict:
         """Row of the claim in the table of claims."""
-        row = {
+        descriptions = {measure.name: measure.description for measure in self.measures}
+        try:
+            values = self.evidence(datasets)
+            verdict, finding = self.verdict(values), self.sentence(values)
+            evidence = "; ".join(
+                f"{text}: {readable(values[name])}" for name, text in descriptions.items()
+            )
+        except Missing as missing:
+            verdict, finding, evidence = NOT_DECIDABLE, f"{missing}.", ""
+        return {
             "number": self.number,
             "claim": self.text,
+            "verdict": SLIP_WORDS[verdict] if self.is_slip else verdict,
+            "finding": finding,
+            "figures": " ".join(self.figures),
             "source": self.source,
             "interpretation": self.interpretation,
             "criterion": self.criterion(),
-        }
-        try:
-            values = self.evidence(datasets)
-        except Missing as missing:
-            return row | {"evidence": "", "verdict": NOT_DECIDABLE, "difference": f"{missing}."}
-        descriptions = {measure.name: measure.description for measure in self.measures}
-        evidence = "; ".join(
-            f"{text}: {readable(values[name])}" for name, text in descriptions.items()
-        )
-        return row | {
             "evidence": evidence,
-            "verdict": self._in_words(self.verdict(values)),
-            "difference": self.difference(values),
         }

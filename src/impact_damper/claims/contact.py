@@ -4,6 +4,7 @@ import math
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import motions as motions_findings
 from impact_damper.contact.contact_law import damping_ratio
 
 LOW = 0.3  # example of a low coefficient of restitution e
@@ -77,5 +78,7 @@ CLAIMS = (
             Measure("pulling", f"share of the time in contact in which the wall pulls, e = {LOW}"),
         ),
         evidence=model,
+        finding=motions_findings.contact_model,
+        figures=("contact_model",),
     ),
 )

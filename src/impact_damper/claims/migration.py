@@ -8,6 +8,7 @@ import numpy as np
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import migration as migration_findings
 from impact_damper.data.datasets import damper_of, flag, oscillator_of
 
 
@@ -193,6 +194,8 @@ CLAIMS = (
             ),
         ),
         evidence=any_phase,
+        finding=migration_findings.any_phase,
+        figures=("figure_13",),
     ),
     Claim(
         number="13",
@@ -251,6 +254,8 @@ CLAIMS = (
             Measure("unsettled_last", "highest scanned W of this kind"),
         ),
         evidence=release_phase,
+        finding=migration_findings.release_phase,
+        figures=("figure_14",),
     ),
     Claim(
         number="14",
@@ -291,6 +296,8 @@ CLAIMS = (
             Measure("through", "share of states before settling at the worst W in this basin"),
         ),
         evidence=total_cycles,
+        finding=migration_findings.total_cycles,
+        figures=("figure_15",),
     ),
     Claim(
         number="19",
@@ -310,5 +317,7 @@ CLAIMS = (
             Measure("cycles", "median number of cycles"),
         ),
         evidence=early_release,
+        finding=migration_findings.early_release,
+        figures=("figure_16",),
     ),
 )

@@ -8,6 +8,7 @@ import pandas as pd
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import motions as motions_findings
 from impact_damper.claims.suppression import chaotic_high, high_motions
 
 
@@ -113,6 +114,8 @@ CLAIMS = (
             Measure("multiplier", "largest Floquet multiplier modulus of such an orbit"),
         ),
         evidence=quiet_contacts,
+        finding=motions_findings.quiet_contacts,
+        figures=("figure_04",),
     ),
     Claim(
         number="6",
@@ -163,6 +166,8 @@ CLAIMS = (
             ),
         ),
         evidence=high_and_chaotic,
+        finding=motions_findings.high_and_chaotic,
+        figures=("figure_05a",),
     ),
     Claim(
         number="8",
@@ -191,5 +196,6 @@ CLAIMS = (
             Measure("wait", "longest time to the first collision, forcing periods"),
         ),
         evidence=first_collisions,
+        finding=motions_findings.first_collisions,
     ),
 )

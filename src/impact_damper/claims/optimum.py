@@ -5,6 +5,7 @@ import numpy as np
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.bands import smallest_quiet_orbits
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import motions as motions_findings
 from impact_damper.claims.suppression import suppression_band
 
 AWAY = 0.1  # relative distance from the optimum clearance at which max |Z1| is taken
@@ -132,6 +133,8 @@ CLAIMS = (
             ),
         ),
         evidence=excess,
+        finding=motions_findings.optimum,
+        figures=("figure_06",),
     ),
     Claim(
         number="11",
@@ -178,5 +181,7 @@ CLAIMS = (
             ),
         ),
         evidence=restitution,
+        finding=motions_findings.restitution,
+        figures=("figure_11",),
     ),
 )

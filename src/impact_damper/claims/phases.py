@@ -4,6 +4,7 @@ import numpy as np
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import balance as balance_findings
 
 
 def phases(datasets):
@@ -92,5 +93,6 @@ CLAIMS = (
             ),
         ),
         evidence=phases,
+        finding=balance_findings.phases,
     ),
 )

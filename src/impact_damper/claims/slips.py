@@ -6,6 +6,7 @@ import numpy as np
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.findings import slips as slips_findings
 from impact_damper.data.datasets import flag, oscillator_of
 from impact_damper.system.parameters import Oscillator
 from impact_damper.theory.design_rule import peak_frequency
@@ -138,11 +139,7 @@ CLAIMS = (
             Measure("corrected", "median of the expansion of (6e) over B"),
         ),
         evidence=penetration,
-        correction=lambda values: (
-            f"B grows as the power {values['power']:.2f} of eps, not 1/2. The expansion of (6e), "
-            f"with the power 3/2, is {values['corrected']:.3g} times B; the printed expression is "
-            f"{values['printed']:.3g} times B."
-        ),
+        finding=slips_findings.penetration,
     ),
     Claim(
         number="S2",
@@ -156,9 +153,8 @@ CLAIMS = (
             Measure("rule_b", "d0 of (19) for (b)"),
         ),
         evidence=captions,
-        correction=lambda values: (
-            f"Rule (19) gives d0 = {values['rule_a']:.3g} in (a) and {values['rule_b']:.3g} in (b)."
-        ),
+        finding=slips_findings.captions,
+        figures=("figure_03a",),
     ),
     Claim(
         number="S3",
@@ -172,10 +168,8 @@ CLAIMS = (
             Measure("printed", "number of values printed"),
         ),
         evidence=state_size,
-        correction=lambda values: (
-            f"A state has {values['components']:.0f} components, Z1, Z1', Z2 and Z2'; "
-            f"{values['printed']:.0f} numbers do not determine the motion."
-        ),
+        finding=slips_findings.state_size,
+        figures=("figure_04",),
     ),
     Claim(
         number="S4",
@@ -184,7 +178,8 @@ CLAIMS = (
         interpretation="Within 1 %.",
         measures=(Measure("inertia", "rm W^2 d0", least=0.99, most=1.01, decisive=True),),
         evidence=design_point,
-        correction=lambda values: f"rm W^2 d0 is {values['inertia']:.3g} at W = 2, not 1.",
+        finding=slips_findings.design_point,
+        figures=("figure_06",),
     ),
     Claim(
         number="S5",
@@ -206,11 +201,8 @@ CLAIMS = (
             ),
         ),
         evidence=peaks,
-        correction=lambda values: (
-            "The resonance branch of exact orbits ends at W = "
-            + ", ".join(f"{values[f'end_{h:g}']:.4g} (h = {h:g})" for h in PRINTED_PEAKS)
-            + f", up to {100 * values['worst']:.1f} per cent from the printed frequency."
-        ),
+        finding=slips_findings.peaks,
+        figures=("figure_07",),
     ),
     Claim(
         number="S6",
@@ -224,5 +216,7 @@ CLAIMS = (
             Measure("frequency", "W/Wp of figure 11", least=0.95, most=1.05, decisive=True),
         ),
         evidence=unprinted,
+        finding=slips_findings.unprinted,
+        figures=("figure_08",),
     ),
 )

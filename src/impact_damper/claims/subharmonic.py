@@ -7,6 +7,7 @@ import numpy as np
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure
+from impact_damper.claims.findings import motions as motions_findings
 
 LIGHT, HEAVY, LOW_DAMPING = extract.BY_MASS[:2], extract.BY_MASS[2], "figure_08"
 AS_LARGE = 0.95  # least ratio of amplitudes at which the subharmonic counts as unchanged
@@ -128,6 +129,8 @@ CLAIMS = (
             ),
         ),
         evidence=reappearance,
+        finding=motions_findings.reappearance,
+        figures=("figure_05c",),
     ),
     Claim(
         number="18",
@@ -159,5 +162,7 @@ CLAIMS = (
             ),
         ),
         evidence=by_damping,
+        finding=motions_findings.subharmonic_by_damping,
+        figures=("figure_08",),
     ),
 )

@@ -51,25 +51,57 @@ def claims(datasets) -> pd.DataFrame:
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
 
-def document(frame) -> str:
-    """Table of verdicts in Markdown: a summary, then a section for each claim."""
+def document(frame, picture=None) -> str:
+    """Return the page of the claims in Markdown: a summary, then a section for each claim.
+
+    A section has the claim, the verdict, what the data show, the figures that show it, our reading
+    of the claim, and folded the criterion with its numbers.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+        As `claims` returns it, or as read from its file.
+    picture : callable, optional
+        Maps the name of a figure to the Markdown that shows it; by default the figure in the folder
+        `figures` beside the folder of the table.
+    """
+    picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     slips = frame["number"].str.startswith("S")
     parts = [
-        "# Claims of the paper, and verdicts from the data",
+        "# The paper, claim by claim",
         f"Claims: {_tally(frame[~slips])}. Slips: {_tally(frame[slips])}.",
         "S1 to S6 are misprints and gaps of the paper, each taken as the claim that the print is "
-        "correct.",
-        as_markdown(frame[["number", "claim", "verdict"]]),
+        "correct. W is the forcing frequency, Ω in the figures, and Wp its value at the peak of "
+        "the resonance without the damper; Z1 is the displacement of the primary mass, Z2 its "
+        "displacement relative to the loose mass; (7), (14), (19) are equations of the paper.",
+        as_markdown(
+            frame[["number", "claim", "verdict"]].assign(number=frame["number"].map(_link))
+        ),
     ]
     for row in frame.to_dict("records"):
-        parts.append(f"## {row['number']}. {row['claim']}")
-        entries = [("Verdict", row["verdict"] + ". " + row["difference"])]
-        entries += [
-            (name.capitalize(), row[name]) for name in ("source", "interpretation", "criterion")
+        numbers = "".join(f"\n  - {each}" for each in row["evidence"].split("; ") if each)
+        parts += [
+            f"## {title(row['number'])}",
+            f"> {row['claim']}",
+            f"**{row['verdict'].capitalize()}.** {row['finding']}",
+            *map(picture, row["figures"].split()),
+            f"*Our reading:* {row['interpretation']}",
+            "<details><summary>Criterion and numbers</summary>",
+            f"- **In the paper:** {row['source']}\n- **Criterion:** {row['criterion']}"
+            f"\n- **Numbers:**{numbers or ' none'}",
+            "</details>",
         ]
-        entries.append(("Evidence", row["evidence"].replace("; ", ";\n  ")))
-        parts.append("\n".join(f"- **{name}:** {text.strip()}" for name, text in entries if text))
-    return "\n\n".join(parts)
+    return "\n\n".join(part for part in parts if part)
+
+
+def title(number):
+    """Heading of the section of a claim or slip."""
+    return f"Slip {number}" if number.startswith("S") else f"Claim {number}"
+
+
+def _link(number):
+    """Number of a claim as a link to its section."""
+    return f"[{number}](#{title(number).lower().replace(' ', '-')})"
 
 
 def _tally(frame):
