@@ -23,5 +23,15 @@ def test_caption_of_a_figure(name):
     assert "|" not in text.replace(r"\|", "")
 
 
+@pytest.mark.parametrize("name", CONFIG["figures"])
+def test_caption_is_short_enough_to_be_read(name):
+    """Text of the kind and remark of the figure; its title and parameters come on top."""
+    figure = CONFIG["figures"][name]
+    text = import_module(f"impact_damper.{KINDS[figure['kind']].source}").CAPTION
+    assert len(f"{text} {figure['remark']}".split()) <= 90
+    # What all figures have in common stands once, in workflow/report/workflow.rst.
+    assert "no such figure" not in text
+
+
 def test_each_table_has_a_caption():
     assert all(table.caption.endswith(".") for table in TABLES.values())

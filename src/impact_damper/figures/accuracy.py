@@ -24,12 +24,10 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
 
 CAPTION = """
-Error against work, counted in floating-point operations. A line joins the tolerances of an
-integrator, or the numbers of harmonics of a balance. Other models solve for the orbit directly; of
-several solutions the one nearest to the exact orbit is drawn. Open: wrong number of contacts, or in
-chaos an error within the run's own standard error. Plus: the run failed. Dashed: required accuracy.
-The reference is an independent program in 80-bit arithmetic, for chaos a longer run. The paper has
-no such figure.
+Error against work in floating-point operations. A line joins the tolerances of an integrator, or
+the numbers of harmonics of a balance. Open: wrong number of contacts, or in chaos an error within
+the run's standard error. Plus: the run failed. Dashed: required accuracy. Reference: an independent
+program in 80-bit arithmetic, for chaos a longer run.
 """
 
 # Models that solve for an orbit directly: label, colour, marker and line.

@@ -25,11 +25,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Verdicts on harmonic balance. (a) Its small solution of (7), stable by the slow flow (17) or not,
-against the exact orbit with two symmetric contacts. Dots: a start at the solution leads to chaos,
-even if a stable orbit exists. (b) Its large stable solution, against the motion to which a start
-there leads, or without such a solution a start on the free resonance branch. Near: within 20 per
-cent of its amplitude. Chaotic motions may be long transients. The paper has no such figure.
+(a) The small solution of (7), stable by the slow flow (17) or not, against the exact orbit with two
+symmetric contacts; dots: a start there leads to chaos. (b) The large stable solution against the
+motion to which a start there leads. Near: within 20 % of its amplitude.
 """
 
 PARAMETERS = {

@@ -23,12 +23,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Basins of attraction: each state of the primary mass, at the phase named, has the colour of the
-motion that it leads to. Circles are these motions. Without a damper crosses are unstable orbits,
-and black lines their stable manifolds, computed apart, on which the boundaries lie; a manifold
-without end is drawn in part. With the damper the loose mass starts at rest at five places in the
-gap, and the shade is the share of them that leads to the smallest motion. Legends give shares of
-all states.
+Each state of the primary mass, at the phase named, has the colour of the motion it leads to
+(circles; shares in the legends). Without a damper crosses are unstable orbits, black lines their
+stable manifolds, computed apart. With the damper the loose mass starts at rest at five places; the
+shade is the share that leads to the smallest motion.
 """
 
 # Colours of attractors by rising max |Z1|, with the largest in the last one; of chaos, and of

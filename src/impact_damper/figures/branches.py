@@ -20,11 +20,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Largest displacement against forcing frequency of the exact periodic orbits, by continuation of
-every branch on which a settled motion was found. Solid: stable; dotted: unstable. Grey and black:
-without the damper. Markers: bifurcations and changes of contact next to stable orbits; smaller
-ones: those between unstable orbits. Plus signs: a contact appears, or two contacts merge. Crosses:
-a branch was not followed further.
+Largest displacement against forcing frequency of the exact periodic orbits, continued from every
+settled motion found. Grey and black: without the damper. Markers: bifurcations and changes of
+contact, small ones between unstable orbits. Plus signs: a contact appears, or two merge. Crosses: a
+branch was not followed further.
 """
 
 EVENTS = {

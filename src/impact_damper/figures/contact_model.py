@@ -22,11 +22,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Error of the restitution that a contact realises, against the intended e, which sets the dashpot by
-(25), and the load g: the acceleration that presses the primary mass against the wall, divided by
-natural frequency and approach speed. Each cell is one contact in closed form. Left: contact ends at
-zero penetration, as in appendix B; right: at zero force, since a wall cannot pull. Markers:
-contacts in simulated motions. The paper only states that the model fails at low e.
+Error of the restitution that a contact realises, against the intended e and the load g: the
+acceleration that presses the primary mass against the wall, over natural frequency and approach
+speed. Left: contact ends at zero penetration (appendix B); right: at zero force. Markers: contacts
+in simulated motions.
 """
 
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}

@@ -19,11 +19,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Upper panels: clearance with the smallest largest displacement, against one parameter. Points: exact
-quiet motion; a cross marks an optimum at which it is unstable and not observed. Lines: straight
-flights between the walls, corrected for contact time, restitution, damping and linear stiffness.
-Below: for each rule the share of all optima that it predicts within a given error, for two measures
-of the motion; the explicit formula is for elastic contact. The paper has only rule (18).
+Above: clearance with the smallest largest displacement of the exact quiet motion (points; crosses:
+unstable, not observed) and of straight flights between the walls with corrections (lines). Below:
+share of all optima that each rule predicts within a given error; the explicit formula is for
+elastic contact.
 """
 
 SWEPT = {

@@ -4,10 +4,9 @@ from impact_damper.figures.branches import draw_free_orbits
 from impact_damper.figures.style import axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement of the periodic orbits without a damper against forcing frequency: exact
-orbits, continued along their branches. Solid: stable. Dashed: unstable. Triangles: period of three
-forcing periods. Short vertical lines: other periods. Every branch on which a settled motion was
-found is drawn to its ends.
+Largest displacement of the periodic orbits without a damper against forcing frequency, on every
+branch on which a settled motion was found. Triangles: period of three forcing periods. Short
+vertical lines: other periods.
 """
 
 

@@ -10,11 +10,9 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 CAPTION = """
 Amplitude by harmonic balance against forcing frequency, one panel for each clearance. Thick: stable
-solutions of equations (7) with contact. Thin: without the damper, stable (solid) and unstable
-(dashed). Shaded: the suppression band, which the paper does not define; it is taken as the
-frequencies around the peak at which (7) has a single stable solution, with an amplitude below the
-free resonance. Its upper end is the end of the free resonance branch. As in the paper, motions with
-the loose mass at rest are left out.
+solutions of (7) with contact. Thin: without the damper. The suppression band, which the paper does
+not define, is the range around the peak in which (7) has one stable solution, below the free
+resonance.
 """
 
 

@@ -20,13 +20,11 @@ from impact_damper.figures.style import (
     style,
 )
 
-CAPTION = r"""
-Errors of harmonic balance with the harmonics 1, 3, ... N against the exact orbit: (a) largest
-displacement; (b) root mean square of the retained harmonics, both relative to max \|Z1\|; (c)
-largest error of a Floquet multiplier by Hill's method. (d) Result of Newton's method started from
-the single-term solution. Dashed grey: predicted decrease, drawn three times too high. It follows
-from the smoothness of the force: a kink in elastic contact, a jump with a dashpot. It begins at the
-harmonic whose period is one contact.
+CAPTION = """
+Error of harmonic balance with harmonics 1, 3, ... N against the exact orbit: (a) largest
+displacement; (b) root mean square of the harmonics kept; (c) Floquet multiplier by Hill's method.
+(d) Result of Newton's method started from the single-term solution. Dashed grey: decrease predicted
+from the smoothness of the force, drawn three times too high.
 """
 
 PANELS = {

@@ -27,10 +27,8 @@ from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 
 CAPTION = """
 Whether an integrator, started near a periodic orbit, ends on the motion that Floquet multipliers
-say is right; the table of verdicts lists the test cases. All methods are judged by one rule, from
-the state once per forcing period. Wrong period or branch: the motion settles, but elsewhere. White:
-not run; SciPy's methods are a hundred times slower. Fixed steps, and methods marked kink, do not
-locate contacts. The paper has no such figure.
+say is right; the table of verdicts lists the test cases. White: not run. Fixed steps, and methods
+marked kink, do not locate contacts.
 """
 
 ROLES = {

@@ -14,11 +14,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Displacement of the primary mass against time, (a) in a whole run and (b) around its last release,
-when the damper is switched off. The damper is on where the background is shaded. The run drawn is
-the first one that arrives on the non-resonance branch with the median number of switchings, or the
-first of all runs if none arrives. A run of more than 100 forcing periods is drawn by its envelope,
-the least and largest displacement of each period. Panel (b) has its own scale.
+Displacement against time, (a) in a whole run, if long by its envelope, and (b) around its last
+release. Shaded: damper on; the loose mass, of which the paper says nothing, starts at random. Drawn
+is the first run that arrives with the median number of switchings, otherwise the first.
 """
 
 # Forcing periods of a run from which on the envelope is drawn.

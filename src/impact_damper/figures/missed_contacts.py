@@ -18,12 +18,10 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
-Shading: share of random free flights in which a method does not notice that the loose mass touches
-a wall, because no step ends beyond it; depth is how far the free flight would pass the wall. Solid
-line: median error of the method's motion, by which shallower contacts may be missed. Dashed: depth
-at which equal steps of random phase would miss half. Dots: a contact is reported though the wall is
-not reached. Crosses: failed runs, excluded. The paper uses Runge-Kutta-Merson and has no such
-figure.
+Shading: share of random free flights whose contact a method does not notice, because no step ends
+beyond the wall; depth is how far the flight would pass it. Solid line: median error of the method's
+motion. Dashed: depth at which equal steps would miss half. Dots: a contact reported but not made.
+Crosses: failed runs.
 """
 
 COLUMNS = 4

@@ -19,12 +19,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Points: largest displacement of the quiet motion, which has period 1 and two symmetric contacts,
-against clearance. Lines: for elastic contact the amplitude of the first harmonic by equations (7),
-for inelastic contact a guide to the eye. Stars: smallest displacement on the exact orbit. Bars: at
-most 10 per cent larger. Harmonic balance predicts an amplitude of zero where the exact motion keeps
-its higher harmonics, so the optima differ. The paper draws one motion at each clearance; larger
-ones that coexist are not drawn here.
+Largest displacement of the quiet motion against clearance (points), and its first harmonic by (7)
+(lines; with inelastic contact a guide to the eye). Stars: smallest displacement on the exact orbit;
+bars: at most 10 % larger. Larger motions that coexist are not drawn.
 """
 
 # Label of the first line by harmonic balance, and with it of all.

@@ -6,12 +6,10 @@ from impact_damper.data.datasets import flag
 from impact_damper.figures.style import BLACK, BLUE, PALE, VERMILION, figure, legend, style
 
 CAPTION = """
-Relative difference between each number computed here and the published number or closed form, one
-band for each publication, in the order of the table of published numbers. Ticks: the difference to
-be expected. That is for rigid walls the effect of the contact stiffness; for closed forms of first
-order the mass ratio; for basin shares 1.96 standard errors; for Hertz's impact the longer time and
-smaller force of a linear spring. Open: ours extrapolated to rigid walls. Differences below 1e-12
-are drawn at the left edge.
+Relative difference between each number computed here and the published one, one band for each
+publication. Ticks: the difference to be expected from the contact stiffness, the mass ratio, the
+standard error of a share, or a linear spring in place of Hertz's. Open: ours extrapolated to rigid
+walls. Below 1e-12: at the left edge.
 """
 
 # Labels of publications, from the top.

@@ -8,11 +8,8 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, lette
 
 CAPTION = """
 States of the primary mass at which the damper is switched off, marked by the motion on which the
-free oscillator then settles: first releases before the motion with the damper has settled, then
-releases from each settled motion. The paper draws one motion
-with releases to the subharmonic and to the non-resonance motion. The panels have scales of their
-own: the quiet motion is far smaller than the others. Where the free oscillator has no
-one-third subharmonic (see table `subharmonic`), no release can lead to it.
+free oscillator then settles: before the damped motion has settled, then from each settled motion.
+The panels have scales of their own.
 """
 
 # Role of each destination, and title of the panel of each damped motion.

@@ -14,11 +14,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-When to switch the damper off. Above: share of trials that reach the non-resonance motion within
-350 cycles, with 95 % intervals, for four rules: at a random phase once the motion has settled (the
-paper's), after a fixed number of cycles, at a fixed phase, and as soon as the state lies in the
-basin of the goal. Middle: median of the cycles until the goal. Below: effect of errors of the
-measured state, relative to the resonance motion, and of delay, against the margin inside the basin.
+Above: share of trials that reach the non-resonance motion within 350 cycles, with 95 % intervals,
+by four rules of release. Middle: median of the cycles. Below: effect of errors of the measured
+state, relative to the resonance motion, and of delay, against the margin inside the basin.
 """
 
 WORDS = {

@@ -9,12 +9,9 @@ from impact_damper.figures.motion_lines import branch_lines, draw_lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement of all motions that were found, by random starts and by following. Lines join
-the settled motions of a branch. Free motions, and the dotted unstable ones of period 1, are exact
-orbits; a chaotic motion is a point at the largest displacement observed, and a transient if one of
-its runs ended. Harmonic balance gives the first harmonic only. The paper draws few motions at each
-frequency and calls the chaotic ranges narrow; here several motions coexist at most frequencies,
-and all are drawn.
+Largest displacement against forcing frequency of all motions found, by random starts and by
+following. Lines join the settled motions of a branch; free motions and dotted ones are exact
+orbits. Chaos is a transient if one of its runs ended. Harmonic balance gives the first harmonic.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}

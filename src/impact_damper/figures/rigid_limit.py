@@ -19,11 +19,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Relative error of the largest displacement in the quiet motion, stable or not, if contacts are taken
-as instantaneous impacts. Above: against Ω and contact stiffness. Hatched: not reached from the
-neighbouring cell. Below: at the design frequency. The corrected model moves the walls outwards by
-v tc e/(1 + e), with approach speed v and time in contact tc. Its error decreases as 1/r1, that of
-the plain model as r1^(-1/2). The paper uses rigid walls for (13) and (14) only.
+Relative error of the quiet motion's largest displacement if contacts are instantaneous impacts.
+Above: against Ω and contact stiffness; hatched: not reached. Below: at the design frequency.
+Corrected walls stand v tc e/(1 + e) farther out, with approach speed v and time in contact tc.
 """
 
 SMALLEST = 1e-4  # lower end of the colour scale

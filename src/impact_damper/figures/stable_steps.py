@@ -20,11 +20,9 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
-Largest step, times the natural frequency of an undamped contact, with which a method keeps the
-exact quiet motion: with it, and with all smaller steps tested, the largest displacement stays
-within 1 or 10 per cent of the exact one. Runs start on the exact orbit and integrate through the
-kinks of the force. Not linear stability (dotted) but the kinks limit the step. Missing points: no
-step tested is small enough. The paper used one stiffness, 2000, and has no such figure.
+Largest step, times the natural frequency of a contact, with which a method, as with all smaller
+steps tested, keeps the quiet motion's largest displacement within 1 or 10 %, started on the exact
+orbit. Dotted: limit of linear stability. Missing points: no step tested is small enough.
 """
 
 LINEAR = "linear stability limit"

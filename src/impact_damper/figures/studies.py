@@ -11,10 +11,8 @@ from impact_damper.figures.style import BLACK, ROLES, axis_label, figure, legend
 
 CAPTION = """
 Colour: the largest displacement of all motions that random starts in a cell lead to. Hatched: not
-all starts settled; their motions are chaotic, quasi-periodic or unresolved, or their loose mass
-drifts in the gap, and they may be long transients. Line: rule (18). Stars: for each mass ratio the
-clearance with the smallest displacement. The data also hold the number of starts with each outcome.
-The paper has no such figure.
+all starts settled; their motions may be long transients. Line: rule (18). Stars: for each mass
+ratio the clearance with the smallest displacement.
 """
 
 # Hatching of the cells in which not all starts settled.

@@ -7,11 +7,15 @@ from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.system.parameters import SYMBOLS
 
+# A longer list of values is told by its ends.
+MANY = 3
+
 
 def caption(figure, text) -> str:
     """Return the caption of a figure as one paragraph of reStructuredText.
 
-    The forcing frequency has the symbol of the axes, Ω, in place of the W of texts.
+    Ω and ωl are written as on the axes, in place of the W and omega_l of texts. Bars of an
+    absolute value are escaped, since a text between bars would be the name of a substitution.
 
     Parameters
     ----------
@@ -22,11 +26,42 @@ def caption(figure, text) -> str:
     """
     head = f"{figure['title']}: {figure['cases']}." if figure["cases"] else f"{figure['title']}."
     whole = "\n".join(part for part in (head, text.strip(), figure["remark"]) if part)
-    return re.sub(r"\bW(?=p?\b)", "Ω", whole)
+    whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)
+    return whole.replace("omega_l", "ωl").replace("|", r"\|")
 
 
-def in_words(values) -> str:
-    """Return symbols and values of parameters, such as "h = 0.215, d0 = 2, W from 1 to 3".
+def cases_in_words(entries, named=False) -> str:
+    """Return the parameters of what a figure draws, those that all entries share first.
+
+    Parameters
+    ----------
+    entries : dict of dict of str
+        Keyed by the name of the entry, then by name or symbol of the parameter: its value in words.
+    named : bool
+        Whether the name of each entry is told.
+    """
+    first, *others = entries.values()
+    shared = [item for item in first.items() if all(item in each.items() for each in others)]
+    parts = [_joined(shared)]
+    own = {
+        name: [item for item in each.items() if item not in shared]
+        for name, each in entries.items()
+    }
+    (varied, *more) = dict.fromkeys(key for each in own.values() for key, _ in each) or [None]
+    if named:
+        parts += [f"{name.replace('_', ' ')}: {_joined(each)}" for name, each in own.items()]
+    elif varied and not more and all(own.values()):
+        values = [each[0][1].removeprefix("= ") for each in own.values()]
+        parts.append(f"{varied} = {', '.join(values)}".replace("= by", "by"))
+    else:
+        parts += map(_joined, own.values())
+    return "; ".join(part for part in parts if part)
+
+
+def in_words(values) -> dict:
+    """Return the values of parameters in words, keyed by symbol: "= 0.215", "from 1 to 3".
+
+    A linear stiffness of zero, which most oscillators have, is left out.
 
     Parameters
     ----------
@@ -34,32 +69,44 @@ def in_words(values) -> str:
         Keyed by name of the parameter: a number, a list, a range with `first` and `last`, or "rule"
         for rule (19). Other keys are ignored.
     """
-    words = [
-        f"{symbol} {_value(values[name])}" for name, symbol in SYMBOLS.items() if name in values
-    ]
-    return ", ".join(words)
+    return {
+        symbol: _value(values[name])
+        for name, symbol in SYMBOLS.items()
+        if name in values and (name, values[name]) != ("linear_frequency", 0)
+    }
 
 
-def machine_in_words(values) -> str:
-    """Return the values of a machine with their units, such as "mass 12 kg, force 40 N".
+def machine_in_words(values) -> dict:
+    """Return the values of a machine with their units, such as "12 kg", keyed by their names.
 
     Parameters
     ----------
     values : dict
         Arguments of `Machine`; a value that is text has its unit already.
     """
-    words = []
+    words = {}
     for each in fields(Machine):
         if each.name in values:
             value, unit = values[each.name], QUANTITIES[each.metadata["quantity"]].unit
-            text = value if isinstance(value, str) else f"{value:g} {unit}".rstrip()
-            words.append(f"{each.name.replace('_', ' ')} {text}")
-    return ", ".join(words)
+            text = value if isinstance(value, str) else f"{_number(value)} {unit}".rstrip()
+            words[each.name.replace("_", " ")] = text
+    return words
+
+
+def _joined(items):
+    return ", ".join(f"{name} {value}" for name, value in items)
 
 
 def _value(value):
     if isinstance(value, dict):
-        return f"from {value['first']} to {value['last']}"
+        return f"from {_number(value['first'])} to {_number(value['last'])}"
+    if isinstance(value, list) and len(value) > MANY:
+        return f"from {_number(min(value))} to {_number(max(value))}"
     if isinstance(value, list):
-        return f"= {', '.join(map(str, value))}"
-    return "by (19)" if value == "rule" else f"= {value}"
+        return f"= {', '.join(map(_number, value))}"
+    return "by (19)" if value == "rule" else f"= {_number(value)}"
+
+
+def _number(value):
+    """Return a number as short text: 1e6 in place of 1e+06."""
+    return f"{value:g}".replace("e+0", "e")

@@ -1,6 +1,6 @@
 """Which entries of a configuration each stage, figure, table and chapter takes."""
 
-from impact_damper.workflow.captions import in_words, machine_in_words
+from impact_damper.workflow.captions import cases_in_words, in_words, machine_in_words
 from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES, section_of
 from impact_damper.workflow.registry.values import oscillator
 
@@ -71,20 +71,20 @@ def figure_values(config, name) -> dict:
     what is drawn, in words, and the key `drawn` for the result of `figure_data`.
     """
     figure = config["figures"][name]
-    cases = "; ".join(_case(config, figure["kind"], each) for each in figure["data"])
-    return figure | {"cases": cases, "drawn": figure_data(config, name)}
+    cases = {each: _case(config, figure["kind"], each) for each in figure["data"]}
+    words = cases_in_words(cases, KINDS[figure["kind"]].named)
+    return figure | {"cases": words, "drawn": figure_data(config, name)}
 
 
 def _case(config, kind, name):
-    """Return the parameters of an entry in words; a schematic has none."""
+    """Return the parameters of an entry in words, keyed by symbol or name; a schematic has none."""
     section = section_of(kind)
     if section is None:
-        return ""
+        return {}
     entry = config[section][name]
     values = oscillator(config, entry["oscillator"]) if "oscillator" in entry else {}
     values |= entry | {swept: entry[key] for key, swept in SWEPT.items() if key in entry}
-    words = machine_in_words(entry["machine"]) if section == "machines" else in_words(values)
-    return f"{name.replace('_', ' ')}: {words}" if KINDS[kind].named else words
+    return machine_in_words(entry["machine"]) if section == "machines" else in_words(values)
 
 
 def chapter_data(config, chapter) -> dict:

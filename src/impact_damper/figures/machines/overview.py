@@ -5,11 +5,10 @@ from impact_damper.figures.machines.response import response_panel
 from impact_damper.figures.style import figure, legend, letter_panels, style
 
 CAPTION = """
-One row for each machine, (a), (b) and so on in the order named. Left: largest displacement against
-forcing frequency, without the damper and with the one that was designed. Middle: largest
-displacement over the band against the gap, the full play of the loose mass. Right: the least share
-of random starts that end quiet at a frequency of the band. Shaded: the tolerance of the gap to
-build. Star: the smallest stable quiet orbit, which few starts may reach.
+One row for each machine. Left: largest displacement against forcing frequency, without the damper
+and with the one designed. Middle: largest displacement over the band against the gap. Right: least
+share of random starts that end quiet at a frequency of the band. Shaded: tolerance of the gap.
+Star: smallest stable quiet orbit.
 """
 
 
