@@ -44,6 +44,8 @@ def small_motion(datasets):
         "stable": np.mean(np.isfinite(sizes)),
         "orbits": np.mean(np.isfinite(orbits)),
         "orbit_size": np.nanmax([*orbits, 0.0]),
+        "designs": len(designs),
+        "dampers": len(orbits),
     }
 
 
@@ -128,6 +130,7 @@ def _design_orbits(datasets):
         "design_multiplier": np.max(multipliers),
         "design_damping": max(map(extract.stable_from, orbits)),
         "design_settled": np.max(settled, initial=0.0),
+        "designs": len(orbits),
     }
 
 
@@ -164,9 +167,10 @@ CLAIMS = (
         text="With rm W^2 d0 = 1 one root of (14) has zero amplitude; (7) gives a small amplitude, "
         "stable by appendix A.",
         source="section 3",
-        interpretation="Near the peak frequency, for the designs by (19); and by the exact orbits "
-        "of the dampers of figures 5 and 8, whose rm Wp^2 d0 is within 4 % of 1. Small: of period "
-        "1 and below half of the free resonance.",
+        interpretation="Near the peak frequency, for the designs with the clearance of (19), and "
+        "for the exact orbits of the dampers of figures 5 and 8, whose rm Wp^2 d0 is within 4 % "
+        "of 1. A small motion has period 1 and less than half of the amplitude of the free "
+        "resonance.",
         measures=(
             Measure(
                 "vanishing",
@@ -207,11 +211,11 @@ CLAIMS = (
         number="2",
         text="Other impacting solutions of (14) and (7) agree closely.",
         source="section 3",
-        interpretation="All roots of (14) with pushing walls except the smallest, compared with "
-        "the solutions of (7) at the same frequency if both have the same number. In addition the "
-        "first harmonic of the nearest symmetric orbit of period 1 with two contacts, stable or "
-        "unstable, for the dampers of figures 5 and 8; branches without any stable orbit are "
-        "unknown.",
+        interpretation="All roots of (14) with walls that push, except the smallest, are compared "
+        "with the solutions of (7) at the same frequency, where both have equally many. In "
+        "addition the larger solutions of (7) are compared with the first harmonic of the nearest "
+        "exact orbit with two symmetric contacts, stable or not, for the dampers of figures 5 and "
+        "8; branches without any stable part are not known.",
         measures=(
             Measure(
                 "alike",
@@ -239,11 +243,11 @@ CLAIMS = (
         text="Whatever omega_l, a stable low-amplitude solution exists around Wp; a stable "
         "high-amplitude one coexists outside the suppression band.",
         source="section 3, figure 3",
-        interpretation="Low and high: below and above half of the free resonance. Outside the "
-        "band: from 0.75 Wp to the lower edge of the band; above the band the resonance branch "
-        "has ended. By the stable solutions of (7); for omega_l = 0 also by the stable exact "
-        "orbits of any period, with the band by the motions that exist. For all omega_l of figure "
-        "3 also by the exact quiet orbit at Wp, continued from heavy damping.",
+        interpretation="Low and high mean below and above half of the free resonance. Outside the "
+        "band means from 0.75 Wp to the lower edge of the band, since above the band the "
+        "resonance branch has ended. Judged by the stable solutions of (7), for omega_l = 0 also "
+        "by the stable exact orbits of any period, and for the designs of figure 3 by the exact "
+        "quiet orbit at Wp, followed from heavy damping.",
         measures=(
             Measure(
                 "reach",

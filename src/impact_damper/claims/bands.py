@@ -103,10 +103,10 @@ CLAIMS = (
         text="The suppression band widens with omega_l, with rm and with lower e; the reduction "
         "in it barely depends on omega_l.",
         source="sections 3 and 4, figures 3, 5 and 10",
-        interpretation="Width by harmonic balance; for rm and e also by the motions that exist, "
-        "from the end of the last stable high orbit, or the last high chaotic motion, to the fold "
-        "of the free resonance branch. Reduction: 1 - |a|/(free amplitude) at Wp, with the "
-        "clearances of the captions.",
+        interpretation="The width is taken by harmonic balance, and for rm and e also by the "
+        "motions that exist: from the end of the last stable high orbit or high chaotic motion to "
+        "the fold of the free resonance branch. The reduction is 1 - |a|/(free amplitude) at Wp, "
+        "with the clearances of the captions.",
         measures=(
             Measure(
                 "linear",
@@ -149,12 +149,10 @@ CLAIMS = (
         text="Harmonic balance estimates the amplitude in the suppression band and the band's "
         "width accurately.",
         source="section 3, figure 5",
-        interpretation="Width: of the band by the motions that exist, from the end of the last "
-        "stable high orbit, or the last high chaotic motion, to the fold of the free resonance "
-        "branch. The median decides, since the end of chaos may depend on a single start that "
-        "settles slowly. Amplitude: max |Z1| of the quiet orbit and |a|, their difference over "
-        "the free resonance and their ratio; in addition the first harmonic of the orbit, which "
-        "|a| approximates.",
+        interpretation="The width is compared with the width by the motions that exist, as in "
+        "claim 4; the median over the dampers decides, since the end of chaos may depend on a "
+        "single start that settles slowly. The amplitude |a| is compared with max |Z1| of the "
+        "quiet orbit, relative to the free resonance, which decides, and as a ratio.",
         measures=(
             Measure(
                 "typical",
@@ -187,8 +185,8 @@ CLAIMS = (
         number="17",
         text="The larger rm, the lower the amplitude in the suppression band.",
         source="section 3, figure 5",
-        interpretation="Mean of max |Z1| of the quiet orbit over the frequencies that "
-        "lie in the suppression bands of all three dampers.",
+        interpretation="The amplitude is max |Z1| of the quiet orbit, averaged over the "
+        "frequencies that lie in the suppression bands of all three dampers of figure 5.",
         measures=(
             Measure(
                 "whole",

@@ -1,23 +1,27 @@
 """A claim of the paper: the measures that decide it, their required values, and the verdict."""
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 REPRODUCED = "reproduced"
 DIFFERENT = "reproduced with a difference"
 NOT_REPRODUCED = "not reproduced"
 NOT_DECIDABLE = "not decidable"
-# Words for the verdict on a slip, keyed by the verdict on the claim that the print is correct.
-SLIP_WORDS = {
+PLAIN = {word: word for word in (REPRODUCED, DIFFERENT, NOT_REPRODUCED, NOT_DECIDABLE)}
+# Words for the verdict on a slip, keyed by the verdict on the claim that the print is correct; on
+# initial conditions of too few numbers; on values chosen because none are printed.
+SLIP = PLAIN | {
     REPRODUCED: "the print is consistent",
     DIFFERENT: "the print is nearly right",
     NOT_REPRODUCED: "the printed value is wrong",
-    NOT_DECIDABLE: NOT_DECIDABLE,
 }
-VERDICTS = tuple(
-    dict.fromkeys([REPRODUCED, DIFFERENT, NOT_REPRODUCED, *SLIP_WORDS.values(), NOT_DECIDABLE])
-)
+PART = SLIP | {NOT_REPRODUCED: "the print is incomplete"}
+GAP = PLAIN | {
+    REPRODUCED: "the values chosen are consistent",
+    DIFFERENT: "the values chosen are nearly consistent",
+    NOT_REPRODUCED: "the values chosen are not consistent",
+}
 
 
 class Missing(LookupError):
@@ -90,6 +94,8 @@ class Claim:
         say what the data show, true whatever the verdict is.
     figures : tuple of str
         Names of the figures that show it, the most telling one first; empty for numbers alone.
+    words : dict of str
+        Keyed by verdict: how tables print it.
     """
 
     number: str
@@ -100,11 +106,7 @@ class Claim:
     evidence: Callable[[dict], dict]
     finding: Callable[..., str]
     figures: tuple[str, ...] = ()
-
-    @property
-    def is_slip(self) -> bool:
-        """Whether the claim is that a suspected misprint is correct."""
-        return self.number.startswith("S")
+    words: Mapping[str, str] = field(default_factory=PLAIN.copy)
 
     def verdict(self, values) -> str:
         """Verdict for the values of the measures.
@@ -159,7 +161,7 @@ class Claim:
         return {
             "number": self.number,
             "claim": self.text,
-            "verdict": SLIP_WORDS[verdict] if self.is_slip else verdict,
+            "verdict": self.words[verdict],
             "finding": finding,
             "figures": " ".join(self.figures),
             "source": self.source,

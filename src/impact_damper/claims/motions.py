@@ -95,8 +95,8 @@ CLAIMS = (
         number="5",
         text="The low-amplitude motion has two symmetric impacts per cycle.",
         source="section 3, figure 4",
-        interpretation="Every stable orbit of period 1 below half of the free resonance, in the "
-        "suppression band by harmonic balance, for all elastic dampers of figures 5 and 8.",
+        interpretation="All stable orbits of period 1 below half of the free resonance count, in "
+        "the suppression band of harmonic balance, for the elastic dampers of figures 5 and 8.",
         measures=(
             Measure(
                 "two",
@@ -123,10 +123,10 @@ CLAIMS = (
         "harmonic balance; regions of different impact number are separated by narrow chaotic "
         "regimes.",
         source="section 3, figure 5",
-        interpretation="High: above half of the free resonance. Contacts of all high motions, "
-        "chaotic ones included, at the frequencies of the responses; harmonic balance compared "
-        "with max |Z1| of the stable high orbits of any period, and with their first harmonic. "
-        "Narrow: at most 0.1 wide in W.",
+        interpretation="A high motion is above half of the free resonance. Contacts are counted "
+        "for all high motions at the frequencies of the responses, chaotic ones included. "
+        "Harmonic balance is compared with max |Z1| of the stable high orbits of any period. A "
+        "narrow range is at most 0.1 wide in W.",
         measures=(
             Measure(
                 "more",
@@ -161,7 +161,7 @@ CLAIMS = (
             ),
             Measure(
                 "lasting",
-                "share of the chaotic high motions none of whose runs ended; the others are "
+                "share of the chaotic high motions none of whose runs ended, all others being "
                 "transients",
             ),
         ),
@@ -173,8 +173,9 @@ CLAIMS = (
         number="8",
         text="Random initial conditions in a ball of radius 2 all lead to collisions.",
         source="section 3",
-        interpretation="The literal ball, which extends beyond the walls, and the part of the "
-        "ball within the gap; for the dampers of figure 5 at the design frequency.",
+        interpretation="The ball is read literally, so that it extends beyond the walls, and also "
+        "restricted to the gap. The least favourable of the dampers of figure 5 counts, at the "
+        "design frequency.",
         measures=(
             Measure(
                 "literal",

@@ -54,10 +54,11 @@ CLAIMS = (
         text="Primary and loose mass move almost in antiphase for W < Wp, almost in phase for W > "
         "Wp.",
         source="section 3, figure 5",
-        interpretation="The phase in the paper is between Z1 and Z2: the sign of a. The phase "
-        "between Z1 and the displacement x2 = Z1 - Z2 of the loose mass is the opposite if |a| < "
-        "b. From the smallest stable orbit of period 1 at W >= 0.75 Wp, by the first harmonics, "
-        "in radian. Almost: within 0.3. The least favourable of three dampers counts.",
+        interpretation="The phase in the paper is between Z1 and Z2, the sign of a. The phase "
+        "between Z1 and the displacement x2 = Z1 - Z2 of the loose mass is the opposite where |a| "
+        "< b, and is given too. Taken from the first harmonics of the smallest stable orbit of "
+        "period 1 at W >= 0.75 Wp; the least favourable of the dampers of figure 5 counts. Almost "
+        "means within 0.3 rad.",
         measures=(
             Measure(
                 "below",

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from impact_damper.claims import exact_orbits, extract
-from impact_damper.claims.claim import Claim, Measure, Missing
+from impact_damper.claims.claim import GAP, PART, SLIP, Claim, Measure, Missing
 from impact_damper.claims.findings import slips as slips_findings
 from impact_damper.data.datasets import flag, oscillator_of
 from impact_damper.system.parameters import Oscillator
@@ -125,8 +125,9 @@ CLAIMS = (
         number="S1",
         text="B near b = d0 is (2/pi) sqrt(2 d0 eps), eps = b - d0.",
         source="section 2.1, equations (11) and (12)",
-        interpretation="B in the solutions of (7) with eps below 2 % of d0. Expanding (6e) gives "
-        "8 sqrt(2)/(3 pi) eps^(3/2)/sqrt(d0). Equation (13) does not depend on this expansion.",
+        interpretation="B is computed from the solutions of (7) with eps below 2 % of d0. "
+        "Expanding (6e) gives 8 sqrt(2)/(3 pi) eps^(3/2)/sqrt(d0). Equation (13) does not depend "
+        "on this expansion.",
         measures=(
             Measure("power", "power of eps in B", least=0.45, most=0.55, decisive=True),
             Measure(
@@ -140,12 +141,14 @@ CLAIMS = (
         ),
         evidence=penetration,
         finding=slips_findings.penetration,
+        words=SLIP,
     ),
     Claim(
         number="S2",
         text="The captions' d0 = 0.69 for omega_l = 1.5 and 1.2 for omega_l = 1 follow from (19).",
         source="section 3, figure 3 (a) and (b)",
-        interpretation="With the peak frequency of the same omega_l.",
+        interpretation="Rule (19) is taken with the peak frequency of the same omega_l, and must "
+        "agree within 5 %.",
         measures=(
             Measure("a", "d0 of caption (a) over d0 of (19)", least=0.95, most=1.05, decisive=True),
             Measure("b", "d0 of caption (b) over d0 of (19)", least=0.95, most=1.05, decisive=True),
@@ -155,12 +158,13 @@ CLAIMS = (
         evidence=captions,
         finding=slips_findings.captions,
         figures=("figure_03a",),
+        words=SLIP,
     ),
     Claim(
         number="S3",
         text="The initial conditions of figure 4 are (1, 0.5, 0).",
         source="figure 4",
-        interpretation="An initial state has as many components as the state of the motion.",
+        interpretation="Initial conditions must have as many numbers as the state.",
         measures=(
             Measure(
                 "components", "number of components of the state", most=PRINTED_STATE, decisive=True
@@ -170,23 +174,26 @@ CLAIMS = (
         evidence=state_size,
         finding=slips_findings.state_size,
         figures=("figure_04",),
+        words=PART,
     ),
     Claim(
         number="S4",
         text="(rm, d0) = (0.12, 2) fulfils rm W^2 d0 = 1 at W = 2.",
         source="section 3, figure 5 (a)",
-        interpretation="Within 1 %.",
+        interpretation="The product must be 1 within 1 %.",
         measures=(Measure("inertia", "rm W^2 d0", least=0.99, most=1.01, decisive=True),),
         evidence=design_point,
         finding=slips_findings.design_point,
         figures=("figure_06",),
+        words=SLIP,
     ),
     Claim(
         number="S5",
         text="The peak frequencies are 2, 2.37 and 2.8 for h = 0.215, 0.15 and 0.107.",
         source="section 3, figures 6 to 8",
-        interpretation="The fold that ends the resonance branch of exact orbits, within 1 %; in "
-        "addition the formula W^2 = (3/4) a^2, a = 1/(h W).",
+        interpretation="The peak frequency is where the fold ends the resonance branch of exact "
+        "orbits; the printed values must agree within 1 %. The formula W^2 = (3/4) a^2, a = 1/(h "
+        "W), is given too.",
         measures=(
             Measure(
                 "worst",
@@ -203,14 +210,15 @@ CLAIMS = (
         evidence=peaks,
         finding=slips_findings.peaks,
         figures=("figure_07",),
+        words=SLIP,
     ),
     Claim(
         number="S6",
         text="Figure 8 prints no d0, figure 11 neither h nor W: the values chosen agree with the "
         "design of the paper.",
         source="figures 8 and 11",
-        interpretation="Figure 8: d0 by (19) at Wp = 2.8; figure 11: h = 0.215 and W = 2. "
-        "Compared with the peak frequency of the formula, within 5 %.",
+        interpretation="Figure 8 is computed with d0 by (19) at Wp = 2.8, figure 11 with h = "
+        "0.215 and W = 2. Both must agree with the peak frequency by the formula within 5 %.",
         measures=(
             Measure("inertia", "rm Wp^2 d0 of figure 8", least=0.95, most=1.05, decisive=True),
             Measure("frequency", "W/Wp of figure 11", least=0.95, most=1.05, decisive=True),
@@ -218,5 +226,6 @@ CLAIMS = (
         evidence=unprinted,
         finding=slips_findings.unprinted,
         figures=("figure_08",),
+        words=GAP,
     ),
 )

@@ -90,11 +90,11 @@ CLAIMS = (
         text="A properly designed damper removes the one-third subharmonic; a larger rm lets it "
         "reappear within the band with a much lower amplitude.",
         source="section 3, figure 5",
-        interpretation="Removed: no stable orbit whose period is a multiple of 3 in the "
-        "suppression band by harmonic balance, figures 5 (a) and (b); full agreement requires "
-        "none between the folds of the free subharmonic. Reappears: figure 5 (c). Much lower: at "
-        "most half of the free subharmonic at the same W. All stable orbits count, however small "
-        "their basins.",
+        interpretation="Removed means that no stable orbit whose period is a multiple of 3 exists "
+        "in the suppression band of harmonic balance, for figures 5 (a) and (b); for full "
+        "agreement none may exist between the folds of the free subharmonic either. Figure 5 (c) "
+        "has the larger rm. Much lower means at most half of the free subharmonic at the same W. "
+        "All stable orbits count, however few starts lead to them.",
         measures=(
             Measure(
                 "light",
@@ -136,10 +136,11 @@ CLAIMS = (
         number="18",
         text="The control of the one-third subharmonic is more prominent at lower h.",
         source="section 3, figure 8",
-        interpretation="Decrease of its mean amplitude over random starts, averaged over the free "
-        "range: h = 0.107 compared with h = 0.215, both rm = 0.12. Free range: W between the "
-        "folds of the free subharmonic. Stable orbits whose period is a multiple of 3 are "
-        "reported separately, since they may have small basins.",
+        interpretation="More prominent means that the amplitude of the subharmonic, averaged over "
+        "random starts and over W between the folds of the free subharmonic, falls by more at h = "
+        "0.107 than at h = 0.215, both with rm = 0.12. A start that leads to another motion "
+        "counts as 0. Full agreement also requires a larger fall relative to the free amplitude, "
+        "and that no stable subharmonic remains nearly unchanged, however few starts lead to it.",
         measures=(
             Measure(
                 "fall",

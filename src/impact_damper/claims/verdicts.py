@@ -16,7 +16,6 @@ from impact_damper.claims import (
     slips,
     subharmonic,
 )
-from impact_damper.claims.claim import VERDICTS
 from impact_damper.data.table_files import as_markdown
 
 MODULES = (
@@ -107,4 +106,4 @@ def _link(number):
 def _tally(frame):
     """Number of claims with each verdict, as text."""
     counts = frame["verdict"].value_counts()
-    return ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS if verdict in counts)
+    return ", ".join(f"{number} {verdict}" for verdict, number in counts.items())

@@ -1,90 +1,90 @@
 """Findings on harmonic balance: claims 1 to 4, 7, 16 and 17."""
 
-from impact_damper.claims.findings.words import number, part_of, percent, widening
+from impact_damper.claims.findings.words import least, number, part_of, percent
 
 
-def small_motion(vanishing, stable, size, orbits, orbit_size, **others):
+def small_motion(vanishing, stable, size, orbits, orbit_size, designs, dampers, **others):
     """Return the finding on claim 1."""
     return (
-        "A root of (14) is zero where rm W^2 d0 differs from 1 by no more than "
-        f"{number(vanishing, 1)}. At Wp {part_of(stable, 'the designs by (19)')} have a stable "
-        f"small solution of (7), with at most {percent(size)} of the free resonance, and "
-        f"{part_of(orbits, 'the dampers of figures 5 and 8')} have a stable small orbit, with at "
-        f"most {percent(orbit_size)}."
+        f"A root of (14) is zero at rm W^2 d0 = 1, to within {number(vanishing, 1)}. At Wp "
+        f"{part_of(stable, 'designs by (19)', designs)} have a stable small solution of (7), with "
+        f"at most {percent(size)} of the amplitude of the free resonance, and "
+        f"{part_of(orbits, 'dampers of figures 5 and 8', dampers)} have a stable small orbit, "
+        f"with at most {percent(orbit_size)}."
     )
 
 
 def rigid_against_elastic(alike, error, orbits, **others):
     """Return the finding on claim 2."""
     return (
-        f"Equations (14) and (7) have equally many solutions at {percent(alike)} of the "
-        f"frequencies, where their larger solutions differ by at most {percent(error)}. For "
-        f"{percent(orbits)} of the larger solutions of (7) there is an exact orbit whose "
-        "amplitude differs by less than 10 %."
+        "Equations (14) and (7) have the same number of solutions at "
+        f"{part_of(alike, 'frequencies')}, and their larger solutions differ by at most "
+        f"{percent(error)}. An exact orbit within 10 % exists for {percent(orbits)} of the larger "
+        "solutions of (7)."
     )
 
 
 def quiet_and_high(
     reach, bands, beside, orbit_reach, orbits_beside, designs_stable, design_multiplier,
-    design_damping, **others,
+    design_damping, designs, **others,
 ):  # fmt: skip
     """Return the finding on claim 3."""
-    exact = "The exact quiet orbit at Wp is stable in all designs of figure 3."
+    exact = "At Wp the exact quiet orbit is stable in all designs of figure 3."
     if designs_stable != 1:
         exact = (
-            "But the exact quiet orbit at Wp is stable in "
-            f"{part_of(designs_stable, 'the designs')} only, since Floquet multipliers reach "
-            f"{number(design_multiplier)}; it is stable in all of them only for h above "
-            f"{number(design_damping, 2)}."
+            "At Wp the exact quiet orbit is unstable in "
+            f"{part_of(1 - designs_stable, 'designs of figure 3', designs)}, with Floquet "
+            f"multipliers up to {number(design_multiplier)}; in all of them it is stable only "
+            f"above h = {number(design_damping, 2)}."
         )
     return (
-        f"By (7), {part_of(bands, 'the designs of figure 3')} have a suppression band, a stable "
-        f"low solution everywhere within {percent(reach)} of Wp, and below the band a stable high "
-        f"one at {percent(beside)} of the frequencies or more. For omega_l = 0 exact orbits "
-        f"agree: low ones are stable within {percent(orbit_reach)} of Wp, high ones over "
-        f"{percent(orbits_beside)} of the range below the band or more. {exact}"
+        f"{exact} By (7) {part_of(bands, 'designs')} have a suppression band, a stable low "
+        f"solution everywhere within {percent(reach)} of Wp, and below the band a stable high "
+        f"solution at {least(beside)} of the frequencies. For omega_l = 0 exact low orbits are "
+        f"stable within {percent(orbit_reach)} of Wp, and stable high ones fill "
+        f"{least(orbits_beside)} of the range below the band."
     )
 
 
 def band_width(linear, linear_rule, mass, existing, restitution, reduction, **others):
     """Return the finding on claim 4."""
     return (
-        f"By harmonic balance the band {widening(linear)} from each omega_l to the next larger "
-        f"one with the clearances of the captions, {widening(linear_rule)} with those of (19), "
-        f"and {widening(mass)} from each rm to the next larger one. In the motions that exist it "
-        f"{widening(existing)} from each rm to the next, and {widening(restitution)} from e = 1 "
-        f"to 0.75. Over omega_l the reduction at Wp varies by {percent(reduction)} of the free "
-        "resonance."
+        f"By harmonic balance the width of the band is multiplied by at least {number(linear)} "
+        "from each omega_l to the next larger one with the clearances of the captions, by "
+        f"{number(linear_rule)} with those of (19), and by {number(mass)} from each rm to the "
+        "next larger one. In the motions that exist it is multiplied by at least "
+        f"{number(existing)} from each rm to the next, and by {number(restitution)} from e = 1 to "
+        f"0.75. Over omega_l the reduction at Wp varies by {number(reduction, 2)}."
     )
 
 
 def phases(below, above, turn_balance, turn, loose_below, loose_above, **others):
     """Return the finding on claim 7."""
     return (
-        f"The first harmonics of Z1 and Z2 are in antiphase to {number(below, 2)} rad below Wp "
-        f"and in phase to {number(above, 2)} rad at the highest W. The phase turns at "
-        f"{number(turn)} Wp, by harmonic balance at {number(turn_balance)} Wp. For the "
-        "displacement x2 of the loose mass itself the opposite is true: in phase with Z1 to "
-        f"{number(loose_below, 2)} rad below Wp, in antiphase to {number(loose_above, 2)} rad at "
-        "the highest W."
+        f"The first harmonics of Z1 and Z2 are within {number(below, 2)} rad of antiphase below "
+        f"Wp, and within {number(above, 2)} rad of phase at the highest W; the change comes at "
+        f"{number(turn)} Wp, by harmonic balance at {number(turn_balance)} Wp. Z1 and the "
+        "displacement x2 of the loose mass do the opposite: they are within "
+        f"{number(loose_below, 2)} rad of phase below Wp, and within {number(loose_above, 2)} rad "
+        "of antiphase at the highest W."
     )
 
 
 def accuracy(typical, width, share, ratio, harmonic, **others):
     """Return the finding on claim 16."""
+    joint = "but not relative to |a|" if ratio > 1.25 else "and relative to |a|"
     return (
-        "The width of the band by harmonic balance differs from the width by the motions that "
-        f"exist by {percent(typical)} in the median and {percent(width)} at most. In the band |a| "
-        f"and max |Z1| differ by at most {percent(share)} of the free resonance; relative to |a|, "
-        f"though, max |Z1| is up to {number(ratio, 2)} times as large, and its first harmonic up "
-        f"to {number(harmonic, 2)} times."
+        f"Harmonic balance gives the width of the band to {percent(typical)} in the median over "
+        f"the dampers and to {percent(width)} at worst. It gives the amplitude in the band to "
+        f"{percent(share)} of the free resonance, {joint}: max |Z1| is up to {number(ratio, 2)} "
+        f"times as large, and its first harmonic up to {number(harmonic, 2)} times."
     )
 
 
 def amplitude_by_mass(whole, steps, balance, **others):
     """Return the finding on claim 17."""
     return (
-        f"In the bands the mean max |Z1| at the largest rm is {percent(whole)} of the mean at the "
-        f"smallest rm. From one rm to the next larger one it becomes at most {percent(steps)} of "
-        f"its value; by harmonic balance at most {percent(balance)}."
+        f"In the bands the mean of max |Z1| at the largest rm is {percent(whole)} of the mean at "
+        "the smallest. The step from one rm to the next larger one leaves at most "
+        f"{percent(steps)} of it, by harmonic balance at most {percent(balance)}."
     )

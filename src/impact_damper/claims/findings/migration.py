@@ -1,20 +1,23 @@
 """Findings on migration control: claims 12, 13, 14 and 19."""
 
+import math
+
 from impact_damper.claims.findings.words import number, part_of, percent
 
 
 def any_phase(quiet, unsettled, unsettled_subharmonic, unsettled_resonance, **others):
     """Return the finding on claim 12."""
-    elsewhere = ""
-    if unsettled != 1:
-        elsewhere = (
-            f", while {percent(unsettled_subharmonic)} lead to the one-third subharmonic and "
-            f"{percent(unsettled_resonance)} back to resonance"
-        )
+    elsewhere = {
+        "to the one-third subharmonic": unsettled_subharmonic,
+        "back to resonance": unsettled_resonance,
+    }
+    ends = "".join(
+        f"; {percent(share)} lead {end}" for end, share in elsewhere.items() if share != 0
+    )
     return (
-        f"At W = 1.95 {part_of(quiet, 'the releases')} of the settled quiet motion lead to the "
-        "non-resonance branch; of the releases before the motion has settled "
-        f"{part_of(unsettled, 'them')} do{elsewhere}."
+        f"At W = 1.95 {part_of(quiet, 'releases')} of the settled quiet motion lead to the "
+        "non-resonance branch. Of the releases before the motion has settled "
+        f"{percent(unsettled)} do{ends}."
     )
 
 
@@ -30,40 +33,41 @@ def release_phase(
     **others,
 ):
     """Return the finding on claim 13."""
-    here = "also" if inside >= 0 else "not"
+    third = "none" if quiet_subharmonic == 0 else percent(quiet_subharmonic)
     decides = ""
-    if quiet_first == quiet_first:
+    if not math.isnan(quiet_first):
         decides = (
-            " The phase of release decides between the two at the frequencies scanned from W = "
+            " Of the frequencies scanned, the phase of release decides between the two from W = "
             f"{number(quiet_first, 4)} to {number(quiet_last, 4)}."
         )
     return (
         f"Without the damper the period-3 motion exists from W = {number(lower, 5)} to "
-        f"{number(upper, 5)}, {here} at W = {number(frequency)} ({number(inside)} inside this "
-        f"range). There {part_of(quiet_goal, 'the releases')} of the quiet motion lead to the "
-        f"non-resonance branch and {part_of(quiet_subharmonic, 'them')} to period 3.{decides}"
+        f"{number(upper, 5)}, and so {'also' if inside >= 0 else 'not'} at W = "
+        f"{number(frequency)}. There {part_of(quiet_goal, 'releases')} of the quiet motion lead "
+        f"to the non-resonance branch and {third} to period 3.{decides}"
     )
 
 
-def total_cycles(worst, within, by_state, **others):
+def total_cycles(worst, within, runs, by_state, **others):
     """Return the finding on claim 14."""
     rescued = ""
-    if by_state == by_state:
+    if not math.isnan(by_state):
         rescued = (
             "; release as soon as the state lies in the basin of this branch does so in "
             f"{percent(by_state)}"
         )
     return (
-        f"At W = {number(worst)}, the least favourable frequency, {part_of(within, 'the runs')} "
-        f"with random release settle on the non-resonance branch within 350 cycles{rescued}."
+        f"At W = {number(worst)}, the least favourable frequency, release at a random phase "
+        "reaches the non-resonance branch within 350 cycles in "
+        f"{part_of(within, 'runs', runs)}{rescued}."
     )
 
 
-def early_release(early, goal, reached, switchings, cycles, **others):
+def early_release(early, goal, resonance, releases, reached, runs, switchings, cycles, **others):
     """Return the finding on claim 19."""
     return (
-        f"At W = 1.85 {percent(early)} of the early releases lead to period 3, {percent(goal)} to "
-        f"the non-resonance branch and the others elsewhere; {part_of(reached, 'the runs')} "
-        f"arrive at the latter in the end, after {number(switchings)} switchings and "
-        f"{number(cycles)} cycles in the median."
+        f"At W = 1.85 {percent(early)} of the {releases} early releases lead to period 3, "
+        f"{percent(goal)} to the non-resonance branch and {percent(resonance)} back to resonance. "
+        f"In the end {part_of(reached, 'runs', runs)} arrive on the non-resonance branch, in the "
+        f"median after {number(switchings)} switchings and {number(cycles)} cycles."
     )

@@ -6,9 +6,9 @@ from impact_damper.claims.findings.words import number, percent
 def penetration(power, corrected, printed, **others):
     """Return the finding on S1."""
     return (
-        f"B grows as the power {number(power)} of eps. The expansion of (6e), with the power 3/2, "
-        f"is {number(corrected)} times B; the printed expression, with the power 1/2, is "
-        f"{number(printed)} times B."
+        f"B grows as the power {number(power)} of eps. The printed expression, with the power "
+        f"1/2, is {number(printed)} times B; the expansion of (6e), with the power 3/2, agrees "
+        f"with B to {percent(abs(corrected - 1))}."
     )
 
 
@@ -24,8 +24,8 @@ def captions(a, b, rule_a, rule_b, **others):
 def state_size(components, printed, **others):
     """Return the finding on S3."""
     return (
-        f"At a given phase of the forcing the state is Z1, Z1', Z2 and Z2', {number(components)} "
-        f"numbers; the paper prints {number(printed)}."
+        f"A state, at a given phase of the forcing, is {number(components)} numbers, Z1, Z1', Z2 "
+        f"and Z2'; the paper prints {number(printed)}."
     )
 
 

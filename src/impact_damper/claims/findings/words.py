@@ -2,6 +2,9 @@
 
 import math
 
+# Of fewer things than this the number is told, of more the percentage.
+FEW = 20
+
 
 def number(value, digits=3) -> str:
     """A number with a few significant digits."""
@@ -9,32 +12,36 @@ def number(value, digits=3) -> str:
 
 
 def percent(share) -> str:
-    """A share as a percentage, with a decimal below 10 % and above 95 %; 0 and 1 stay exact."""
+    """A share as a percentage of two or three digits, which is 0 or 100 only if that is exact."""
     if math.isnan(share):
         return "an unknown share"
     if 0 < share < 0.0005:
         return "less than 0.1 %"
-    if 0.9995 < share < 1:
-        return "more than 99.9 %"
-    rough = 0.1 <= abs(share) <= 0.95 or abs(share) > 1
-    return f"{100 * share:.{0 if rough else 1}f}".removesuffix(".0") + " %"
+    if share == 1 or not 0.95 < share < 1:
+        decimals = 0 if abs(share) >= 0.1 else 1
+        return f"{100 * share:.{decimals}f}".removesuffix(".0") + " %"
+    text = f"{100 * share:.{3 if share < 0.999 else 4}g}"
+    return "more than 99.99 %" if text == "100" else f"{text} %"
 
 
-def part_of(share, things) -> str:
-    """A share of a plural, such as "81 % of the runs", "all of the runs", "none of the runs"."""
-    return f"{ {0: 'none', 1: 'all'}.get(share, percent(share)) } of {things}"
+def part_of(share, things, count=None) -> str:
+    """A share of a plural, such as "81 % of the runs", "all runs", "none of the 400 runs"."""
+    total = things if count is None else f"{count} {things}"
+    if share == 1:
+        return f"all {total}"
+    if share == 0:
+        return f"none of the {total}"
+    if count is None or count > FEW or math.isnan(share):
+        return f"{percent(share)} of the {total}"
+    return f"{round(share * count)} of the {total}"
 
 
-def widening(ratio) -> str:
-    """Smallest ratio of successive widths, as a verb with its object."""
-    if math.isnan(ratio):
-        return "changes by an unknown share"
-    if ratio >= 1:
-        return f"widens by at least {percent(ratio - 1)}"
-    return f"narrows by up to {percent(1 - ratio)}"
+def least(share) -> str:
+    """A lower bound of a share."""
+    return "all" if share == 1 else f"at least {percent(share)}"
 
 
 def between(low, high, form=percent) -> str:
-    """Two ends of a range, which are named once if they look the same."""
+    """Both ends of a range, or one of them if they look the same."""
     ends = [form(low), form(high)]
     return ends[0] if ends[0] == ends[1] else f"{ends[0].removesuffix(' %')} to {ends[1]}"
