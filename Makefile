@@ -24,10 +24,11 @@ slurm: $(READY)
 kernels: $(READY)
 	$(BIN)/python -m impact_damper.workflow.compile_kernels '[2, []]'
 
-# On all cores, each file in one process, so that its fixtures are made once.
+# On all cores, each file in one process, so that its fixtures are made once; in the order of the
+# collection, in which the longest files come first.
 # PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".
 PYTEST ?=
-TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile
+TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 test: kernels
 	$(TESTS) $(PYTEST)
 

@@ -1,11 +1,14 @@
-"""Ctrl-C in a long call from Python raises KeyboardInterrupt within two seconds."""
+"""Ctrl-C in a long call from Python raises KeyboardInterrupt within two seconds.
+
+These are seconds of the processor, since other programs may use it too.
+"""
 
 import subprocess
 import sys
 
 import pytest
 
-# A short call first, so that the kernels are compiled; the signal comes a second into the long one.
+# Before each long call comes a short one, so that the kernels are compiled.
 SCRIPT = """
 import os
 import signal
@@ -22,20 +25,22 @@ oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
 start, large = (0.006, 0.187, 0.002, -2.408), (1.8787, -2.4769, 0.0245, -0.4529)
 cells = {"mass_ratio": 0.12, "clearance": 2.0, "frequency": [1.6, 1.7], "restitution": 1.0}
 free, slow = idm.Oscillator(1e-3), idm.Settling(patience=10**7, limit=10**8, tolerance=1e-14)
-SHORT
 instants = []
 
 def interrupt():
-    instants.append(time.perf_counter())
+    instants.append(time.process_time())
     os.kill(os.getpid(), signal.SIGINT)
 
-threading.Timer(1.0, interrupt).start()
-try:
-    while True:
-        LONG
-except KeyboardInterrupt:
-    assert time.perf_counter() - instants[0] < 2.0
-    print("interrupted")
+for name, (short, long) in CALLS.items():
+    eval(short)
+    instants.clear()
+    threading.Timer(0.3, interrupt).start()
+    try:
+        while True:
+            eval(long)
+    except KeyboardInterrupt:
+        assert time.process_time() - instants[0] < 2.0, name
+        print(name, flush=True)
 """
 
 CALLS = {
@@ -67,11 +72,14 @@ ARGUMENTS = {
 }
 
 
+@pytest.fixture(scope="module")
+def interrupted():
+    """Interrupt all calls, one after the other, and return what Python printed: their names."""
+    calls = {name: [call.format(each) for each in ARGUMENTS[name]] for name, call in CALLS.items()}
+    code = f"CALLS = {calls!r}\n{SCRIPT}"
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=200)
+
+
 @pytest.mark.parametrize("name", CALLS)
-def test_an_interruption_is_heard_within_two_seconds(name):
-    short, long = (CALLS[name].format(argument) for argument in ARGUMENTS[name])
-    script = SCRIPT.replace("SHORT", short).replace("LONG", long)
-    run = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, timeout=120
-    )
-    assert run.stdout == "interrupted\n", run.stderr
+def test_an_interruption_is_heard_within_two_seconds(name, interrupted):
+    assert name in interrupted.stdout.split(), interrupted.stderr

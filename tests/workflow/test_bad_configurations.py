@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from impact_damper.workflow.configuration import (
+    LOADER,
     ConfigurationError,
     check_configuration,
     check_file,
@@ -20,6 +21,7 @@ from impact_damper.workflow.configuration import (
 from impact_damper.workflow.models.messages import dotted
 
 ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
+TEXT = yaml.safe_dump(SMALL)
 fuzz = settings(
     derandomize=True,
     deadline=None,
@@ -74,7 +76,7 @@ def test_no_junk_is_a_configuration(value):
 def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
     """Twice in any mapping of the file, with the same value or another."""
     path = data.draw(st.sampled_from([path for path in MAPPINGS if at(path)]))
-    root = node = yaml.compose(yaml.safe_dump(SMALL), Loader=yaml.SafeLoader)
+    root = node = yaml.compose(TEXT, Loader=LOADER)
     for key in path:
         node = next(value for name, value in node.value if name.value == key)
     key, value = data.draw(st.sampled_from(node.value))

@@ -53,12 +53,12 @@ VALUES = {
         *("harmonic_balance/figure_03a", "harmonic_balance/figure_03a_rule"),
         *chapters("design", "responses", "claims"),
     },
+    ("comparison", "orders"): {"accuracy/*", *chapters("methods")},
     ("figures", "figure_08", "title"): chapters("responses"),
-    ("seed",): None,
 }
-# Edits of files, and the jobs that run again; None stands for all.
+# Edits of files, and the jobs that run again.
 FILES = {
-    "requirements.lock": None,
+    "requirements.lock": {"*"},
     "src/impact_damper/figures/style.py": {"page/*", *chapters(*CHAPTERS)},
     "src/impact_damper/pages/templates/page.html": {"page/*"},
     "src/impact_damper/tables/migration.py": chapters("migration"),
@@ -136,6 +136,8 @@ def changed(config, path):
         place[path[-1]] = next(name for name in config["oscillators"] if name != value)
     elif path[-1] in ("title", "remark"):
         place[path[-1]] = f"{value} Again."
+    elif path[-1] == "orders":
+        place[path[-1]] = value[:1]
     elif isinstance(value, int | float):
         place[path[-1]] = value + 1 if isinstance(value, int) else 1.01 * value
     else:
@@ -161,15 +163,24 @@ def matching(jobs, patterns):
     }
 
 
-def test_snakemake_compares_what_the_registry_says(project, config, jobs):
-    noted = {}
+@pytest.fixture(scope="module")
+def noted(project, config):
+    """What Snakemake noted of the complete run: {job: its parameters and inputs}."""
+    found = {}
     for path in (project / ".snakemake/metadata").iterdir():
-        name = planning.job_of_file(config, b64decode(path.name).decode())
         record = json.loads(path.read_text())
-        read = {planning.job_of_file(config, f) for f in record["input"] if f.endswith(".nc")}
-        noted[name] = planning.Job(frozenset(record["params"]), frozenset(read))
-    del noted["kernels"]
-    assert noted == jobs
+        name = planning.job_of_file(config, b64decode(path.name).decode())
+        found[name] = frozenset(record["params"]), frozenset(record["input"])
+    del found["kernels"]
+    return found
+
+
+def test_snakemake_compares_what_the_registry_says(noted, config, jobs):
+    found = {}
+    for name, (parameters, files) in noted.items():
+        read = {planning.job_of_file(config, file) for file in files if file.endswith(".nc")}
+        found[name] = planning.Job(parameters, frozenset(read))
+    assert found == jobs
 
 
 def test_each_value_is_read_and_reruns_not_everything(config, jobs):
@@ -191,26 +202,37 @@ def test_a_script_uses_all_of_its_parameters(stage, config):
 
 
 @pytest.mark.parametrize("path", VALUES, ids=".".join)
-def test_an_edit_of_a_value_reruns_what_reads_it(path, project, edit, config, jobs):
-    edited = changed(config, path)
-    edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
-    expected = planning.reruns(jobs, planning.jobs(edited))
-    if VALUES[path]:
-        assert expected == matching(jobs, VALUES[path])
-    assert to_do(project, config) == expected
+def test_an_edit_of_a_value_concerns_what_reads_it(path, config, jobs):
+    again = planning.reruns(jobs, planning.jobs(changed(config, path)))
+    assert again == matching(jobs, VALUES[path])
 
 
 @pytest.mark.parametrize("path", FILES)
-def test_an_edit_of_a_file_reruns_what_runs_it(path, project, edit, config, jobs):
-    edit(path, (project / path).read_text() + "\n")
-    assert to_do(project, config) == matching(jobs, FILES[path] or jobs)
+def test_an_edit_of_a_file_concerns_what_runs_it(path, noted, jobs):
+    edited = {name for name, (_, files) in noted.items() if path in files}
+    assert planning.reruns(jobs, jobs, edited) == matching(jobs, FILES[path])
 
 
-def test_an_edit_of_the_orders_of_the_series_reruns_what_reads_them(project, edit, config, jobs):
-    edited = copy.deepcopy(config)
-    edited["comparison"]["orders"] = [[12, 16]]
+@pytest.mark.parametrize("paths", [list(VALUES)[:1], list(VALUES)], ids=["one", "all"])
+def test_snakemake_reruns_what_edits_of_values_concern(paths, project, edit, config, jobs):
+    edited = config
+    for path in paths:
+        edited = changed(edited, path)
     edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
-    assert to_do(project, config) == matching(jobs, {"accuracy/*", "chapter/methods"})
+    assert to_do(project, config) == planning.reruns(jobs, planning.jobs(edited))
+
+
+def test_snakemake_reruns_what_edits_of_files_concern(project, edit, config, jobs):
+    """Edits of a script, of a module of two stages, and of a template."""
+    paths = [
+        "workflow/scripts/motion.py",
+        "src/impact_damper/stages/studies.py",
+        "src/impact_damper/pages/templates/page.html",
+    ]
+    for path in paths:
+        edit(path, (project / path).read_text() + "\n")
+    patterns = set().union(*(FILES[path] for path in paths))
+    assert to_do(project, config) == matching(jobs, patterns)
 
 
 def test_kernels_that_were_edited_are_compiled_before_the_first_job(tmp_path):

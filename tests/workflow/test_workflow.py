@@ -3,8 +3,16 @@
 import re
 
 import pytest
+import yaml
 from helpers.running import ROOT, snakemake
+from snakemake.common.configfile import load_configfile
+from snakemake.utils import update_config
 
+from impact_damper.workflow.configuration import (
+    ConfigurationError,
+    check_configuration,
+    without_left_out,
+)
 from impact_damper.workflow.registry import CHAPTERS, PAPER, STAGES
 
 pytestmark = pytest.mark.workflow
@@ -50,10 +58,10 @@ def test_each_stage_is_a_target():
     assert targets < jobs(snakemake(ROOT, *targets, "-n", "--forceall")).keys()
 
 
-def test_a_broken_configuration_is_told_in_one_line_each(tmp_path):
+def test_a_broken_configuration_starts_no_job_and_is_told_in_one_line_each(tmp_path):
     mine = tmp_path / "mine.yaml"
     mine.write_text("curves: {figure_05a: {mass_ratio: -1}}\nsed: 3\n")
-    result = snakemake(ROOT, "-n", "--configfile", mine)
+    result = snakemake(ROOT, "--configfile", mine, "--directory", tmp_path / "elsewhere")
     told = result.stderr + result.stdout
     assert result.returncode == 1
     assert "Traceback" not in told
@@ -61,6 +69,7 @@ def test_a_broken_configuration_is_told_in_one_line_each(tmp_path):
         r"^ *curves\.figure_05a\.mass_ratio = -1: must be .*at least 1e-06", told, re.M
     )
     assert re.search(r"^ *sed = 3: unknown key; known: ", told, re.M)
+    assert not (tmp_path / "elsewhere/results").exists()
 
 
 @pytest.mark.parametrize(
@@ -80,14 +89,13 @@ def test_a_broken_configuration_is_told_in_one_line_each(tmp_path):
         ("mine.json", '{"seed": Infinity}', r"seed = inf: must be a whole number"),
     ],
 )
-def test_a_broken_configuration_starts_no_job(name, text, line, tmp_path):
+def test_a_broken_file_is_told_as_snakemake_reads_it(name, text, line, tmp_path):
     mine = tmp_path / name
     mine.write_text(text)
-    result = snakemake(ROOT, "--configfile", mine, "--directory", tmp_path / "elsewhere")
-    told = result.stderr + result.stdout
-    assert result.returncode == 1 and "Traceback" not in told
-    assert re.search(rf"^ *{line}", told, re.M), told
-    assert not (tmp_path / "elsewhere/results").exists()
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+    update_config(config, load_configfile(mine))
+    with pytest.raises(ConfigurationError, match=rf"(?m)^{line}"):
+        check_configuration(without_left_out(config))
 
 
 def test_a_key_that_stands_twice_is_told(tmp_path):

@@ -61,8 +61,9 @@ def _curve_not_drawable(path, name, kind, config):
             yield problem(
                 path,
                 name,
-                f"must have beside it an entry of curves with the oscillator {curve.oscillator}, "
-                "no damper, and the stage branches (which the figure draws too)",
+                "must have beside it an entry of curves with the oscillator "
+                f"{dotted([curve.oscillator])}, no damper, and the stage branches (which the "
+                "figure draws too)",
             )
 
 
