@@ -82,6 +82,8 @@ def is_named(path):
         return True
     if path[:1] == ("method_verdicts",) and len(path) == 3:
         return path[2] in ("damped", "free")
+    if path[:1] == ("release_policies",) and len(path) == 3:
+        return path[2] == "dampers"
     return len(path) == 1 and isinstance(next(iter(SMALL[path[0]].values())), dict)
 
 

@@ -101,6 +101,20 @@ def test_anything_else_is_told_with_the_unit(value, error):
         si_value("mass", value, "mass")
 
 
+@pytest.mark.parametrize(
+    ("value", "reason"),
+    [
+        ("12", "this text has no unit"),
+        ("12 furlong", "furlong cannot be converted to kg"),
+        ("12 kgg", "kgg is no known unit"),
+    ],
+)
+def test_a_wrong_unit_is_named(value, reason):
+    with pytest.raises(ValueError) as told:
+        si_value("mass", value, "mass")
+    assert str(told.value).endswith(f" ({reason})")
+
+
 def test_bounds_are_told_in_the_unit():
     with pytest.raises(ValueError) as told:
         check_si("gap", "4 mm", "clearance", most=0.003, why="it is so wide")

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import impact_damper as idm
+from impact_damper.data.variables import VARIABLES
 from impact_damper.stages import machines
 
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
@@ -124,6 +125,12 @@ def test_den_hartogs_absorber_stands_beside_the_optimum(finished):
     damping = 2 * np.sqrt(3 * ratio / (8 * (1 + ratio))) * mass * angular
     assert data["den_hartog_stiffness"] == pytest.approx(mass * angular**2)
     assert data["den_hartog_damping"] == pytest.approx(damping)
+
+
+def test_each_variable_has_its_meaning_unit_and_words(finished):
+    data, _ = finished
+    assert all({"long_name", "units"} <= data[name].attrs.keys() for name in data.variables)
+    assert idm.decode(data["promise"]).item() in VARIABLES["promise"].flags
 
 
 def test_the_dataset_agrees_with_itself(finished):

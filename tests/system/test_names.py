@@ -30,6 +30,11 @@ def test_a_misspelt_argument_is_answered(call, meant):
         call()
 
 
+def test_an_argument_that_needs_its_name_is_told():
+    with pytest.raises(TypeError, match="Machine.. has too many .* name; known: mass, linear_"):
+        idm.Machine(12, 2e5)
+
+
 def test_a_misspelt_parameter_of_a_branch_is_answered():
     given = {"state": (0, 0, 0, 0), "span": (1, 3)}
     with pytest.raises(ValueError, match="parameter = .*did you mean clearance"):
@@ -41,6 +46,8 @@ def test_a_misspelt_parameter_of_a_branch_is_answered():
 def test_a_misspelt_public_name_is_answered():
     with pytest.raises(AttributeError, match="no attribute 'simulat'; did you mean simulate"):
         idm.simulat  # noqa: B018
+    with pytest.raises(AttributeError, match="no attribute 'desing'; did you mean design"):
+        idm.plot.desing  # noqa: B018
 
 
 def test_the_version_is_stated_alike_everywhere():

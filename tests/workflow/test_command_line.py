@@ -72,6 +72,14 @@ def test_wrong_value_names_key_and_range(machine_file):
     assert "did you mean force?" in str(raised.value)
 
 
+def test_numbers_with_an_exponent_are_numbers(machine_file):
+    """YAML 1.1 takes 2e5 for text."""
+    machine_file.write_text(FILE.replace("2e5 N/m", "2e5").replace("2e6 N/m", ".2E+7"))
+    given = read_machine_file(machine_file)
+    assert given["machine"]["linear_stiffness"] == 2e5
+    assert given["damper"]["contact_stiffness"] == 2e6
+
+
 def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
     """No trace of Python; the message of the library, in SI units."""
     arguments = ["impact-damper", "simulate", str(machine_file), "--frequency", "24 kg"]

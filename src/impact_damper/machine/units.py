@@ -114,8 +114,25 @@ def si_value(name, value, quantity) -> float:
         raise TypeError(f"{name} = {shown(value)}: {allowed}")
     factor = _factor(text, unit)
     if factor is None:
-        raise ValueError(f"{name} = {shown(str(value))}: {allowed}")
+        raise ValueError(f"{name} = {shown(str(value))}: {allowed}{wrong_unit(value, quantity)}")
     return check_number(name, float(number) * factor)
+
+
+def wrong_unit(value, quantity) -> str:
+    """Return what is wrong with the unit of a value, in brackets, or nothing if that is unknown.
+
+    `value` and `quantity` are as of `si_value`.
+    """
+    parts = TEXT.fullmatch(value) if isinstance(value, str) else None
+    if parts is None or not QUANTITIES[quantity].unit:
+        return ""
+    unit = parts[2]
+    if unit is None:
+        return " (this text has no unit)"
+    if _factor(unit, unit) is None:
+        return f" ({unit} is no known unit)"
+    target = QUANTITIES[quantity].unit
+    return "" if _factor(unit, target) else f" ({unit} cannot be converted to {target})"
 
 
 def _from_dataset(value):
@@ -192,7 +209,7 @@ def physical(quantity, **others):
 def convert(part) -> None:
     """Replace the fields of a frozen dataclass made by `physical` by numbers in SI units.
 
-    Fields that are None stay so.
+    None stays where it is the default.
 
     Raises
     ------
@@ -201,7 +218,7 @@ def convert(part) -> None:
     """
     for each in fields(part):
         value = getattr(part, each.name)
-        if "quantity" in each.metadata and value is not None:
+        if "quantity" in each.metadata and not (value is None and each.default is None):
             number = check_si(
                 each.name, value, each.metadata["quantity"], **each.metadata["bounds"]
             )

@@ -10,3 +10,9 @@ from impact_damper.plot.motions import basins, migration, orbit
 from impact_damper.plot.responses import branch, response, shares
 
 __all__ = ["basins", "branch", "design", "migration", "orbit", "response", "shares", "sweep"]
+
+
+def __getattr__(name):
+    from impact_damper.system.names import nearest
+
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}{nearest(name, __all__)}")

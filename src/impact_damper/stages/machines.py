@@ -141,24 +141,27 @@ def design_damper(
     design = _Design(task, contact, KeptSteps(folder, made), workers, progress)
     choice, parts = design.run()
     parts = [tried, *parts]
-    data = xr.merge(parts, compat="override", join="outer", combine_attrs="drop")
+    data = xr.merge(parts, compat="override", join="outer", combine_attrs="override")
     damper = describe_si(machine, task.damper(1e-3 * choice.gap))
-    return data.assign_attrs(
-        Conventions="CF-1.11",
-        title="Design of an impact damper for a machine",
-        source=SOURCE,
-        machine=json.dumps(damper, sort_keys=True),
-        parameters=json.dumps(made, sort_keys=True),
-        remarks=parts[-1].attrs["remarks"],
-        conclusion=json.dumps(conclusion(task, choice.kind, data)),
-    )
+    data.attrs = {
+        "Conventions": "CF-1.11",
+        "title": "Design of an impact damper for a machine",
+        "source": SOURCE,
+        "machine": json.dumps(damper, sort_keys=True),
+        "parameters": json.dumps(made, sort_keys=True),
+        "remarks": parts[-1].attrs["remarks"],
+        "conclusion": json.dumps(conclusion(task, choice.kind, data)),
+    }
+    return data
 
 
 def _stiffness(stiffness, contact, asked):
     """Return the contact stiffness given, or the stiffness of a contact after Hertz."""
     if contact is not None and not isinstance(contact, HertzContact):
         raise TypeError(f"contact = {contact!r}: must be a HertzContact")
-    if stiffness is not None or contact is None:
+    if stiffness is None and contact is None:
+        raise ValueError("contact_stiffness: must be given, or contact in its place")
+    if stiffness is not None:
         return stiffness
     # restitution and stiffness have no effect on the gap of the flight rule
     known = isinstance(asked["machine"], Machine)

@@ -17,7 +17,8 @@ def names_arguments(function):
     Raises
     ------
     TypeError
-        When called with an unknown keyword; the message lists the known ones.
+        When called with an unknown keyword, or with too many arguments without a name; the message
+        lists the known ones.
     """
     if inspect.isclass(function):
         function.__init__ = _checked(function.__init__, function.__name__)
@@ -27,9 +28,10 @@ def names_arguments(function):
 
 def _checked(function, title):
     parameters = inspect.signature(function).parameters
-    if any(each.kind is each.VAR_KEYWORD for each in parameters.values()):
+    if any(each.kind in (each.VAR_KEYWORD, each.VAR_POSITIONAL) for each in parameters.values()):
         return function
     known = [name for name in parameters if name != "self"]
+    by_place = [each for each in parameters.values() if each.kind is each.POSITIONAL_OR_KEYWORD]
 
     @wraps(function)
     def checked(*args, **kwargs):
@@ -39,6 +41,10 @@ def _checked(function, title):
                     f"{title}() has no argument {name!r}; known: {', '.join(known)}"
                     f"{nearest(name, known)}"
                 )
+        if len(args) > len(by_place):
+            raise TypeError(
+                f"{title}() has too many arguments without a name; known: {', '.join(known)}"
+            )
         return function(*args, **kwargs)
 
     return checked

@@ -96,7 +96,7 @@ def check_file(path) -> None:
     try:
         root = yaml.compose(Path(path).read_bytes(), Loader=LOADER)
     except (yaml.YAMLError, UnicodeDecodeError) as error:
-        reason = " ".join(str(error).split())
+        reason = " ".join(str(error).replace('in "<byte string>", ', "at ").split())
         raise ConfigurationError(
             f"{name}: must be YAML in UTF-8, indented by spaces: {reason}"
         ) from None

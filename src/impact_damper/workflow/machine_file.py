@@ -1,5 +1,6 @@
 """A machine in a YAML file, with the keys of an entry of `machines` in the configuration."""
 
+import re
 from pathlib import Path
 
 import yaml
@@ -7,7 +8,16 @@ from pydantic import ValidationError
 
 from impact_damper.workflow.configuration import LOADER, ConfigurationError, check_file, problems_of
 from impact_damper.workflow.models.machines import MachineEntry
+from impact_damper.workflow.models.messages import SCIENTIFIC
 
+
+class _Loader(LOADER):
+    """Reads 2e5 as a number; YAML 1.1 takes it for text."""
+
+
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float", re.compile(f"(?:{SCIENTIFIC.pattern})$"), list("-+.0123456789")
+)
 # For keys that a file may leave out. 73 starts, all quiet, show a share of 95 % at 95 % confidence.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # frequencies in the band
@@ -34,7 +44,7 @@ def read_machine_file(path) -> dict:
         If the file is not YAML, or a value in it is not allowed; a line for each problem.
     """
     check_file(path)
-    given = yaml.load(Path(path).read_bytes(), LOADER)
+    given = yaml.load(Path(path).read_bytes(), _Loader)
     if not isinstance(given, dict):
         raise ConfigurationError(f"{Path(path).name}: must have keys with values, such as machine:")
     content = DEFAULTS | given

@@ -9,7 +9,7 @@ from pydantic_core import core_schema
 
 from impact_damper.machine.hertz import Material
 from impact_damper.machine.machine import Machine
-from impact_damper.machine.units import QUANTITIES, check_si, si_value
+from impact_damper.machine.units import QUANTITIES, check_si, si_value, wrong_unit
 from impact_damper.system.bounds import RESTITUTION_RANGE, plain
 from impact_damper.workflow.models.messages import dotted, missing, problem
 from impact_damper.workflow.models.section import Section
@@ -45,7 +45,7 @@ class AllowedQuantity(Allowed):
         try:
             check_si("", value, self.quantity, **self.bounds)
         except (TypeError, ValueError):
-            raise self._error() from None
+            raise self._error(wrong_unit(value, self.quantity)) from None
         return value
 
 

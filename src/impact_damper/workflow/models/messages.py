@@ -1,13 +1,26 @@
 """Lines that report a problem of the configuration: the key, its value, and what it must be."""
 
+import re
 import reprlib
 
 from impact_damper.system.names import nearest
 
+# Numbers that YAML 1.1 takes for text: those with an exponent, without a point or without its sign.
+SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
+
 
 def problem(path, value, reason) -> str:
     """Return the line on a wrong value: its path of keys, the value, and what it must be."""
+    if isinstance(value, str) and SCIENTIFIC.fullmatch(value):
+        reason += f"; YAML takes this for text, and {_point(value)} for a number"
     return f"{dotted(path)} = {reprlib.repr(value)}: {reason}"
+
+
+def _point(text):
+    """Return a number in scientific notation with the point and the sign that YAML 1.1 wants."""
+    mantissa, exponent = text.lower().split("e")
+    mantissa += "" if "." in mantissa else ".0"
+    return f"{mantissa}e{exponent if exponent[0] in '+-' else f'+{exponent}'}"
 
 
 def missing(path, reason) -> str:

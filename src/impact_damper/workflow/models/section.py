@@ -53,7 +53,8 @@ class Section(BaseModel):
             kind = "unknown"
             words = f"unknown key; known: {', '.join(known)}{nearest(path[-1], known)}"
         elif kind == "missing":
-            kind, words = "needed", f"missing; needed here: {', '.join(known)}"
+            needed = sorted(key for key, each in cls.model_fields.items() if each.is_required())
+            kind, words = "needed", f"missing; needed here: {', '.join(needed)}"
         else:
             words = detail["msg"]
         return {"type": PydanticCustomError(kind, words), "loc": path, "input": given}

@@ -56,8 +56,9 @@ class Allowed:
         # the value as the user wrote it: pydantic would turn 2 into a float
         return value
 
-    def _error(self):
-        return PydanticCustomError("allowed", "must be {allowed}", {"allowed": str(self)})
+    def _error(self, reason=""):
+        allowed = {"allowed": f"{self}{reason}"}
+        return PydanticCustomError("allowed", "must be {allowed}", allowed)
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
