@@ -86,3 +86,43 @@ def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
     monkeypatch.setattr(sys, "argv", arguments)
     with pytest.raises(SystemExit, match="Error: frequency = '24 kg'"):
         command_line.run()
+
+
+def test_a_state_too_far_away_is_told_in_si_units(machine_file, monkeypatch):
+    asked = ["--frequency", "24 Hz", "--state", "7, 0"]
+    monkeypatch.setattr(sys, "argv", ["impact-damper", "simulate", str(machine_file), *asked])
+    with pytest.raises(SystemExit, match=r"Error: state\[0\] = 7 m: must be at least -.* m"):
+        command_line.run()
+
+
+def test_a_file_that_is_no_design_gets_no_page(machine_file, tmp_path, monkeypatch):
+    motion = tmp_path / "motion.nc"
+    run("simulate", machine_file, "--frequency", 20, "--periods", 3, "--output", motion)
+    for path, told in ((motion, "must be the design.nc of a design"), (machine_file, "is not a")):
+        monkeypatch.setattr(sys, "argv", ["impact-damper", "report", str(path)])
+        with pytest.raises(SystemExit, match=f"Error: .*{told}"):
+            command_line.run()
+
+
+def test_ctrl_c_ends_with_its_code_and_what_to_do(machine_file, monkeypatch, capsys):
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command_line, "read", interrupted)
+    monkeypatch.setattr(sys, "argv", ["impact-damper", "design", str(machine_file)])
+    with pytest.raises(SystemExit) as ended:
+        command_line.run()
+    assert ended.value.code == command_line.INTERRUPTED
+    assert "the same command goes on" in capsys.readouterr().err
+
+
+def test_the_help_holds_a_file_that_works(tmp_path):
+    """The least keys, so that a stranger can begin from the help alone."""
+    lines = [line.strip() for line in run("--help").splitlines()]
+    keys = ("machine:", "damper:", "band:")
+    (tmp_path / "machine.yaml").write_text("\n".join(x for x in lines if x.startswith(keys)))
+    assert read_machine_file(tmp_path / "machine.yaml").keys() > {"machine", "damper", "band"}
+
+
+def test_the_version_is_told():
+    assert run("--version").strip() == idm.__version__

@@ -209,7 +209,7 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} was not made by this project")
     sealed = seal(data.variables, path)
     if data.attrs.get("id") != sealed["id"]:
-        held = data.attrs.get("id", "a dataset that `save` did not write")
+        held = data.attrs.get("id", "a dataset that `save` did not write: read it with xarray")
         raise BrokenFileError(f"{path} holds {held}")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written")

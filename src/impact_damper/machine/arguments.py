@@ -12,7 +12,7 @@ from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.results import FOLLOWED, STATE, STATE_UNITS, from_si, in_si
 from impact_damper.machine.units import NUMBER, QUANTITIES, check_si, si_value
-from impact_damper.system.bounds import CLEARANCE_RANGE, RADIUS_RANGE, shown
+from impact_damper.system.bounds import CLEARANCE_RANGE, FARTHEST, FASTEST, RADIUS_RANGE, shown
 from impact_damper.system.names import nearest
 
 NOTE = """
@@ -87,7 +87,7 @@ def _called(function, machine, given):
     except (ArithmeticError, ValueError) as error:
         raise type(error)(_told_in_si(str(error), machine.scales)) from None
     for each in caught:
-        warnings.warn(_told_in_si(str(each.message), machine.scales), each.category, stacklevel=3)
+        warnings.warn(_told_in_si(str(each.message), machine.scales), each.category, stacklevel=4)
     if isinstance(found, float):
         return machine.scales.to_si(found, "clearance")
     return in_si(found, machine, damper)
@@ -170,13 +170,20 @@ def _state(machine, name, values):
             "without a damper"
         )
     scaled = [
-        machine.scales.from_si(si_value(f"{name}[{place}]", value, quantity), quantity)
+        _part_of_state(machine.scales, f"{name}[{place}]", value, quantity)
         for place, (value, quantity) in enumerate(zip(values, STATE, strict=False))
     ]
     if not isinstance(labelled, xr.DataArray):
         return scaled
     found = labelled.copy(data=np.reshape(scaled, labelled.shape))
     return found.assign_attrs(units="1")
+
+
+def _part_of_state(scales, name, value, quantity):
+    """Return a displacement or velocity in the scales of a machine."""
+    most = FARTHEST if quantity == "displacement" else FASTEST
+    bounds = scales.range_to_si({"least": -most, "most": most}, quantity)
+    return scales.from_si(check_si(name, value, quantity, **bounds), quantity)
 
 
 def _radius(machine, name, value):

@@ -8,12 +8,12 @@ from typing import Annotated
 
 import typer
 
+from impact_damper import __version__
+
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help="Impact dampers for machines in SI units.",
-    epilog="A machine's file has the keys of an entry of `machines` in config/reference.md.",
 )
 MachineFile = Annotated[
     Path, typer.Argument(exists=True, dir_okay=False, help="YAML file of machine, damper and band.")
@@ -21,6 +21,35 @@ MachineFile = Annotated[
 Gap = Annotated[str, typer.Option(help='Full play of the loose mass, such as "3 mm".')]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Workers = Annotated[int, typer.Option(min=1, help="Threads; the result does not depend on it.")]
+# Exit code after Ctrl-C.
+INTERRUPTED = 130
+
+
+def tell_version(asked: bool):
+    """Print the version and end, if the option `--version` asks for it."""
+    if asked:
+        print(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=tell_version, is_eager=True, help="Print it.")
+    ] = False,
+):
+    """Impact dampers for machines in SI units.
+
+    A YAML file describes machine, damper and band of frequencies. The least that it must hold:
+
+    \b
+    machine: {mass: 12 kg, linear_stiffness: 2e5, damping_ratio: 0.5 %, force: 40}
+    damper: {mass: 0.6 kg, restitution: 0.7, contact_stiffness: 2e7}
+    band: [20 Hz, 21 Hz]
+
+    Plain numbers are in kg, N/m, N, m and Hz. The page "Describe a machine in a file" of the
+    documentation names all other keys.
+    """
 
 
 @app.command()
@@ -31,7 +60,7 @@ def design(
     as_json: AsJson = False,
 ):
     """Find the gap to build, and how sure that is. Takes minutes; goes on where it was stopped."""
-    from impact_damper.data.datasets import save
+    from impact_damper.data.datasets import decode, save
     from impact_damper.machine.hertz import HertzContact
     from impact_damper.stages.machines import design_damper
 
@@ -53,8 +82,16 @@ def design(
     save(found, output / "design.nc")
     page = write_report(found, machine_file.stem, output)
     words = json.loads(found.attrs["conclusion"])
-    numbers = {"design_gap_mm": float(found["design_gap"]), "conclusion": words}
-    tell(as_json, [*words, f"The page: {page}"], numbers | {"page": str(page)})
+    numbers = {
+        "design_gap_mm": float(found["design_gap"]),
+        "design_choice": decode(found["design_choice"]).item(),
+        "promise": decode(found["promise"]).item(),
+        "displacement_limit_mm": float(found["displacement_limit"]),
+        "conclusion": words,
+        "page": str(page),
+        "data": str(output / "design.nc"),
+    }
+    tell(as_json, [*words, f"The page: {page}"], numbers)
 
 
 @app.command()
@@ -145,13 +182,19 @@ def response(
 @app.command()
 def report(
     data: Annotated[Path, typer.Argument(exists=True, help="design.nc of `impact-damper design`.")],
-    output: Annotated[Path, typer.Option(help="Folder for the page.")] = None,
+    output: Annotated[
+        Path, typer.Option(help="Folder for the page; without it that of the design.")
+    ] = None,
+    as_json: AsJson = False,
 ):
     """Write the page of a finished design again."""
     from impact_damper.data.datasets import load
 
-    folder = output or data.parent
-    print(f"The page: {write_report(load(data), data.stem, folder)}")
+    found = load(data)
+    if "promise" not in found:
+        raise ValueError(f"{data}: must be the design.nc of a design ({found.attrs['title']})")
+    page = write_report(found, data.stem, output or data.parent)
+    tell(as_json, [f"The page: {page}"], {"page": str(page)})
 
 
 def read(path):
@@ -212,7 +255,10 @@ def run():
     warnings.showwarning = lambda message, *rest: print(f"Warning: {message}", file=sys.stderr)
     try:
         app()
-    except (TypeError, ValueError, FileNotFoundError) as error:
+    except (TypeError, ValueError, OSError) as error:
         sys.exit(f"Error: {error}")
-    except KeyboardInterrupt:
-        sys.exit("Interrupted. Finished steps of a design are kept; the same command goes on.")
+    except SystemExit as end:
+        if end.code == INTERRUPTED:
+            words = "Finished steps of a design are kept; the same command goes on."
+            print(f"\nInterrupted. {words}", file=sys.stderr)
+        raise
