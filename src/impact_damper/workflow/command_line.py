@@ -3,12 +3,11 @@
 import json
 import sys
 import warnings
+from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
 import typer
-
-from impact_damper import __version__
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -28,13 +27,13 @@ INTERRUPTED = 130
 def tell_version(asked: bool):
     """Print the version and end, if the option `--version` asks for it."""
     if asked:
-        print(__version__)
+        print(version("impact-damper"))
         raise typer.Exit
 
 
 @app.callback()
 def main(
-    version: Annotated[
+    _: Annotated[
         bool, typer.Option("--version", callback=tell_version, is_eager=True, help="Print it.")
     ] = False,
 ):
@@ -47,8 +46,9 @@ def main(
     damper: {mass: 0.6 kg, restitution: 0.7, contact_stiffness: 2e7}
     band: [20 Hz, 21 Hz]
 
-    Plain numbers are in kg, N/m, N, m and Hz. The page "Describe a machine in a file" of the
-    documentation names all other keys.
+    Plain numbers are in kg, N/m, N, m and Hz.
+
+    All other keys: "Describe a machine in a file" in the documentation.
     """
 
 
