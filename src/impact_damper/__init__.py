@@ -79,6 +79,7 @@ _OF_MACHINES = {
     "optimum_clearance",
     "clearance_sweep",
     "subharmonic_suppression",
+    "basins",
     "migrate",
     "periodic_orbit",
     "orbit_branch",

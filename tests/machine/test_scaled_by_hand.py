@@ -101,6 +101,38 @@ def test_migration_of_a_machine():
     )
 
 
+def assert_same_basins(found, by_hand):
+    np.testing.assert_array_equal(found["basin_label"], by_hand["basin_label"])
+    names = ("basin_displacement", "attractor_displacement", "frequency", "attractor_share")
+    assert [found[name].attrs["units"] for name in names] == ["mm", "mm", "Hz", "1"]
+    assert_scaled(found, by_hand, (*names, "attractor_phase"), rtol=1e-6)
+    assert found["basin_velocity"].attrs["units"] == "m/s"
+    np.testing.assert_allclose(found["basin_velocity"], by_hand["basin_velocity"] * LENGTH / TIME)
+
+
+def test_basins_of_a_machine():
+    window = {"displacement": f"{3e3 * LENGTH} mm", "velocity": 4.5 * LENGTH / TIME}
+    found = idm.basins(HARD, None, hertz(1.85), **window, cells=30)
+    by_hand = idm.basins(PAPER, None, 1.85, displacement=3.0, velocity=4.5, cells=30)
+    assert_same_basins(found, by_hand)
+    assert_scaled(found, by_hand, ["saddle_displacement"], rtol=1e-6)
+    assert found["attractor_speed"].attrs["units"] == "m/s"
+
+
+def test_basins_of_a_machine_with_a_damper():
+    """The loose mass is given; around the quiet motion no chaos magnifies rounding."""
+    kept = {"restitution": 0.75, "contact_stiffness": 2000 * STIFFNESS}
+    damper = HARD.damper(mass=0.25 * MASS, clearance_each_side=LENGTH, **kept)
+    window = {"displacement": 0.2 * LENGTH, "velocity": 0.3 * LENGTH / TIME, "cells": 4}
+    loose = [f"{500 * LENGTH} mm", -0.5 * LENGTH / TIME]
+    found = idm.basins(HARD, damper, hertz(2.0), **window, loose=loose)
+    window = {"displacement": 0.2, "velocity": 0.3, "cells": 4}
+    inelastic = idm.Damper(0.25, 1.0, 0.75)
+    by_hand = idm.basins(PAPER, inelastic, 2.0, **window, loose=[0.5, -0.5])
+    assert by_hand["attractor_share"].sum() == 1
+    assert_same_basins(found, by_hand)
+
+
 def test_migration_of_a_softening_machine():
     """The resonance branch of a softening spring comes from high frequencies."""
     damper = SOFT.damper(
@@ -156,6 +188,18 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
         (
             lambda: idm.frequency_response(LINEAR, DAMPER, [16, 15.5]),
             "frequencies = [16, 15.5] Hz: must be increasing",
+        ),
+        (
+            lambda: idm.basins(LINEAR, None, 16, displacement="-1 mm"),
+            "displacement = '-1 mm': must be greater than 0 m and at most",
+        ),
+        (
+            lambda: idm.basins(HARD, DAMPER, 16, loose=["1 mm", "1 mm"]),
+            "loose[1] = '1 mm': must be a number in m/s, or text",
+        ),
+        (
+            lambda: idm.basins(HARD, DAMPER, 16, loose=0),
+            "loose = 0: must be two numbers, displacement (m) and velocity (m/s) of the machine",
         ),
     ],
 )

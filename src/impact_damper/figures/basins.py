@@ -99,11 +99,8 @@ def draw_plane(axes, data):
         axes.plot(x, v, color=BLACK, linewidth=0.25)
         saddles = data["saddle_displacement"], data["saddle_velocity"]
         handles += axes.plot(*saddles, **SADDLES, label="unstable orbit")
-    made = parameters_of(data)
-    names = ("mass_ratio", "clearance") if has_damper(data) else ()
-    words = parameter_label(made, "frequency", *names)
     turn = float(data["basin_phase"]) / np.pi
-    axes.set_title(rf"{words}, phase ${turn:.3g}\pi$", loc="right")
+    axes.set_title(rf"{system_words(data)}, phase ${turn:.3g}\pi$", loc="right")
     axes.set(
         xlabel=axis_label(data["basin_displacement"]),
         ylabel=axis_label(data["basin_velocity"]),
@@ -129,10 +126,20 @@ def draw_shares(axes, data):
     axes.figure.colorbar(drawn, ax=axes, label=words, shrink=0.9, ticks=[0, 0.5, 1])
 
 
+def system_words(data):
+    """Return frequency, mass ratio and clearance in words; of a machine the frequency only."""
+    frequency = data["frequency"]
+    if frequency.attrs["units"] != "1":
+        return f"{float(frequency):.4g} {frequency.attrs['units']}"
+    names = ("mass_ratio", "clearance") if has_damper(data) else ()
+    return parameter_label(parameters_of(data), "frequency", *names)
+
+
 def attractor_words(data):
     """Return period, size and share of each attractor in words."""
+    units = f" {data['attractor_displacement'].attrs['units']}".removesuffix(" 1")
     return [
-        f"period {period:d}, max |$Z_1$| {size:.3g}: {share:.0%}"
+        f"period {period:d}, max |$Z_1$| {size:.3g}{units}: {share:.0%}"
         for period, size, share in zip(
             data["attractor_period"].values,
             data["attractor_displacement"].values,

@@ -39,11 +39,12 @@ def takes_machine(function):
     """Return a function that also takes a `Machine`, with the other arguments in SI units.
 
     Arguments are known by their names, which mean the same in all functions: `frequency` and
-    `frequencies` (Hz), `state` (m, m/s), `clearances` (m, on each side), `radius` (m; of speeds as
-    in the scales of the machine), `start` (s), `damper`, `parameter` with `span`, `motions`. Each
-    number may be text with units or a quantity of pint; `mass_ratio` is a ratio for a machine too.
-    The dataset is returned by `in_si`; a single number is a clearance on each side, in m. Numbers
-    in errors and warnings are in SI units. With an `Oscillator` nothing is converted.
+    `frequencies` (Hz), `state` and `loose` (m, m/s), `displacement` (m), `velocity` (m/s),
+    `clearances` (m, on each side), `radius` (m; of speeds as in the scales of the machine), `start`
+    (s), `damper`, `parameter` with `span`, `motions`. Each number may be text with units or a
+    quantity of pint; `mass_ratio` is a ratio for a machine too. The dataset is returned by `in_si`;
+    a single number is a clearance on each side, in m. Numbers in errors and warnings are in SI
+    units. With an `Oscillator` nothing is converted.
 
     Parameters
     ----------
@@ -192,6 +193,32 @@ def _radius(machine, name, value):
     return machine.scales.from_si(radius, "displacement")
 
 
+def _half_width(quantity, dimensionless_most):
+    """Return a function that scales half the width of a plane of states."""
+
+    def convert(machine, name, value):
+        most = machine.scales.to_si(dimensionless_most, quantity)
+        return machine.scales.from_si(check_si(name, value, quantity, above=0, most=most), quantity)
+
+    return convert
+
+
+def _loose(machine, name, values):
+    """Return displacement and velocity of the machine relative to the loose mass, scaled."""
+    values = getattr(values, "values", values)
+    if np.shape(values) != (2,):
+        raise ValueError(
+            f"{name} = {shown(values)}: must be two numbers, displacement (m) and velocity (m/s) "
+            "of the machine relative to the loose mass"
+        )
+    found = []
+    for place, quantity, most in ((0, "displacement", FARTHEST), (1, "velocity", FASTEST)):
+        most = machine.scales.to_si(most, quantity)
+        value = check_si(f"{name}[{place}]", values[place], quantity, least=-most, most=most)
+        found.append(machine.scales.from_si(value, quantity))
+    return found
+
+
 def _start(machine, name, value):
     return machine.scales.from_si(si_value(name, value, "time"), "time")
 
@@ -212,6 +239,9 @@ CONVERTED = {
     "clearances": _clearances,
     "state": _state,
     "radius": _radius,
+    "displacement": _half_width("displacement", FARTHEST),
+    "velocity": _half_width("velocity", FASTEST),
+    "loose": _loose,
     "start": _start,
     "mass_ratio": _mass_ratio,
     "motions": _motions,

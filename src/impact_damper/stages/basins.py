@@ -118,6 +118,7 @@ def basins(
         "basin_displacement": grid[0],
         "basin_velocity": grid[1],
         "basin_phase": ((), phase),
+        "frequency": ((), p[FREQUENCY]),
         "without_attractor": list(BASIN_LABEL),
     }
     return dataset(data, coordinates, made, "Basins of attraction")
