@@ -205,6 +205,24 @@ def response(name, damping=0.215, restitution=1.0):
     )
 
 
+def matched_sweep():
+    """Return a response with a quiet motion, chaos at other places, and one that none reached."""
+    quiet, chaos, absent = (flag("outcome", name) for name in ("settled", "chaotic", "absent"))
+    share = np.array([[5, 5, 0], [1, 9, 0], [10, 0, 0]])
+    data = {
+        "outcome": [[quiet, chaos, quiet], [chaos, quiet, absent], [chaos, absent, absent]],
+        "period": [[1, 0, 3], [0, 1, 0], [0, 0, 0]],
+        "branch": [[7, 2, 4], [2, 7, -1], [2, -1, -1]],
+        "share": share,
+        "share_lower": share / 20,
+        "share_upper": 0.5 + share / 20,
+        "run_outcome": np.ones((3, 10)),
+        "missed_share": 0.3,
+    }
+    made = parameters(**damper(0.12, 2.0))
+    return dataset(data, {"frequency": [1.0, 1.5, 2.0]}, made, "made up")
+
+
 def motion():
     """Return a motion for the slip S3 of the paper, a state of three components."""
     data = {name: np.zeros(3) for name in ("displacement", "velocity", "relative_displacement")}

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER
 from numpy.testing import assert_allclose
+from scipy import stats
 
 from impact_damper.data.datasets import flag
 from impact_damper.motions import ensemble, strobe_map
@@ -109,6 +110,17 @@ def test_shares_and_runs(free):
     )
     counted = [np.bincount(row, minlength=share.shape[1]) for row in column]
     assert np.array_equal(share, counted)
+
+
+def test_shares_have_wilson_intervals(free):
+    present = free["outcome"][1] != flag("outcome", "absent")
+    for name in ("share_lower", "share_upper"):
+        assert np.array_equal(np.isfinite(free[name][1]), present)
+    for count in np.unique(free["share"][1][present]):
+        expected = stats.binomtest(int(count), 12).proportion_ci(method="wilson")
+        chosen = present & (free["share"][1] == count)
+        assert_allclose(free["share_lower"][1][chosen], expected.low, atol=1e-12)
+        assert_allclose(free["share_upper"][1][chosen], expected.high, atol=1e-12)
 
 
 def test_following_finds_what_random_starts_miss():

@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import impact_damper as idm
+from impact_damper.data.datasets import flag
 
 matplotlib.use("Agg")
 
@@ -129,9 +130,24 @@ def test_an_orbit_in_si_units_is_closed(results):
 
 
 def test_shares_add_up(results):
+    """The areas lie on each other, and the lowest is the motion of period 1."""
     axes = idm.plot.shares(results["response"])
-    heights = sum(np.array([bar.get_height() for bar in each]) for each in axes.containers)
-    np.testing.assert_allclose(heights, 1)
+    below = 0
+    for area in axes.patches:
+        top, _, bottom = area.get_data()
+        np.testing.assert_allclose(bottom, below)
+        below = top
+    np.testing.assert_allclose(below, 1)
+    response = results["response"]
+    quiet = (response.period == 1) & (response.outcome == flag("outcome", "settled"))
+    share = response.share.where(quiet, 0).sum("motion") / response.sizes["start"]
+    assert axes.patches[0].get_label() == "period 1"
+    np.testing.assert_allclose(axes.patches[0].get_data().values, share)
+
+
+def test_shares_of_a_single_frequency(results):
+    axes = idm.plot.shares(results["response"].isel(frequency=[1]))
+    assert axes.get_xlim() == pytest.approx((1.9, 2.1))
 
 
 def test_the_package_starts_without_matplotlib():

@@ -3,11 +3,11 @@
 import numpy as np
 import pandas as pd
 import pytest
-from helpers.made_up import world
+from helpers.made_up import matched_sweep, world
 
 from impact_damper.claims import extract
 from impact_damper.data.table_files import save_table
-from impact_damper.tables import clearance, design, migration, responses
+from impact_damper.tables import clearance, design, migration, motions, responses
 
 
 @pytest.fixture(scope="module")
@@ -86,6 +86,15 @@ def test_release_scan(data):
     assert set(table.index.get_level_values("released from")) == {"unsettled", "quiet"}
     shares = table[[name for name in table if name.startswith("to ")]]
     assert shares.sum(axis=1).to_list() == pytest.approx([1] * len(table))
+
+
+def test_shares_of_motions():
+    table = motions.shares({"response": {"figure_05a": matched_sweep()}})
+    assert list(table.motion) == ["chaotic", "period 1"]
+    assert list(table["share"]) == [1.0, 0.9] and list(table["at"]) == [2.0, 1.5]
+    assert list(table["at least"]) == [0.5, 0.45] and list(table["at most"]) == [1.0, 0.95]
+    assert list(table["starts"]) == [16, 14]
+    assert np.all(table["not seen, at most"] == 0.3)
 
 
 def test_files(tmp_path):

@@ -120,6 +120,7 @@ def test_each_missing_value_has_its_line():
     damper = ("mass_ratio", "clearance", "restitution")
     optional = {
         "curves": damper,
+        "optimum": ("starts",),
         "scenes": (*damper, "tolerance"),
         "harmonic_convergence": (*damper, "contact_stiffness"),
         "balance_map": ("damping", *damper),

@@ -246,12 +246,14 @@ def letter_panels(panels) -> None:
         axes.set_title(f"({letter})", loc="left")
 
 
-def legend(figure, columns) -> None:
-    """Add one legend below all axes of a figure; each label is listed once."""
+def legend(figure, columns, order=()) -> None:
+    """Add one legend below all axes, in which each label is listed once; those in `order` first."""
     entries = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
+    first = [label for label in order if label in entries]
+    entries = {label: entries[label] for label in [*first, *entries]}
     figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
 
 

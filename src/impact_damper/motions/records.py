@@ -50,6 +50,7 @@ MOTION = np.dtype(
         ("second_frequency", "f8"),
         ("frequency_error", "f8"),
         ("state", "f8", 4),
+        ("reach", "f8"),
         ("maximum_displacement", "f8"),
         ("contacts", "f8"),
         ("asymmetry", "f8"),

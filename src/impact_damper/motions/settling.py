@@ -158,6 +158,7 @@ def begin_watch(seen, index, out):
     out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
     out.lyapunov_exponent, out.lyapunov_error = np.nan, np.nan
     out.first_frequency, out.second_frequency, out.frequency_error = np.nan, np.nan, np.nan
+    out.reach = 0.0
 
 
 @kernel_only
@@ -196,9 +197,10 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       like weak chaos for a while.
 
     The exponent is computed from one tangent, from half of `patience` on; on an orbit it follows
-    from the dominant multiplier, since the run before it is a transient. Outcome, period,
-    residual, dominant multiplier, periods_run and the exponent per unit time are written to the
-    record `out`; y is moved onto the orbit if there is one.
+    from the dominant multiplier, since the run before it is a transient. From there on `reach` is
+    the largest distance sqrt(Z1^2 + (Z1'/W)^2) at a strobe. Outcome, period, residual, dominant
+    multiplier, periods_run, reach and the exponent per unit time are written to the record `out`; y
+    is moved onto the orbit if there is one.
     """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf
@@ -240,6 +242,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
             tangent[i] = 0.5
     elif k > half:
         follow_tangent(tangent, seen)
+        out.reach = max(out.reach, math.hypot(y[0], y[1] / p[FREQUENCY]))
     if (k - half) // BLOCK > RECENT and (k - half) % BLOCK == 0:
         mean, error, growing = exponent(seen)
         out.lyapunov_exponent = mean / (BLOCK * period)

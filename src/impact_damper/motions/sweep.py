@@ -2,26 +2,27 @@
 
 At each value motions are run from the starts of a search. Each settled motion is then followed by
 Newton's method to the next value, upward and downward, so that motions with small basins of
-attraction are found too. A branch ends where its motion cannot be followed.
+attraction are found too. A branch ends where its motion cannot be followed. Motions that have not
+settled are matched from value to value by `motions.matching`.
 """
 
-from itertools import count
+from itertools import count, pairwise
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from impact_damper.data.datasets import flag, is_settled
+from impact_damper.data.shares import wilson_intervals
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit, follow_stable
+from impact_damper.motions.matching import SIMILAR, match_unsettled, size_ratio
 from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.strobe_map import STROBE
 
 # Motions whose max |Z1| differs relatively by less are the same, if periods and contacts agree.
 # The same limit tells a symmetric motion by its asymmetry.
 SAME = 1e-6
-# Motions that have not settled are the same if their max |Z1| differs by a smaller factor.
-CHAOTIC_GAP = 1.5
 # Outcomes of which all motions are the same: their displacement is infinite, or 0.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # End of a branch: least modulus of a multiplier at a bifurcation, least imaginary part of a complex
@@ -67,8 +68,7 @@ class Catalogue:
                 return i
             ratio = record["maximum_displacement"] / known["maximum_displacement"]
             near = abs(ratio - 1) < SAME and abs(record["contacts"] - known["contacts"]) < 1e-9
-            alike = 1 / CHAOTIC_GAP < ratio < CHAOTIC_GAP
-            if near or (alike and not is_settled(record)):
+            if near or (not is_settled(record) and size_ratio(record, known) < SIMILAR):
                 return i
         return None
 
@@ -161,14 +161,25 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _branches(catalogues, links):
-    """Return the branch of each motion, indexed by number: connected components of the links."""
+    """Return the branch of each motion, indexed by number: connected components of the links.
+
+    Motions that have not settled are linked by what they have in common.
+    """
+    links = links + [
+        (first.numbers[i], second.numbers[j])
+        for first, second in pairwise(catalogues)
+        for i, j in match_unsettled(first.records, second.records)
+    ]
     size = sum(len(catalogue.records) for catalogue in catalogues)
     pairs = np.array(links or [(0, 0)]).T
     return connected_components(coo_array((np.ones(len(pairs[0])), pairs), (size, size)), False)[1]
 
 
-def _tables(catalogues, branches, dimension):
-    """Return variables with dimensions (dimension, motion), largest first, padded by 'absent'."""
+def _tables(catalogues, branches, dimension, starts):
+    """Return variables with dimensions (dimension, motion), largest first, padded by 'absent'.
+
+    `starts` is the number of random starts at each value.
+    """
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -199,6 +210,11 @@ def _tables(catalogues, branches, dimension):
             extra["branch"][row, column] = branches[catalogue.numbers[k]]
             extra["share"][row, column] = catalogue.shares[k]
             extra["origin"][row, column] = catalogue.origins[k]
+    interval = np.full((2, *records.shape), np.nan)
+    found = records["outcome"] != flag("outcome", "absent")
+    if starts:
+        interval[:, found] = wilson_intervals(extra["share"][found], starts).T
+    extra |= {"share_lower": interval[0], "share_upper": interval[1]}
     data = tabulate(records) | extra
     dims = (dimension, "motion")
     return {name: (dims, values) for name, values in data.items()} | {
@@ -264,7 +280,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
             _follow(source, target, index, settling, links, ends[turn])
     branches = _branches(catalogues, links)
     ends = ends["down"] + ends["up"]
-    data = _tables(catalogues, branches, dimension)
+    data = _tables(catalogues, branches, dimension, starts)
     columns = [
         np.argsort(catalogue.order())[row]
         for catalogue, row in zip(catalogues, reached, strict=True)

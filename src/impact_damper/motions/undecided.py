@@ -151,6 +151,8 @@ def _name_one(p, record, limit, further, known, stop):
         if escaped or not np.all(np.isfinite(y)):
             record["outcome"] = ESCAPED if escaped else DIVERGED
             break
+        far = np.max(np.hypot(states[:, 0], states[:, 1] / p[FREQUENCY]))
+        record["reach"] = np.maximum(record["reach"], far)
         mean, error = _exponent(growth)
         record["lyapunov_exponent"], record["lyapunov_error"] = mean / period, error / period
         for curves in known:

@@ -6,18 +6,8 @@ from impact_damper.data.datasets import flag, has_damper, parameters_of
 from impact_damper.figures.branches import PERIODS, mark_events, mark_open_ends, runs
 from impact_damper.figures.harmonic_balance import draw_band, draw_free
 from impact_damper.figures.response import response_panel
-from impact_damper.figures.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PALE,
-    PURPLE,
-    ROLES,
-    SKY,
-    axis_label,
-    tex,
-)
+from impact_damper.figures.shares import shares_panel
+from impact_damper.figures.style import BLUE, ROLES, axis_label, tex
 from impact_damper.plot.drawing import axes_for, dataset_in, datasets_in, key, looks
 from impact_damper.system.parameters import SYMBOLS
 
@@ -193,19 +183,10 @@ def _followed_label(data):
     return f"{words}, ${tex(SYMBOLS[name])}$" if units == "1" else f"{words} ({units})"
 
 
-# Outcomes of random starts: label, colour and hatching.
-OUTCOMES = {
-    "period 1": (BLUE, ""),
-    "other periods": (GREEN, "///"),
-    "no contact": (GREY, ""),
-    "quasi-periodic": (SKY, "\\\\\\"),
-    "chaotic": (ORANGE, "..."),
-    "others": (PURPLE, "xxx"),
-}
-
-
 def shares(data, *, ax=None):
-    """Draw the shares of random starts that lead to each kind of motion, stacked.
+    """Draw the shares of random starts that lead to each motion, stacked, with 95 % intervals.
+
+    A motion keeps its colour over all values; further motions of a kind are paler.
 
     Parameters
     ----------
@@ -224,34 +205,9 @@ def shares(data, *, ax=None):
     """
     words = "frequency_response, subharmonic_suppression or clearance_sweep"
     found = dataset_in(data, lambda each: "run_outcome" in each, words)
-    name = found["run_outcome"].dims[0]
     with looks(ax):
         (axes,) = axes_for(ax)
-        part = _shares(found)
-        places = found[name].values
-        below = np.zeros(len(places))
-        width = np.diff(places).min() if len(places) > 1 else 0.1
-        for label, (color, hatch) in OUTCOMES.items():
-            if part[label].any():
-                look = {"color": color, "hatch": hatch, "edgecolor": PALE, "linewidth": 0}
-                axes.bar(places, part[label], width, below, label=label, **look)
-                below = below + part[label]
-        axes.set(xlabel=axis_label(found[name]), ylabel="Share of random starts", ylim=(0, 1))
-        key(axes, 3)
+        shares_panel(axes, found)
+        axes.set_ylabel("Share of random starts")
+        key(axes, 4)
     return axes
-
-
-def _shares(data):
-    """Return the share of starts with each outcome, arrays over the sweep keyed by label."""
-    outcome = data["run_outcome"].values
-    reached = np.take_along_axis(data["period"].values, data["run_motion"].values, axis=1)
-    settled = outcome == flag("outcome", "settled")
-    chosen = {
-        "period 1": settled & (reached == 1),
-        "other periods": settled & (reached != 1),
-        "no contact": outcome == flag("outcome", "non_colliding"),
-        "quasi-periodic": outcome == flag("outcome", "quasi_periodic"),
-        "chaotic": outcome == flag("outcome", "chaotic"),
-    }
-    chosen["others"] = ~np.any(list(chosen.values()), axis=0)
-    return {label: where.mean(axis=1) for label, where in chosen.items()}

@@ -7,6 +7,7 @@ from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Missing
 from impact_damper.claims.suppression import high_motions
 from impact_damper.data.datasets import flag
+from impact_damper.data.families import families
 from impact_damper.data.variables.variable import OUTCOME
 from impact_damper.tables.columns import parameter_columns
 
@@ -15,6 +16,10 @@ DAMPER = ("mass_ratio", "clearance", "restitution")
 SWEPT = ("response", "subharmonic", "optimum")
 # Dimension of the outcomes of a study.
 COUNTED = "counted_outcome"
+# Stages of which the motions at different values are matched.
+MATCHED = ("response", "optimum")
+# Least share of starts, at some value, of a motion listed.
+LISTED = 0.05
 # Outcomes that are not counted one by one.
 OTHERS = ("diverged", "escaped", "at_rest")
 # An exponent within this number of standard errors of 0 may be 0.
@@ -55,6 +60,17 @@ SHOWN = {
         "mean life, periods": "mean life [forcing periods]",
         "at least": "at least [forcing periods]",
         "at most": "at most [forcing periods]",
+    },
+    "shares": {
+        "data": "data",
+        "motion": "motion",
+        "from": "from Ω or d0",
+        "to": "to",
+        "at": "largest share at",
+        "share": "share of starts there",
+        "at least": "at least",
+        "at most": "at most",
+        "not seen, at most": "of a motion not seen, at most",
     },
 }
 
@@ -160,3 +176,40 @@ def chaos(datasets) -> pd.DataFrame:
                 }
             )
     return pd.DataFrame(rows)
+
+
+def shares(datasets) -> pd.DataFrame:
+    """Motions to which LISTED of the starts lead somewhere, and the largest share of each."""
+    rows = []
+    for stage in MATCHED:
+        for name, data in extract.damped(datasets, stage).items():
+            dimension = data.run_outcome.dims[0]
+            values, share = data[dimension].values, data.share.values / data.sizes["start"]
+            for motion in families(data):
+                row, column = np.nonzero(motion.places)
+                most = np.argmax(share[motion.places])
+                if share[row[most], column[most]] >= LISTED:
+                    rows.append(
+                        {"stage": stage, "data": name}
+                        | parameter_columns(data, "damping", "mass_ratio", "restitution")
+                        | {
+                            "motion": _in_words(motion),
+                            "over": dimension,
+                            "from": values[row[0]],
+                            "to": values[row[-1]],
+                            "values": len(row),
+                            "starts": motion.starts,
+                            "of starts at each": data.sizes["start"],
+                            "at": values[row[most]],
+                            "share": share[row[most], column[most]],
+                            "at least": data.share_lower.values[row[most], column[most]],
+                            "at most": data.share_upper.values[row[most], column[most]],
+                            "not seen, at most": float(data.missed_share),
+                        }
+                    )
+    return pd.DataFrame(rows)
+
+
+def _in_words(motion):
+    period = f"period {motion.period}" if motion.outcome == "settled" else ""
+    return period or motion.outcome.replace("_", " ")

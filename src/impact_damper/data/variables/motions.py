@@ -105,8 +105,19 @@ VARIABLES = {
         ("frequency", "motion"), "forcing periods run before the motion settled"
     ),
     # frequency responses
-    "branch": Variable(("frequency", "motion"), "number of the branch that a motion lies on"),
+    "branch": Variable(
+        ("frequency", "motion"),
+        "number of the branch that a motion lies on, by which it is known over the sweep",
+    ),
     "share": Variable(("frequency", "motion"), "number of random starts that lead to the motion"),
+    "share_lower": Variable(
+        ("frequency", "motion"),
+        "share of random starts that lead to the motion, lower end of its 95 % interval",
+    ),
+    "share_upper": Variable(
+        ("frequency", "motion"),
+        "share of random starts that lead to the motion, upper end of its 95 % interval",
+    ),
     "origin": Variable(
         ("frequency", "motion"),
         "how the motion was first found",

@@ -3,12 +3,14 @@
 from impact_damper.system.bounds import (
     FARTHEST,
     FASTEST,
+    MOST_RUNS,
     PERIODS_RANGE,
     RUNS_RANGE,
     SCAN_LIFETIME_RANGE,
 )
 from impact_damper.workflow.models.messages import dotted, problem
 from impact_damper.workflow.models.section import increasing
+from impact_damper.workflow.models.settings import starts_of
 from impact_damper.workflow.models.system import (
     CLEARANCE,
     CLEARANCE_OR_RULE,
@@ -78,6 +80,14 @@ class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), Wit
 
     frequency: FREQUENCY
     clearances: range_of(CLEARANCE)
+    starts: starts_of("at each clearance, in place of `search.sweep_starts`") = None
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        runs = (self.starts or 0) * config.points.clearances
+        if runs > MOST_RUNS:
+            reason = f"with points.clearances makes {runs}: must be at most {MOST_RUNS} in all"
+            yield problem((*path, "starts"), self.starts, f"{reason} (a job keeps them in memory)")
 
 
 class Migration(WithDamper):

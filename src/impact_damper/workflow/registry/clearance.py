@@ -9,10 +9,11 @@ from impact_damper.workflow.registry.values import axis, grid, oscillator, searc
 
 def optimum(config, name):
     entry = config["optimum"][name]
+    starts = {"starts": entry["starts"]} if "starts" in entry else {}
     return system(config, entry) | {
         "frequency": entry["frequency"],
         "clearances": grid(entry["clearances"], config["points"]["clearances"]),
-        "search": search(config, "sweep_starts"),
+        "search": search(config, "sweep_starts") | starts,
         "settling": settling(config),
     }
 
@@ -55,6 +56,7 @@ STAGES = (
 )
 KINDS = (
     Kind("optimum", ("optimum",)),
+    Kind("clearance_shares", ("optimum",), module="figures.shares"),
     Kind("design_rules", ("design_rules",), named=True),
     Kind("studies", ("studies",), most=1),
 )

@@ -55,6 +55,7 @@ KINDS = (
     Kind("motion", ("motion",)),
     Kind("response", ("response", "harmonic_balance", "subharmonic", "branches")),
     Kind("branches", ("branches",)),
+    Kind("shares", ("response",)),
 )
 TABLES = (
     Table(
@@ -75,6 +76,13 @@ TABLES = (
         "tables.motions",
         ("response",),
         "Quasi-periodic motions of the responses and their two frequencies, from rotation numbers.",
+    ),
+    Table(
+        "shares",
+        "tables.motions",
+        ("response", "optimum"),
+        "Motions to which at least 5 % of random starts lead at some Ω or d0: the largest share of "
+        "starts with its 95 % interval, and the bound on the share of a motion that none reached.",
     ),
     Table(
         "chaos",

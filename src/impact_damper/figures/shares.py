@@ -1,0 +1,173 @@
+"""Shares of random starts that lead to each motion (figure kinds `shares`, `clearance_shares`)."""
+
+import numpy as np
+from matplotlib.colors import to_rgb
+
+from impact_damper.data.datasets import parameters_of
+from impact_damper.data.families import families
+from impact_damper.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    WHITE,
+    axis_label,
+    figure,
+    legend,
+    letter_panels,
+    parameter_label,
+    style,
+)
+
+CAPTION = """
+Share of random starts that lead to each motion, a column for each value. A motion keeps its colour:
+it is followed by Newton's method or, if it has not settled, matched by kind and size. Further
+motions of a kind are paler. Bars: 95 % intervals (Wilson) of the motion whose upper edge they
+cross. Above each panel: bound on the share of a motion that no start reached.
+"""
+
+# Kinds of motions from below: label, colour and hatching.
+LOOKS = {
+    "period 1": (BLUE, ""),
+    "period 2": (GREEN, "////"),
+    "period 3": (PURPLE, "\\\\\\\\"),
+    "other periods": (VERMILION, "xxxx"),
+    "quasi-periodic": (SKY, "||||"),
+    "no contact": (GREY, ""),
+    "chaotic": (ORANGE, "...."),
+    "others": (BLACK, ""),
+}
+PERIODS = {1: "period 1", 2: "period 2", 3: "period 3"}
+OUTCOMES = {
+    "quasi_periodic": "quasi-periodic",
+    "non_colliding": "no contact",
+    "drifting": "no contact",
+    "chaotic": "chaotic",
+}
+# Shares of white in the colours of the first, second and third motion of a kind, and so on.
+PALER = (0.0, 0.45, 0.7)
+EDGE = {"edgecolor": WHITE, "linewidth": 0.4}
+INTERVAL = {"color": BLACK, "linewidth": 0.6}
+# Half width of the column of a single value, as a share of the value.
+HALF_WIDTH = 0.05
+
+
+@style()
+def draw_shares(*, response):
+    """Draw shares over frequency.
+
+    Parameters
+    ----------
+    response : list of xarray.Dataset
+        Datasets of the stage response with a damper.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    return _draw(response, ("mass_ratio", "clearance", "restitution"))
+
+
+@style()
+def draw_clearance_shares(*, optimum):
+    """Draw shares over the clearance.
+
+    Parameters
+    ----------
+    optimum : list of xarray.Dataset
+        Datasets of the stage optimum.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    return _draw(optimum, ("mass_ratio", "restitution", "frequency"))
+
+
+def _draw(datasets, named):
+    columns = min(len(datasets), 2)
+    rows = -(-len(datasets) // columns)
+    drawn = figure("double", 0.8 + 2.3 * rows)
+    panels = drawn.subplots(rows, columns, squeeze=False, sharey=True)
+    for axes in panels.flat[len(datasets) :]:
+        axes.remove()
+    used = panels.flat[: len(datasets)]
+    for axes, data in zip(used, datasets, strict=True):
+        shares_panel(axes, data)
+        unseen = f"not seen: at most {float(data['missed_share']):.1%}"
+        words = parameter_label(parameters_of(data), *named)
+        axes.set_title(f"{words}; {unseen}", loc="right", fontsize=8)
+    for axes in panels[:, 0]:
+        axes.set_ylabel("Share of random starts")
+    letter_panels(used)
+    legend(drawn, 4, order=LOOKS)
+    return drawn
+
+
+def shares_panel(axes, data):
+    """Stack the shares of random starts that lead to each motion, over the parameter of a sweep.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    data : xarray.Dataset
+        Of a sweep of frequency or clearance.
+    """
+    dimension = data["run_outcome"].dims[0]
+    places, starts = data[dimension].values, data.sizes["start"]
+    edges = _edges(places)
+    below = np.zeros(len(places))
+    for kind, rank, chosen in ranked_motions(data):
+        share = np.where(chosen, data["share"].values, 0).sum(axis=1) / starts
+        colour, hatch = LOOKS[kind]
+        white = PALER[min(rank, len(PALER) - 1)]
+        face = [white + (1 - white) * part for part in to_rgb(colour)]
+        look = {"fill": True, "facecolor": face, "hatch": hatch, **EDGE}
+        label = {} if rank else {"label": kind}
+        axes.stairs(below + share, edges, baseline=below, **look, **label)
+        row, column = np.nonzero(chosen & (below + share < 1)[:, None])
+        ends = [
+            below[row] + data[name].values[row, column] for name in ("share_lower", "share_upper")
+        ]
+        axes.vlines(places[row], *ends, **INTERVAL)
+        below = below + share
+    axes.set(xlabel=axis_label(data[dimension]), xlim=edges[[0, -1]], ylim=(0, 1))
+
+
+def _edges(places):
+    """Return the edges of columns around increasing values, halfway between them."""
+    if len(places) == 1:
+        return places[0] * np.array([1 - HALF_WIDTH, 1 + HALF_WIDTH])
+    middle = (places[1:] + places[:-1]) / 2
+    return np.concatenate([[2 * places[0] - middle[0]], middle, [2 * places[-1] - middle[-1]]])
+
+
+def ranked_motions(data):
+    """Return the motions that random starts lead to, in the order of their kinds in `LOOKS`.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a sweep.
+
+    Returns
+    -------
+    list of (str, int, array of bool)
+        Of each motion its kind; its rank among those of its kind, from 0 for most starts; and its
+        places in the tables of the sweep.
+    """
+    kinds = {kind: [] for kind in LOOKS}
+    for each in families(data):
+        if each.starts:
+            kinds[_kind(each)].append(each.places)
+    return [(kind, *ranked) for kind, found in kinds.items() for ranked in enumerate(found)]
+
+
+def _kind(motion):
+    if motion.outcome == "settled":
+        return PERIODS.get(motion.period, "other periods")
+    return OUTCOMES.get(motion.outcome, "others")

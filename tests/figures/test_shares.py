@@ -1,0 +1,27 @@
+"""Shares of starts are stacked by motion, with their intervals."""
+
+import numpy as np
+from helpers.made_up import matched_sweep
+
+from impact_damper.figures.shares import draw_shares
+
+
+def test_shares_are_stacked_with_intervals():
+    axes = draw_shares(response=[matched_sweep()]).axes[0]
+    quiet, chaos = axes.patches
+    np.testing.assert_allclose(quiet.get_data().values, [0.5, 0.9, 0])
+    np.testing.assert_allclose(quiet.get_data().edges, [0.75, 1.25, 1.75, 2.25])
+    np.testing.assert_allclose(chaos.get_data().baseline, [0.5, 0.9, 0])
+    np.testing.assert_allclose(chaos.get_data().values, 1)
+    # only below the upper edge of the figure there are intervals
+    ends = [segment for lines in axes.collections for segment in lines.get_segments()]
+    np.testing.assert_allclose(ends, [[[1, 0.25], [1, 0.75]], [[1.5, 0.45], [1.5, 0.95]]])
+    assert "at most 30.0%" in axes.get_title(loc="right")
+
+
+def test_a_motion_keeps_its_colour():
+    """In a panel each area is one motion over all values; the legend names its kind once."""
+    drawn = draw_shares(response=[matched_sweep(), matched_sweep()])
+    assert [len(axes.patches) for axes in drawn.axes] == [2, 2]
+    (legend,) = drawn.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["period 1", "chaotic"]

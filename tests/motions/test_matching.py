@@ -1,0 +1,81 @@
+"""Matching of motions that have not settled, against motions whose identity is known."""
+
+import numpy as np
+import pytest
+from helpers.known_orbits import PAPER
+
+from impact_damper.data.datasets import flag
+from impact_damper.motions.matching import match_unsettled
+from impact_damper.motions.records import MOTION
+from impact_damper.stages.response import frequency_response
+from impact_damper.system.parameters import Damper
+
+
+def motion(outcome, size, period=0):
+    record = np.zeros(1, MOTION)[0]
+    record["outcome"], record["period"] = flag("outcome", outcome), period
+    record["maximum_displacement"] = record["reach"] = size
+    return record
+
+
+CHAOS = [motion("chaotic", size) for size in (2.0, 1.0, 0.1)]
+
+
+def test_the_closest_sizes_are_matched_first():
+    """1.2 lies within a factor of 1.5 of 1 only, 1.45 within that of both 2 and 1."""
+    assert match_unsettled(CHAOS, [motion("chaotic", size) for size in (1.45, 1.2)]) == [
+        (1, 1),
+        (0, 0),
+    ]
+
+
+def test_a_motion_is_matched_once():
+    pairs = match_unsettled(CHAOS[:1], [motion("chaotic", size) for size in (1.9, 2.0, 2.1)])
+    assert pairs == [(0, 1)]
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        motion("chaotic", 0.2),
+        motion("quasi_periodic", 0.1),
+        motion("settled", 0.1),
+        motion("chaotic", 0.1, period=2),
+    ],
+)
+def test_other_kinds_and_sizes_are_other_motions(other):
+    assert match_unsettled([CHAOS[2]], [other]) == []
+
+
+@pytest.mark.parametrize(("outcome", "size"), [("at_rest", 0.0), ("escaped", np.inf)])
+def test_motions_without_a_finite_size(outcome, size):
+    assert match_unsettled([motion(outcome, size)], [motion(outcome, size)]) == [(0, 0)]
+
+
+def test_chaos_that_is_small_for_a_while_is_the_same():
+    """What counts is how far it reached, not how large it was when it was measured."""
+    small = motion("chaotic", 2.1)
+    small["maximum_displacement"] = 0.3
+    assert match_unsettled(CHAOS, [small]) == [(0, 0)]
+
+
+def test_chaos_of_one_damper_is_one_motion():
+    """Its loose mass rests for many periods between bursts; the exponents agree too."""
+    found = frequency_response(PAPER, Damper(0.12, 2.0), [2.6], starts=60, radius=2.0, seed=1)
+    chaos = found.outcome.values[0] == flag("outcome", "chaotic")
+    assert chaos.sum() == 1 and int(found.share.values[0][chaos][0]) > 20
+
+
+def test_settled_motions_are_followed_instead():
+    assert match_unsettled([motion("settled", 1.0, 1)], [motion("settled", 1.0, 1)]) == []
+
+
+def test_a_torus_keeps_its_number():
+    """The torus of this damper exists at each value, and once only."""
+    found = frequency_response(PAPER, Damper(0.25, 1.0, 0.75), [1.45, 1.5, 1.55], starts=40)
+    torus = (found.outcome == flag("outcome", "quasi_periodic")).values
+    assert np.all(torus.sum(axis=1) == 1)
+    assert len(np.unique(found.branch.values[torus])) == 1
+    # a number stands once at each value
+    for row in found.branch.values:
+        assert len(np.unique(row[row >= 0])) == np.sum(row >= 0)
