@@ -145,7 +145,7 @@ def orbits(**parameters):
 FREE = orbits().assign_attrs(parameters='{"damping": 0.2}')
 DAMPED = {"branches": [orbits(), FREE]}
 STATUSES = ["period_1", "higher_period", "subharmonic_damped", "chaotic", "non_colliding"]
-STATUSES += ["chaotic_transient", "quasi_periodic", "drifting", "unresolved"]
+STATUSES += ["chaotic_transient", "quasi_periodic", "unresolved"]
 FREE_ROLES = ["free_stable", "free_unstable", "subharmonic_free", "free_higher"]
 FREE_ROLES += ["subharmonic_unstable"]
 BALANCE_ROLES = ["harmonic_balance", "band"]

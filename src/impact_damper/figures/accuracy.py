@@ -33,7 +33,7 @@ program in 80-bit arithmetic, for chaos a longer run.
 # Models that solve for an orbit directly: label, colour, marker and line.
 ORBIT_ROLES = {
     "rigid": ("rigid impacts", GREY, "s", "none"),
-    "rigid_mended": ("rigid, mended", GREY, "D", "none"),
+    "rigid_mended": ("rigid, corrected", GREY, "D", "none"),
     "rigid_balance": ("one term, (14)", SKY, "P", "none"),
     "full_balance": ("one term, (7)", SKY, "X", "none"),
     "many_harmonics": ("many harmonics", SKY, "h", "-"),
@@ -49,7 +49,7 @@ QUANTITIES = {
     "state": ("state_error", "Error of the state at the end"),
     "contact_time": ("contact_time_error", "Error of contact times"),
     "contacts": ("state_error", "Error of the state at the end"),
-    "contact_rate": ("contact_rate", "Relative error of contacts a period"),
+    "contact_rate": ("contact_rate", "Relative error of contacts a cycle"),
     "displacement": ("displacement", r"Relative error of mean max $|Z_1|$"),
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
@@ -107,8 +107,10 @@ def _panel(axes, data):
             top = np.full(len(stopped), high)
             axes.plot(stopped, top, role[2], markerfacecolor="none", **looks)
             axes.plot(stopped, top, "+", color=BLACK, markersize=7, clip_on=False)
-    if quantity != "contacts":
-        axes.axhline(allowed, color=BLACK, linestyle="--", linewidth=0.9, label="accuracy asked")
+    if quantity == "contacts":
+        axes.text(0.02, 0.86, "errors above 1: orbit left", transform=axes.transAxes, fontsize=7)
+    else:
+        axes.axhline(allowed, color=BLACK, linestyle="--", linewidth=0.9, label="required accuracy")
     axes.plot([], [], "o", color=GREY, markerfacecolor="none", label=DOUBTFUL)
     axes.plot([], [], "+", color=BLACK, label="no result")
     axes.set(xscale="log", yscale="log", ylim=(low, high))

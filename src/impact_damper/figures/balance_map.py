@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
 
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.figures.maps import hatch as hatch_cells
@@ -49,7 +50,7 @@ QUIET = {
     "none_absent": ("rightly not found", WHITE, ""),
     "unresolved": ("unresolved", WHITE, "xxxxxx"),
 }
-HIGH = {
+VIOLENT = {
     "stable_near": ("predicted, and found near it", BLUE, ""),
     "stable_far": ("predicted, found further off", GREEN, "----"),
     "stable_chaotic": ("predicted, but chaotic", ORANGE, ""),
@@ -66,7 +67,7 @@ HIGH = {
 
 @style()
 def draw_balance_map(*, balance_map):
-    """Draw the verdicts on the quiet motion (a) and on the high motion (b).
+    """Draw the verdicts on the quiet motion (a) and on the violent motion (b).
 
     Parameters
     ----------
@@ -79,26 +80,33 @@ def draw_balance_map(*, balance_map):
     """
     (data,) = balance_map
     drawn = figure("double", 5.6)
-    quiet, high = drawn.subplots(1, 2, sharex=True, sharey=True)
+    quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)
     _draw_classes(quiet, data, "quiet_verdict", QUIET)
-    _draw_classes(high, data, "high_verdict", HIGH)
+    _draw_classes(violent, data, "high_verdict", VIOLENT)
     _draw_edge(quiet, data["balance_quiet"])
-    _draw_edge(high, data["balance_high"])
+    _draw_edge(violent, data["balance_high"])
     _draw_ends(quiet, data)
     _draw_chaos(quiet, data)
-    for axes in (quiet, high):
+    for axes in (quiet, violent):
         axes.set_xlabel(axis_label(data["frequency_ratio"]))
     quiet.set(
         ylabel=PARAMETERS[parameters_of(data)["parameter"]],
         xlim=span(data["frequency_ratio"].values),
         ylim=span(data["map_value"].values),
     )
-    letter_panels([quiet, high])
-    for axes, words, side in (
-        (quiet, "(a) quiet motion by harmonic balance:", "left"),
-        (high, "(b) high motion by harmonic balance:", "right"),
+    letter_panels([quiet, violent])
+    entries = [axes.get_legend_handles_labels() for axes in (quiet, violent)]
+    longest = max(len(labels) for _, labels in entries)
+    for (handles, labels), words, side in zip(
+        entries,
+        ("(a) quiet motion by harmonic balance:", "(b) violent motion by harmonic balance:"),
+        ("left", "right"),
+        strict=True,
     ):
-        drawn.legend(*axes.get_legend_handles_labels(), title=words, loc=f"outside lower {side}")
+        # Blank entries, so that both legends begin at one height.
+        blank = [Line2D([], [], linestyle="none")] * (longest - len(labels))
+        place = f"outside lower {side}"
+        drawn.legend(handles + blank, labels + [""] * len(blank), title=words, loc=place)
     return drawn
 
 

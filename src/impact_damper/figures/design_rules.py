@@ -31,8 +31,8 @@ SWEPT = {
     "frequency": "linear",
 }
 TITLES = {
-    "displacement": "least largest displacement",
-    "first_harmonic": "least first harmonic",
+    "displacement": "optimum of the largest displacement",
+    "first_harmonic": "optimum of the first harmonic",
 }
 RULES = {
     "balance": "$1$, equation (18)",

@@ -35,10 +35,10 @@ PANELS = {
 ROUNDING, FLOOR = 1e-12, 1e-16  # smallest error fitted, and smallest error drawn
 GUIDE = {"color": GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
 COLD = {
-    "same_motion": ("cold start: same motion", {"marker": "o", "markerfacecolor": "none"}),
-    "another_motion": ("cold start: another motion", {"marker": "s", "markersize": 4.4}),
-    "stalled": ("cold start: stalled", {"marker": "x"}),
-    "iteration_limit": ("cold start: step limit", {"marker": "+", "markersize": 5}),
+    "same_motion": ("(d): finds the same motion", {"marker": "o", "markerfacecolor": "none"}),
+    "another_motion": ("(d): finds another motion", {"marker": "s", "markersize": 4.4}),
+    "stalled": ("(d): Newton's method stalls", {"marker": "x"}),
+    "iteration_limit": ("(d): reaches the limit of steps", {"marker": "+", "markersize": 5}),
 }
 
 

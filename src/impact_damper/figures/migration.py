@@ -46,7 +46,7 @@ def draw_migration(*, migration):
         draw_run(whole, run, run["time"].values[[0, -1]], 0.3)
         draw_run(part, run, release + period * np.array(AROUND), 0.8)
         above = whole.secondary_xaxis("top", (lambda t, p=period: t / p, lambda n, p=period: n * p))
-        above.set_xlabel(r"Forcing periods, $\Omega T / 2 \pi$")
+        above.set_xlabel(r"Cycles of the forcing, $\Omega T / 2 \pi$")
         part.set(xlabel=axis_label(run["time"]))
     drawn.supylabel(axis_label(migration[0]["displacement"]), fontsize="medium")
     letter_panels(panels)

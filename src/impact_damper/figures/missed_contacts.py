@@ -61,8 +61,8 @@ def draw_missed_contacts(*, missed_contacts):
     bar = drawn.colorbar(image, cax=place, orientation="horizontal")
     bar.set_label("Share of contacts missed")
     first = panels[0]
-    first.plot([], [], color=BLACK, linestyle="--", label="half, if steps fall at random")
-    first.plot([], [], ".", color=SKY, label="reports where the wall is as far out of reach")
+    first.plot([], [], color=BLACK, linestyle="--", label="half missed by equal steps")
+    first.plot([], [], ".", color=SKY, label="contact reported but not made")
     letter_panels(panels[:count])
     legend(drawn, 3)
     return drawn

@@ -8,6 +8,7 @@ import numpy as np
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.style import (
     BLACK,
+    GREY,
     ROLES,
     axis_label,
     curve,
@@ -24,7 +25,6 @@ Largest displacement of the quiet motion against clearance (points), and its fir
 bars: at most 10 % larger. Larger motions that coexist are not drawn.
 """
 
-# Label of the first line by harmonic balance, and with it of all.
 BALANCE = "lines: $|a|$ by equations (7)"
 # Parameters named in the legend, if they differ between the curves.
 VARIED = ("damping", "frequency", "restitution", "mass_ratio")
@@ -52,20 +52,24 @@ def draw_optimum(*, optimum):
 
 def sweeps_panel(axes, sweeps):
     """Draw the quiet displacement of sweeps against clearance: points, lines of (7), optima."""
-    for index, (sweep, words) in enumerate(zip(sweeps, titles(sweeps), strict=True)):
-        axes.plot(sweep["clearance"], sweep["quiet_displacement"], **points(index), label=words)
-    lined = False
-    for index, sweep in enumerate(sweeps):
-        color = curve(index)["color"]
-        elastic = np.isfinite(sweep["analytical_optimum"].item())
-        line = {} if lined or not elastic else {"label": BALANCE}
-        lined |= bool(line)
-        axes.plot(*line_of(sweep, elastic), **curve(index), **line)
+    elastic = [np.isfinite(sweep["analytical_optimum"].item()) for sweep in sweeps]
+    star = ROLES["optimum"] | {"markeredgewidth": 0.5, "markersize": 7.5}
+    # Keys of the legend: each curve with its line, the others in grey as they hold for all.
+    for index, words in enumerate(titles(sweeps)):
+        axes.plot([], [], **points(index) | curve(index), label=words)
+    if any(elastic):
+        axes.plot([], [], color=GREY, label=BALANCE)
+    axes.plot([], [], **star | {"color": GREY})
+    axes.plot([], [], **ROLES["near_optimum"])
+    for index, (sweep, balanced) in enumerate(zip(sweeps, elastic, strict=True)):
+        color = {"color": curve(index)["color"], "label": None}
+        axes.plot(sweep["clearance"], sweep["quiet_displacement"], **points(index))
+        axes.plot(*line_of(sweep, balanced), **curve(index))
         best = sweep["optimum_clearance"], sweep["optimum_displacement"]
-        near = ROLES["near_optimum"] | {"color": color}
+        near = ROLES["near_optimum"] | color
         axes.plot(sweep["near_clearance"], best[1].values.repeat(2), **near)
-        star = {"color": color, "markerfacecolor": color, "markeredgecolor": BLACK}
-        axes.plot(*best, **ROLES["optimum"] | star | {"markeredgewidth": 0.5, "markersize": 7.5})
+        filled = {"markerfacecolor": color["color"], "markeredgecolor": BLACK}
+        axes.plot(*best, **star | color | filled)
     first = sweeps[0]
     axes.set(
         xlabel=axis_label(first["clearance"]),

@@ -15,14 +15,15 @@ orbits. Chaos is a transient if one of its runs ended. Harmonic balance gives th
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-STATUSES = (
-    "chaotic",
-    "chaotic_transient",
-    "quasi_periodic",
-    "non_colliding",
-    "drifting",
-    "unresolved",
-)
+# Role of each outcome, and of chaotic transients.
+STATUSES = {
+    "chaotic": "chaotic",
+    "chaotic_transient": "chaotic_transient",
+    "quasi_periodic": "quasi_periodic",
+    "non_colliding": "non_colliding",
+    "drifting": "non_colliding",
+    "unresolved": "unresolved",
+}
 FREE = {
     "chaotic": ROLES["chaotic"] | {"label": "free, chaotic"},
     "unresolved": ROLES["unresolved"] | {"label": "free, unresolved"},
@@ -115,7 +116,8 @@ def draw_free_motions(axes, motions):
 def draw_motions(axes, motions, prefix):
     """Draw the motions with a damper: settled ones joined along branches, others as points."""
     draw_settled(axes, motions, ["period_1", "higher_period", "subharmonic_damped"], prefix)
-    draw_unsettled(axes, motions, {status: ROLES[f"{prefix}{status}"] for status in STATUSES})
+    roles = {status: ROLES[f"{prefix}{role}"] for status, role in STATUSES.items()}
+    draw_unsettled(axes, motions, roles)
 
 
 def draw_unsettled(axes, motions, roles):

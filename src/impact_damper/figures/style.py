@@ -124,7 +124,6 @@ ROLES = {
     "chaotic": _points("damper, chaotic", ORANGE, ".", filled=True),
     "chaotic_transient": _points("damper, chaotic transient", ORANGE, ".", markersize=4.6),
     "non_colliding": _points("damper, no contact", BLACK, "D", markersize=2.6),
-    "drifting": _points("damper, drifting without contact", BLACK, "|", markersize=4.2),
     "quasi_periodic": _points("damper, quasi-periodic", SKY, "P", filled=True, markersize=4.2),
     "unresolved": _points("damper, unresolved", BLACK, "x"),
     "inelastic_period_1": _points("inelastic, period 1", VERMILION, "+", markersize=4.6),
@@ -135,15 +134,14 @@ ROLES = {
         "inelastic, chaotic transient", VERMILION, "3", markersize=4.6
     ),
     "inelastic_non_colliding": _points("inelastic, no contact", VERMILION, "d"),
-    "inelastic_drifting": _points(
-        "inelastic, drifting without contact", VERMILION, "2", markersize=4.6
-    ),
     "inelastic_quasi_periodic": _points(
         "inelastic, quasi-periodic", PURPLE, "h", filled=True, markersize=4.2
     ),
     "inelastic_unresolved": _points("inelastic, unresolved", VERMILION, "X"),
-    "optimum": _points("smallest simulated", BLACK, "*", filled=True, markersize=5.5, zorder=3),
-    "near_optimum": _line("within 10 % of it", GREY, marker="|", linewidth=0.6, zorder=3),
+    "optimum": _points(
+        "smallest, on the exact orbit", BLACK, "*", filled=True, markersize=5.5, zorder=3
+    ),
+    "near_optimum": _line("at most 10 % larger", GREY, marker="|", linewidth=0.6, zorder=3),
     "non_resonance": _points("released to the non-resonance motion", BLUE, ".", filled=True),
     "subharmonic": _points("released to the one-third subharmonic", VERMILION, "^"),
     "resonance": _points("released to the resonance motion", BLACK, "+"),

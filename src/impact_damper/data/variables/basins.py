@@ -20,14 +20,14 @@ CURVE = {"complete": 0, "cut": 1}
 VARIABLES = {
     "basin_displacement": Variable(
         ("basin_displacement",),
-        "displacement of the primary mass at first",
+        "initial displacement of the primary mass",
         "Z1",
         quantity="displacement",
     ),
     "basin_velocity": Variable(
-        ("basin_velocity",), "velocity of the primary mass at first", "Z1'", quantity="velocity"
+        ("basin_velocity",), "initial velocity of the primary mass", "Z1'", quantity="velocity"
     ),
-    "basin_phase": Variable((), "phase Omega T of the forcing at first", units="radian"),
+    "basin_phase": Variable((), "initial phase Omega T of the forcing", units="radian"),
     "basin_label": Variable(
         ("basin_velocity", "basin_displacement"),
         "attractor that a state leads to, or a negative number: -1 unresolved, -2 escaped, "
