@@ -7,6 +7,7 @@ from scipy.stats import binom
 import impact_damper as idm
 from impact_damper.data.shares import failures_allowed
 from impact_damper.design import compare as compare_module
+from impact_damper.design.choose import Comparison
 from impact_damper.design.compare import SECOND, TRIAL, compare
 from impact_damper.design.task import Task
 from impact_damper.motions.records import MOTION, SETTLED
@@ -119,3 +120,37 @@ def test_two_looks_err_with_a_chance_below_five_per_cent(share):
         further = binom.cdf(both - late, total - starts, loud)
         chance = binom.cdf(first, starts, loud) + binom.pmf(late, starts, loud) @ further
         assert chance < 0.05
+
+
+def candidates(monkeypatch, loud):
+    """Candidates if the coarse comparison misses loud motions up to a gap (mm)."""
+
+    def made_up(task, gaps, frequencies, limit, *_, **__):
+        quiet = np.tile((np.asarray(gaps) > loud)[:, None], len(frequencies))
+        numbers = {
+            "start_quiet_share": np.where(quiet, 1.0, 0.9),
+            "start_quiet_interval": np.where(quiet, 0.96, 0.8)[..., None] * np.ones(2),
+            "worst_displacement": np.where(quiet, 1.0, 9.0) * np.ones(len(gaps))[:, None],
+        }
+        return Comparison(np.asarray(gaps), frequencies, numbers, limit, 0.95)
+
+    # the smaller the gap, the smaller the motions that 12 starts find
+    gaps = np.geomspace(2, 12, 20)
+    coarse = made_up(TASK, gaps, FREQUENCIES, 3.0)
+    coarse.numbers["start_quiet_share"][:] = 1
+    coarse.numbers["worst_displacement"][:] = 1 + 0.01 * gaps[:, None]
+    monkeypatch.setattr(compare_module, "compare", made_up)
+    return compare_module.candidate_comparison(TASK, coarse)
+
+
+def test_candidates_beyond_loud_ones_are_compared(monkeypatch):
+    found = candidates(monkeypatch, loud=4.0)
+    assert found.choose(TASK.tolerances["gap"]).kind == "robust"
+    assert (np.diff(found.gaps) > 0).all() and len(found.gaps) > TASK.candidates
+    assert (found.quiet == (found.gaps > 4.0)).all()
+
+
+@pytest.mark.parametrize("loud", [0.0, 100.0])
+def test_no_further_candidates_if_all_are_quiet_or_none(monkeypatch, loud):
+    found = candidates(monkeypatch, loud)
+    assert len(found.gaps) == TASK.candidates if loud == 0 else not found.quiet.any()

@@ -42,6 +42,10 @@ def test_the_overview_has_a_row_for_each_machine():
     drawn = draw_machines(machines=[made_up_design(), made_up_design(choice="least_worst")])
     FigureCanvasAgg(drawn).draw()
     assert len(drawn.axes) == 6
+    assert [axes.get_title("left") for axes in drawn.axes[::3]] == [
+        "(a) made up, 12 kg",
+        "(b) made up, 12 kg",
+    ]
 
 
 def test_the_quiet_orbit_is_cut_where_its_stability_changes():

@@ -63,6 +63,7 @@ def made_up_design(choice="robust", promise="robust_kept", **changed):
         machine=json.dumps(made | {"contact_stiffness": 2e7}),
         parameters=json.dumps(asked),
         remarks=json.dumps({}),
+        name="made_up",
         conclusion=json.dumps(["Build a gap of 7 mm.", "The cliff is far."]),
     )
 
@@ -186,6 +187,8 @@ def _branches():
         "modulus_by_gap": [1.2, 0.9, 0.8, 1.1],
         "stability_gap": [6.5, 8.8],
         "stability_force": [0.5, 2.0],
+        "stability_gap_event": [flag("stability_gap_event", "fold")] * 2,
+        "stability_force_event": [flag("stability_force_event", "fold")] * 2,
     }
 
 

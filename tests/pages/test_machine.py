@@ -82,7 +82,9 @@ def test_numbers_are_those_of_the_dataset():
     assert found["gap, allowed range"] == "6.3 mm to 7.7 mm"
     assert found["largest displacement without the damper"] == "10 mm at 34 Hz"
     assert found["reduction: largest without over largest with it"] == "12.5 times"
-    assert found["cliff below: last quiet gap"] == "none down to 6 mm"
+    assert found["cliff below: last quiet gap"] == (
+        "none found: quiet at least down to 6 mm, the last compared"
+    )
     assert found["cliff above: last quiet gap"] == (
         "8.5 mm, 21.4 % above the gap to build (at 30 Hz)"
     )
@@ -98,7 +100,7 @@ def test_times_margins_and_derivatives_are_on_the_page():
     what = "largest multiplier of the quiet orbit at the gap to build, at 30 Hz (stable below 1)"
     assert found[what] == "0.9"
     markdown = texts()[1]
-    assert "| force | 2.6 % | 0.2 % |" in markdown and "| gap | -1.6 % | -0.2 % |" in markdown
+    assert "| force | 2.60 % | 0.20 % |" in markdown and "| gap | -1.60 % | -0.20 % |" in markdown
     assert "| unbalance |" not in markdown
     chaos = numbers(quiet_time_median=np.full((4, 5), np.nan))
     assert "not known: the quiet motions found never repeat" in chaos.values()
@@ -182,9 +184,10 @@ def test_text_from_the_dataset_is_escaped():
     [
         (7.436, "7.44 mm"),
         (20.0, "20 mm"),
-        (2e7, "2e+07 mm"),
+        (2e7, "2 × 10⁷ mm"),
+        (-1.996e-4, "-2 × 10⁻⁴ mm"),
         (0, "0 mm"),
-        (1e-5, "1e-05 mm"),
+        (1.25e-5, "1.25 × 10⁻⁵ mm"),
         (1234.5, "1230 mm"),
         (np.nan, "none found"),
         (np.inf, "escapes"),

@@ -7,6 +7,7 @@ import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.made_up_design import made_up_design
 from matplotlib.figure import Figure
 
 import impact_damper as idm
@@ -50,6 +51,7 @@ def results():
         "migration": idm.migrate(OSCILLATOR, DAMPER, 1.95, periods=200),
         "basins": idm.basins(OSCILLATOR, None, 1.8, cells=30),
         "machine_steady": idm.steady_motion(MACHINE, MACHINE_DAMPER, 21.0, (0, 0.1, 0.001, 0.3)),
+        "design": made_up_design(),
         "machine_response": idm.frequency_response(MACHINE, None, [19.0, 20.0], starts=3),
     }
 
@@ -75,6 +77,7 @@ DRAWN = [
     ("shares", ["sweep"]),
     ("migration", ["migration"]),
     ("basins", ["basins"]),
+    ("design", ["design"]),
 ]
 
 
@@ -102,7 +105,7 @@ def test_given_axes_are_drawn_on(name, keys, results):
 
 
 @pytest.mark.parametrize(
-    "name", ["response", "branch", "orbit", "sweep", "shares", "migration", "basins"]
+    "name", ["response", "branch", "orbit", "sweep", "shares", "migration", "basins", "design"]
 )
 @pytest.mark.parametrize("wrong", [None, 3, [], {}, "response", [3], xr.Dataset()])
 def test_anything_else_is_refused(name, wrong):
@@ -148,6 +151,17 @@ def test_shares_add_up(results):
 def test_shares_of_a_single_frequency(results):
     axes = idm.plot.shares(results["response"].isel(frequency=[1]))
     assert axes.get_xlim() == pytest.approx((1.9, 2.1))
+
+
+def test_a_design_shows_its_gap_and_the_starts_that_end_quiet(results):
+    response, sizes, shares = idm.plot.design(results["design"])
+    for axes in (sizes, shares):
+        (gap,) = [each for each in axes.lines if each.get_label() == "gap to build"]
+        np.testing.assert_array_equal(gap.get_xdata(), 7.0)
+    (candidates,) = [each for each in shares.containers if each.get_label() == "candidates"]
+    np.testing.assert_array_equal(candidates.lines[0].get_xdata(), [6, 7, 8, 9])
+    expected = results["design"]["start_quiet_share"].min("frequency")
+    np.testing.assert_array_equal(candidates.lines[0].get_ydata(), expected)
 
 
 def test_the_package_starts_without_matplotlib():

@@ -10,7 +10,7 @@ import pytest
 
 import impact_damper as idm
 from impact_damper.data.variables import VARIABLES
-from impact_damper.stages import machines
+from impact_damper.stages import design_steps, machines
 
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
 SMALL = {
@@ -66,7 +66,7 @@ def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
         raise AssertionError("a step was computed again")
 
     for name in ("screen", "reached_motions", "alternatives", "absorber_responses", "ring_down"):
-        monkeypatch.setattr(machines, name, computes)
+        monkeypatch.setattr(design_steps, name, computes)
     assert design(folder=folder).identical(data)
 
 
@@ -75,7 +75,7 @@ def test_an_interrupted_design_goes_on_where_it_was(finished, tmp_path, monkeypa
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
-        patch.setattr(machines, "alternatives", interrupt)
+        patch.setattr(design_steps, "alternatives", interrupt)
         design(folder=tmp_path)
     done = kept(tmp_path)
     assert done == STEPS - {"masses", "transients", "competitors"}

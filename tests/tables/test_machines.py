@@ -17,7 +17,7 @@ def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
         "machine": "made_up",
         "loose mass, kg": 0.6,
         "band, Hz": "26 to 34",
-        "gap (full play), mm": "7 +- 10%",
+        "gap (full play), mm": "7 ± 10 %",
         "advice": "build it",
         "largest without damper, mm": 10.0,
         "largest with it, mm": 0.8,
@@ -35,6 +35,11 @@ def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
 )
 def test_the_advice_follows_the_choice(choice, advice):
     assert row(choice=choice)["advice"] == advice
+
+
+def test_a_gap_to_be_held_more_closely_has_its_range():
+    found = row(choice="needs_tolerance")["gap (full play), mm"]
+    assert found == "7, held from 6 or less to 8.5"
 
 
 @pytest.mark.parametrize(

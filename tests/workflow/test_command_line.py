@@ -2,6 +2,7 @@
 
 import json
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +18,19 @@ FILE = """
 machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 5 %, force: 40 N}
 damper: {mass: 0.6 kg, restitution: 0.7, contact_stiffness: 2e6 N/m}
 band: [20 Hz, 21 Hz]
+"""
+
+
+# A design of the fewest steps, whose contact follows from radius and material.
+SMALL = """
+machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 2 %, force: 40 N}
+damper: {mass: 1.2 kg, restitution: 0.6}
+contact: {radius: 20 mm, youngs_modulus: 3 GPa, poissons_ratio: 0.4}
+band: {first: 20.4 Hz, last: 20.7 Hz, points: 3}
+candidates: 4
+starts: 16
+share: 0.8
+tolerances: {gap: 5 %}
 """
 
 
@@ -61,6 +75,41 @@ def test_response_of_the_bare_machine(machine_file):
         w = 2 * np.pi * row["frequency_hz"]
         exact = 40 / np.hypot(2e5 - 12 * w**2, 2 * 0.05 * np.sqrt(2e5 * 12) * w)
         assert row["settled_mm"] == pytest.approx([1e3 * exact], rel=1e-4)
+
+
+def test_a_design_is_that_of_the_library_and_has_a_page(tmp_path):
+    path = tmp_path / "machine.yaml"
+    path.write_text(SMALL)
+    told = json.loads(run("design", path, "--output", tmp_path / "out", "--json"))
+    data = load(tmp_path / "out" / "design.nc")
+    machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
+    expected = idm.design_damper(
+        machine,
+        mass=1.2,
+        band=(20.4, 20.7),
+        restitution=0.6,
+        contact=idm.HertzContact.of_ball("20 mm", youngs_modulus="3 GPa", poissons_ratio=0.4),
+        frequencies=3,
+        candidates=4,
+        starts=16,
+        share=0.8,
+        tolerances={"gap": 0.05},
+    )
+    assert data.drop_attrs().identical(expected.drop_attrs())
+    assert told["design_gap_mm"] == float(expected["design_gap"])
+    assert told["conclusion"][0] in Path(told["page"]).read_text()
+    # the other commands compute with the same stiffness
+    given = read_machine_file(path)
+    made = json.loads(expected.attrs["machine"])
+    assert command_line.damper(given, "3 mm").contact_stiffness == made["contact_stiffness"]
+    once = run("report", tmp_path / "out" / "design.nc", "--output", tmp_path / "again")
+    assert (tmp_path / "again" / "index.html").exists() and "index.html" in once
+
+
+def test_a_contact_that_is_not_known_names_its_key(machine_file):
+    machine_file.write_text(FILE.replace(", contact_stiffness: 2e6 N/m", ""))
+    with pytest.raises(ConfigurationError, match="damper.contact_stiffness: missing; needed here"):
+        read_machine_file(machine_file)
 
 
 def test_wrong_value_names_key_and_range(machine_file):

@@ -12,16 +12,15 @@ job = Job(snakemake)
 steps = Path(job.output).with_suffix("") / "steps"
 ball = job["contact"]
 kept = ("band", "frequencies", "candidates", "starts", "share", "tolerances", "displacement_limit")
-job.save(
-    design_damper(
-        Machine(**job["machine"]),
-        **job["damper"],
-        **{key: job[key] for key in kept},
-        contact=HertzContact.of_ball(**ball) if ball else None,
-        seed=job["seed"],
-        settling=job.settling,
-        folder=steps,
-        **job.running,
-    )
+found = design_damper(
+    Machine(**job["machine"]),
+    **job["damper"],
+    **{key: job[key] for key in kept},
+    contact=HertzContact.of_ball(**ball) if ball else None,
+    seed=job["seed"],
+    settling=job.settling,
+    folder=steps,
+    **job.running,
 )
+job.save(found.assign_attrs(name=Path(job.output).stem))
 shutil.rmtree(steps)

@@ -100,11 +100,24 @@ class Comparison(NamedTuple):
         fewest = allowed & (loud <= loud[allowed].min() + ALIKE)
         return Choice(_middle(nominal, np.where(fewest, sizes, np.inf)), "least_worst")
 
-    def without(self, low, high) -> "Comparison":
-        """Return the comparison without the gaps from one to another (mm)."""
-        kept = (self.gaps < low) | (self.gaps > high)
+    def only(self, kept) -> "Comparison":
+        """Return the comparison of some of the gaps; `kept` are booleans, shape (m,)."""
         numbers = {name: values[kept] for name, values in self.numbers.items()}
         return self._replace(gaps=self.gaps[kept], numbers=numbers)
+
+    def without(self, low, high) -> "Comparison":
+        """Return the comparison without the gaps from one to another (mm)."""
+        return self.only((self.gaps < low) | (self.gaps > high))
+
+    def joined(self, other) -> "Comparison":
+        """Return the comparison of the gaps of this and of another one, of the same task."""
+        gaps = np.concatenate([self.gaps, other.gaps])
+        order = np.argsort(gaps)
+        numbers = {
+            name: np.concatenate([values, other.numbers[name]])[order]
+            for name, values in self.numbers.items()
+        }
+        return self._replace(gaps=gaps[order], numbers=numbers)
 
     def robust_gaps(self, tolerance) -> np.ndarray:
         """Return the nominal gaps within whose tolerance all gaps are quiet, mm."""

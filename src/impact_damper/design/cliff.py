@@ -33,7 +33,7 @@ HOLDABLE = 0.01
 LIFE_GAPS = (0.99, 1.02, 1.06, 1.12, 1.2)
 LIFE_STARTS, LONGEST, LEAD, FEWEST = 32, 3000, 200, 5
 # Least and greatest gap and force of branches of quiet orbits, divided by the nominal values.
-GAP_SPAN, FORCE_SPAN = (0.4, 2.0), (0.1, 10.0)
+GAP_SPAN, FORCE_SPAN = (0.4, 2.0), (0.25, 4.0)
 
 
 class Edge(NamedTuple):

@@ -191,26 +191,54 @@ def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STAR
 def candidate_comparison(task, coarse, **running) -> Comparison:
     """Return a comparison of the candidates from all starts, with the limit of the coarse one.
 
-    They lie around the best gap of the coarse comparison. If none of them is quiet, but most starts
-    are at one of them at all frequencies, a quiet range may lie beside it: further ones are then
-    compared there.
+    They lie around the best gap of the coarse comparison. The few starts of that one may miss loud
+    motions: if the candidates are not quiet within the tolerance, further ones are compared around
+    the best gap beyond those that are loud. If there is none either, but most starts are quiet at a
+    candidate at all frequencies, a quiet range may lie beside it: further ones are compared there.
     """
-    tolerance, limit = task.tolerances.get("gap", 0.0), coarse.limit
-    reach = BEYOND / (1 - tolerance)
-    gaps = coarse.choose(tolerance).gap * np.geomspace(1 / reach, reach, task.candidates)
-    found = compare(task, gaps, task.grid, limit, task.starts, "candidates", **running)
-    least = found.least_share
-    if found.quiet.any() or least.max() < PROMISING:
+    tolerance = task.tolerances.get("gap", 0.0)
+    gaps = _around(coarse.choose(tolerance).gap, task)
+    found = compare(task, gaps, task.grid, coarse.limit, task.starts, "candidates", **running)
+    if found.choose(tolerance).kind == "robust":
         return found
-    k = int(np.argmax(least))
-    near = gaps[max(k - 1, 0)], gaps[min(k + 1, len(gaps) - 1)]
-    # the ends are compared already
-    between = np.setdiff1d(np.geomspace(*near, task.candidates)[1:-1], gaps)
-    stream = "further_candidates"
-    further = compare(task, between, task.grid, limit, task.starts, stream, **running)
-    order = np.argsort(np.concatenate([gaps, between]))
-    numbers = {
-        name: np.concatenate([found.numbers[name], further.numbers[name]])[order]
-        for name in found.numbers
-    }
-    return found._replace(gaps=np.concatenate([gaps, between])[order], numbers=numbers)
+    beyond = _best_beyond(coarse, found, tolerance)
+    if beyond is not None:
+        stream, gaps = "candidates_beyond", _around(beyond, task)
+    elif not found.quiet.any() and found.least_share.max() >= PROMISING:
+        stream, gaps = "further_candidates", _beside_best(found, task.candidates)
+    else:
+        return found
+    further = np.setdiff1d(gaps, found.gaps)
+    return found.joined(
+        compare(task, further, task.grid, coarse.limit, task.starts, stream, **running)
+    )
+
+
+def _around(gap, task):
+    """Return the gaps of candidates around a gap, which reach beyond its tolerance."""
+    reach = BEYOND / (1 - task.tolerances.get("gap", 0.0))
+    return gap * np.geomspace(1 / reach, reach, task.candidates)
+
+
+def _best_beyond(coarse, found, tolerance):
+    """Return the best gap of the coarse comparison beyond the loud candidates, None without one.
+
+    All gaps within its tolerance are quiet in the coarse comparison and lie below the first loud
+    candidate or above the last one.
+    """
+    loud = found.gaps[~found.quiet]
+    if not len(loud):
+        return None
+    sides = coarse.gaps < loud.min(), coarse.gaps > loud.max()
+    parts = [coarse.only(side) for side in sides if side.any()]
+    choices = [(part, part.choose(tolerance)) for part in parts]
+    robust = [(part, choice.gap) for part, choice in choices if choice.kind == "robust"]
+    sizes = [np.interp(gap, part.gaps, part.worst) for part, gap in robust]
+    return robust[int(np.argmin(sizes))][1] if robust else None
+
+
+def _beside_best(found, count):
+    """Return gaps between the neighbours of the candidate with the most quiet starts."""
+    k = int(np.argmax(found.least_share))
+    near = found.gaps[max(k - 1, 0)], found.gaps[min(k + 1, len(found.gaps) - 1)]
+    return np.geomspace(*near, count)[1:-1]  # the ends are compared already

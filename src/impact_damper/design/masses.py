@@ -11,8 +11,8 @@ from impact_damper.design.screen import gap_span
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.performance.costs import measured_costs
 
-# Masses divided by the nominal mass; frequencies of their reduced design, gaps and starts of its
-# coarse comparison, and starts of its last one.
+# Masses divided by the nominal mass; most frequencies of their reduced design, gaps and starts of
+# its coarse comparison, and most starts of its last one.
 MASSES = (0.5, 0.7, 1.4, 2.0)
 FREQUENCIES, GAPS, COARSE_STARTS, STARTS = 5, 20, 8, 24
 # Forcing periods over which the force of a motion that is not periodic is measured.
@@ -50,7 +50,8 @@ def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
         mass = factor * task.mass
         if mass > task.machine.mass:
             continue
-        other = replace(task, mass=mass, frequencies=FREQUENCIES, displacement_limit=1e-3 * limit)
+        frequencies = min(FREQUENCIES, task.frequencies)
+        other = replace(task, mass=mass, frequencies=frequencies, displacement_limit=1e-3 * limit)
         running = {"workers": workers, "progress": progress}
         fewer = {"most": GAPS, "starts": COARSE_STARTS}
         coarse = coarse_comparison(other, gap_span(other), limit, **fewer, **running)
@@ -72,9 +73,10 @@ def judge(task, gap, limit, **running) -> Alternative:
     """
     gaps = gap * (1 + _tolerance(task) * np.array([-1, -0.5, 0, 0.5, 1]))
     few = task.few(FREQUENCIES)
-    found = compare(task, np.unique(gaps), few, limit, STARTS, "masses", **running)
+    starts = min(STARTS, task.starts)
+    found = compare(task, np.unique(gaps), few, limit, starts, "masses", **running)
     cases = [Case(1e-3 * gap, f) for f in few]
-    records = run(task, cases, STARTS, "masses", settling=task.hurried, **running)
+    records = run(task, cases, starts, "masses", settling=task.hurried, **running)
     forces = [
         _largest_force(task, case, row[np.argmax(row["maximum_displacement"])])
         for case, row in zip(cases, records, strict=True)

@@ -124,7 +124,7 @@ def force_curves(task, gap, frequency, orbit, shares) -> Curves:
         Least and greatest multiple of the force are its ends.
     """
     place = VARIED.index("force")
-    count = min(EDGE_CELLS, task.candidates + 6)
+    count = min(EDGE_CELLS, 2 * task.candidates - 2)
     axes = (
         np.linspace(*task.band, count),
         np.geomspace(shares[0], shares[-1], count),
@@ -139,7 +139,7 @@ def force_curves(task, gap, frequency, orbit, shares) -> Curves:
 def damper_curves(task, gap, frequency, orbit) -> Curves:
     """Return the edges over gap (mm) and restitution at a frequency (Hz)."""
     place = VARIED.index("restitution")
-    count = min(EDGE_CELLS, task.candidates + 6)
+    count = min(EDGE_CELLS, 2 * task.candidates - 2)
     axes = (
         gap * np.geomspace(*GAPS, count),
         np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], count),

@@ -35,6 +35,7 @@ STREAMS = (
     "damper_map",
     "masses",
     "deviations",
+    "candidates_beyond",
 )
 # Cases whose starts a thread draws at once.
 DRAWN = 4

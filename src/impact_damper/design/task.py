@@ -1,16 +1,17 @@
 """What a damper is designed for: machine, mass, band of frequencies, tolerances and confidence."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from impact_damper.data.shares import starts_needed
+from impact_damper.design.band import checked_band, grid_over, resonance_of, resonances_within
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
-from impact_damper.machine.units import check_si, with_unit
+from impact_damper.machine.units import check_si
 from impact_damper.system.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
@@ -23,7 +24,7 @@ from impact_damper.system.bounds import (
 from impact_damper.system.checks import check_starts
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
-from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
+from impact_damper.theory.free_oscillator import balance_amplitudes
 
 # Quantities of a machine and its damper that may deviate from their nominal values.
 VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
@@ -120,7 +121,7 @@ class Task:
         settling = replace(settling, watched=max(settling.watched, WATCHED), further=0)
         settle(self, "settling", settling)
         self._check_excitation()
-        settle(self, "band", self._checked_band())
+        settle(self, "band", checked_band(self.machine, self.band, self.resonance))
         settle(self, "tolerances", self._checked_tolerances())
         check_count("seed", self.seed, **SEED_RANGE)
         check_number("share", self.share, least=0.5, most=0.999)
@@ -161,22 +162,6 @@ class Task:
             for frequency in self.band:
                 self.packed(gap, frequency, factors)
 
-    def _checked_band(self):
-        if not isinstance(self.band, Sequence | np.ndarray) or len(self.band) != 2:
-            raise ValueError(f"band = {shown(self.band)}: must be least and greatest frequency")
-        ends = tuple(
-            self.machine.check_frequency(f"band[{i}]", value) for i, value in enumerate(self.band)
-        )
-        low, high = self.resonance
-        if not ends[0] < ends[1] or ends[1] < low or ends[0] > high:
-            given = " to ".join(with_unit(end, "Hz") for end in ends)
-            where = f"{low:.4g} Hz" if high - low < 1e-3 * low else f"{low:.4g} to {high:.4g} Hz"
-            raise ValueError(
-                f"band = {given}: must ascend and reach into the resonance of the machine, at "
-                f"{where} (away from its resonance a machine needs no damper)"
-            )
-        return ends
-
     def _checked_tolerances(self):
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {shown(self.tolerances)}: must be a dictionary")
@@ -196,22 +181,8 @@ class Task:
 
     @cached_property
     def resonance(self) -> tuple[float, float]:
-        """Frequencies between which the free machine resonates, Hz.
-
-        From the natural frequency of small vibrations, if the spring has a linear part, to the peak
-        and the folds of the free response by harmonic balance, which a cubic spring bends away.
-        """
-        natural = self.machine.natural_frequency
-        oscillator = self.machine.oscillator()
-        found = [point.frequency for point in free_folds(oscillator)]
-        try:
-            found.append(maximum_response(oscillator).frequency)
-        except ValueError:
-            pass  # no peak: damped too much, or over the barrier of a softening spring
-        ends = [*self.scales.to_si(np.array(found), "frequency")]
-        if natural or not ends:
-            ends.append(natural)
-        return float(min(ends)), float(max(ends))
+        """Frequencies between which the free machine resonates, Hz."""
+        return resonance_of(self.machine)
 
     @cached_property
     def hurried(self) -> Settling:
@@ -229,21 +200,12 @@ class Task:
     @cached_property
     def resonances(self) -> list[float]:
         """Resonances within the band, without the loose mass and with it attached, Hz."""
-        ratio = math.sqrt(1 + self.mass / self.machine.mass)
-        found = [each for end in self.resonance for each in (end / ratio, end)]
-        return [each for each in found if self.band[0] < each < self.band[1]]
+        return resonances_within(self.band, self.resonance, self.mass / self.machine.mass)
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Frequencies over the band, Hz.
-
-        They are even, but the nearest ones between the ends are moved onto `resonances`, at which a
-        lightly damped machine moves most.
-        """
-        values = np.linspace(*self.band, self.frequencies)
-        for frequency in self.resonances:
-            values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
-        return np.unique(values)
+        """Frequencies over the band, Hz: even, but for `resonances`."""
+        return grid_over(self.band, self.frequencies, self.resonances)
 
     @cached_property
     def bare(self) -> np.ndarray:

@@ -3,21 +3,19 @@
 import numpy as np
 
 from impact_damper.data.datasets import flag
+from impact_damper.data.design_ranges import quiet_gaps, stable_range
 from impact_damper.design.cliff import HOLDABLE, LEAD, LONGEST
+from impact_damper.design.deviations import UNSEEN
 from impact_damper.design.restitutions import best_of
 
 SUMMARY = {
     "robust": (
         "Build a gap of {gap:.3g} mm (full play, from wall to wall); any gap from {low:.3g} to "
-        "{high:.3g} mm will do. At each frequency of the band at least {share} of the starts then "
-        "end quiet, at 95 % confidence: the machine moves at most {limit:.3g} mm, instead of "
-        "{bare:.3g} mm without the damper. {worst}"
+        "{high:.3g} mm will do. {promise} {worst}"
     ),
     "needs_tolerance": (
-        "Build a gap of {gap:.3g} mm (full play, from wall to wall) and hold it from "
-        "{edge_low:.4g} to {edge_high:.4g} mm{narrow}. At each frequency of the band at least "
-        "{share} of the starts then end quiet, at 95 % confidence: the machine moves at most "
-        "{limit:.3g} mm, instead of {bare:.3g} mm without the damper. {worst}"
+        "Build a gap of {gap:.3g} mm (full play, from wall to wall) and hold it from {edges} mm"
+        "{narrow}. {promise} {worst}"
     ),
     "least_worst": (
         "No range of gaps that one can hold (at least {holdable} of the gap) is quiet over the "
@@ -25,6 +23,11 @@ SUMMARY = {
         "without the damper. Do not build this damper for this band."
     ),
 }
+PROMISE = (
+    "The machine then moves at most {limit:.3g} mm, instead of {bare:.3g} mm without the damper. "
+    "At each frequency of the band at least {share} of all starts, however machine and loose mass "
+    "begin to move, end in such a quiet motion, at 95 % confidence."
+)
 
 
 def conclusion(task, kind, data) -> list[str]:
@@ -51,15 +54,15 @@ def conclusion(task, kind, data) -> list[str]:
         "narrow": f", a narrower range than the tolerance of {_percent(tolerance)}"
         if narrow
         else "",
-        "edge_low": edges[0],
-        "edge_high": edges[1],
+        "edges": quiet_gaps(data),
         "holdable": _percent(HOLDABLE),
-        "share": _percent(task.share),
-        "limit": float(data["displacement_limit"]),
         "bare": float(data["balance_displacement"].max()),
         "worst": _worst(kind, data),
     }
-    found = [SUMMARY[kind].format(**numbers), _sureness(task, data)]
+    numbers["promise"] = PROMISE.format(
+        limit=float(data["displacement_limit"]), share=_percent(task.share), **numbers
+    )
+    found = [SUMMARY[kind].format(**numbers), _sureness(data)]
     if kind == "least_worst":
         found.append(_help(task, data))
     else:
@@ -110,45 +113,51 @@ def _untouched(data, gap):
     )
 
 
-def _sureness(task, data):
+def _sureness(data):
     """Return what unseen starts did."""
     share, sizes = data["corner_share"].values, data["corner_displacement"].values
     corners = len(share) - 1
     text = (
-        f"Checked with starts that the design had not seen: {_percent(share[0, 0])} of them end "
-        f"quiet at the nominal values (95 % interval {_percent(share[0, 1])} to "
-        f"{_percent(share[0, 2])})"
+        f"Checked with {UNSEEN} random starts that the design had not seen: "
+        f"{_percent(share[0, 0])} of them end quiet at the nominal values (95 % interval "
+        f"{_percent(share[0, 1])} to {_percent(share[0, 2])})"
     )
     if corners:
         text += (
-            f", and at least {_percent(share[1:, 0].min())} with all values off by their whole "
-            f"tolerance ({corners} corners); in the worst of these motions the machine "
-            f"{_moves(sizes.max())}"
+            f", and at least {_percent(share[1:, 0].min())} in each of {corners} further checks "
+            "with all values off by their whole tolerance, up or down; in the worst of these "
+            f"motions the machine {_moves(sizes.max())}"
         )
     return text + "."
 
 
 def _margins(data, gap):
     """Return the distances to the basin cliff and to the end of stability."""
-    texts = []
-    for k, side in enumerate(("below", "above")):
+    found, quiet = [], []
+    for k, (side, way) in enumerate((("below", "down"), ("above", "up"))):
         edge = float(data["cliff_gap"][k])
         if int(data["cliff_status"][k]) == flag("cliff_status", "found"):
-            texts.append(
+            found.append(
                 f"{_percent(abs(edge / gap - 1))} {side} this gap, at {edge:.4g} mm (first at "
                 f"{float(data['cliff_frequency'][k]):.4g} Hz)"
             )
-    if texts:
-        text = f"The cliff, beyond which fewer starts end quiet, lies {' and '.join(texts)}."
-    else:
-        text = "Within the gaps compared there is no cliff beyond which fewer starts end quiet."
-    low, high = data["stability_gap"].values
-    if np.isfinite(low):
-        text += (
-            f" The quiet orbit at {float(data['branch_frequency']):.4g} Hz is stable from "
-            f"{low:.4g} to {high:.4g} mm: not this range but the share of starts decides."
+        else:
+            quiet.append(f"{way} to {edge:.4g} mm")
+    texts = []
+    if found:
+        texts.append(f"The cliff, beyond which fewer starts end quiet, lies {' and '.join(found)}.")
+    if quiet:
+        texts.append(
+            f"Gaps are quiet at least {' and '.join(quiet)}: no gap beyond was compared, and no "
+            "cliff was found there."
         )
-    return text
+    stable = stable_range(data, "gap")
+    if stable:
+        texts.append(
+            f"The quiet orbit at {float(data['branch_frequency']):.4g} Hz is stable from {stable} "
+            "mm: not this range but the share of starts decides."
+        )
+    return " ".join(texts)
 
 
 def _lives(data):
@@ -160,13 +169,13 @@ def _lives(data):
         data["life_gap"].values, data["life_rate"].values, strict=True
     ):
         if low > 0:
-            passing.append(f"{_rounded(1 / rate)} at {gap:.4g} mm")
+            passing.append(f"{_rounded(1 / rate)} periods at {gap:.4g} mm")
         elif np.isfinite(rate):
             lasting.append((f"{gap:.4g}", high))
     found = []
     if passing:
         found.append(
-            f"Beyond the cliff, motions that are not quiet after {LEAD} forcing periods become so, "
+            f"Across the cliff, motions that are not quiet after {LEAD} forcing periods become so, "
             f"on average, after another {', '.join(passing)}."
         )
     if lasting:
@@ -186,10 +195,13 @@ def _rounded(count):
 
 def _amplitudes(data):
     """Return the forces between which the quiet orbit is stable."""
-    least, most = data["stability_force"].values
-    if not np.isfinite(least):
+    stable = stable_range(data, "force")
+    if not stable:
         return ""
-    return f"The quiet orbit is stable from {least:.3g} to {most:.3g} times the nominal force."
+    return (
+        f"The damper needs a force within a range: at {float(data['branch_frequency']):.4g} Hz its "
+        f"quiet orbit is stable from {stable} times the nominal force."
+    )
 
 
 def _help(task, data):

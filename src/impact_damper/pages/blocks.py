@@ -4,6 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+# Digits and minus of an exponent.
+RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
 
 class Words(NamedTuple):
     """A paragraph."""
@@ -67,7 +70,10 @@ def shown(value, unit="", digits=3) -> str:
     if np.isinf(value):
         return "escapes"
     if abs(value) >= 1e5 or 0 < abs(value) < 1e-3:
-        text = f"{value:.{digits}g}"
+        number, power = f"{value:.{digits - 1}e}".split("e")
+        if "." in number:
+            number = number.rstrip("0").rstrip(".")
+        text = f"{number} × 10{str(int(power)).translate(RAISED)}"
     else:
         text = np.format_float_positional(value, digits, unique=False, fractional=False, trim="-")
     return f"{text} {unit}".rstrip()

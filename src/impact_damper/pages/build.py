@@ -5,6 +5,7 @@ import json
 import numpy as np
 
 from impact_damper.data.datasets import parameters_of
+from impact_damper.data.design_ranges import quiet_gaps
 from impact_damper.figures.machines import drawing
 from impact_damper.pages.blocks import Numbers, Picture, Section, Words, percent, shown
 from impact_damper.tables.machines import named
@@ -13,13 +14,13 @@ from impact_damper.tables.machines import named
 GIVEN = {
     "mass": ("mass without the loose mass", "kg"),
     "linear_stiffness": ("stiffness of the spring", "N/m"),
-    "cubic_stiffness": ("cubic stiffness of the spring", "N/m^3"),
+    "cubic_stiffness": ("cubic stiffness of the spring", "N/m³"),
     "damping_ratio": ("damping ratio", ""),
     "damping": ("coefficient of the dashpot", "N s/m"),
     "force": ("amplitude of the force", "N"),
     "unbalance": ("unbalance", "kg m"),
     "base_displacement": ("amplitude of the moving base", "m"),
-    "base_acceleration": ("amplitude of the base's acceleration", "m/s^2"),
+    "base_acceleration": ("amplitude of the base's acceleration", "m/s²"),
 }
 HOW = (
     "Give the loose mass a straight slot in the machine, along the direction in which the machine "
@@ -51,8 +52,11 @@ def _damper(data, made, asked):
     """Return the rows of the damper."""
     gap, ratio = float(data["design_gap"]), made["damper_mass"] / made["mass"]
     force = float(data["contact_force_by_frequency"].max())
+    # a range that must be held more closely than the tolerance stands in the next row
+    deviation = _deviation(asked, "gap") if named(data, "design_choice") == "robust" else ""
+    stiffness = made["contact_stiffness"]
     return [
-        ("gap, the full play", f"{shown(gap, 'mm')}{_deviation(asked, 'gap')}", "design_gap"),
+        ("gap, the full play", f"{shown(gap, 'mm')}{deviation}", "design_gap"),
         ("gap, allowed range", *_allowed(data, gap, asked)),
         (
             "loose mass",
@@ -66,10 +70,14 @@ def _damper(data, made, asked):
         ),
         (
             "stiffness of the stops",
-            f"{shown(made['contact_stiffness'], 'N/m')}{_deviation(asked, 'contact_stiffness')}",
+            f"{shown(stiffness, 'N/m')}{_deviation(asked, 'contact_stiffness')}",
             "machine.contact_stiffness",
         ),
-        ("largest force that a stop must bear", shown(force, "N"), "contact_force_by_frequency"),
+        (
+            "largest force that a stop must bear",
+            f"{shown(force, 'N')}, which presses it in by {shown(1e3 * force / stiffness, 'mm')}",
+            "contact_force_by_frequency, machine.contact_stiffness",
+        ),
     ]
 
 
@@ -78,12 +86,12 @@ def _allowed(data, gap, asked):
     tolerance = asked["tolerances"].get("gap", 0.0)
     kind = named(data, "design_choice")
     if kind == "robust":
-        ends, source = gap * (1 + tolerance * np.array([-1, 1])), "parameters.tolerances.gap"
-    elif kind == "needs_tolerance":
-        ends, source = data["cliff_gap"].values, "cliff_gap"
-    else:
-        return "none", "design_choice"
-    return f"{shown(ends[0], 'mm', 4)} to {shown(ends[1], 'mm', 4)}", source
+        ends = gap * (1 + tolerance * np.array([-1, 1]))
+        words = f"{shown(ends[0], 'mm', 4)} to {shown(ends[1], 'mm', 4)}"
+        return words, "parameters.tolerances.gap"
+    if kind == "needs_tolerance":
+        return f"{quiet_gaps(data)} mm", "cliff_gap, cliff_status"
+    return "none", "design_choice"
 
 
 def _machine(asked):

@@ -6,13 +6,13 @@ from impact_damper.data.datasets import flag
 from impact_damper.pages.blocks import Numbers, Section, Words, shown
 
 COSTS = (
-    ("impact_rate_by_frequency", "impacts a second", "1/s"),
+    ("impact_rate_by_frequency", "impacts", "per second"),
     ("contact_force_by_frequency", "largest force in a contact", "N"),
     ("penetration_by_frequency", "largest penetration of a stop", "mm"),
     ("impact_speed_by_frequency", "largest relative speed of an impact", "m/s"),
     ("impact_loss_by_frequency", "mean energy lost in an impact", "J"),
     ("impact_power_by_frequency", "mean power lost in impacts, which becomes heat", "W"),
-    ("noise_by_frequency", "noise: sum of the squares of the impulses per time", "N^2 s"),
+    ("noise_by_frequency", "noise: sum of the squares of the impulses per time", "N² s"),
 )
 HEAD = (
     "Of the largest motion that starts reach at each frequency, the largest value over the band. "
@@ -32,7 +32,14 @@ def section(data) -> Section:
     pressure = data["pressure_by_frequency"].values
     if np.isfinite(pressure).any():
         rows.append(
-            _row(data, frequency, "pressure_by_frequency", "largest pressure after Hertz", "Pa")
+            _row(
+                data,
+                frequency,
+                "pressure_by_frequency",
+                "largest pressure after Hertz",
+                "MPa",
+                scale=1e-6,
+            )
         )
         yields = data["yields_by_frequency"].values
         known = ("yes", "unknown", "no")
@@ -44,8 +51,8 @@ def section(data) -> Section:
     return Section("What it costs", [Words(HEAD), Numbers(rows)])
 
 
-def _row(data, frequency, name, words, unit):
-    values = data[name].values
+def _row(data, frequency, name, words, unit, scale=1.0):
+    values = scale * data[name].values
     if not np.isfinite(values).any():
         return words, "none found", name
     k = int(np.nanargmax(values))

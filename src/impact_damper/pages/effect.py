@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines import response, transients
 from impact_damper.pages.blocks import Numbers, Picture, Section, shown
 
@@ -69,15 +70,26 @@ def _untouched(data, frequency):
 
 
 def _swept(data):
-    """Yield the largest displacements while the forcing frequency is swept through the band."""
+    """Yield the largest displacements while the forcing frequency is swept, in the band and beside.
+
+    The sweep goes through the resonances, which may lie outside the band.
+    """
+    low, high = parameters_of(data)["band"]
     for direction in data["direction"].values:
-        sizes = data["sweep_envelope"].sel(direction=direction).max("sweep_window")
-        bare, damped = (shown(sizes.sel(equipment=name), "mm") for name in ("bare", "damped"))
-        yield (
-            f"largest displacement while the frequency is swept {direction}, without / with it",
-            f"{bare} / {damped}",
-            "sweep_envelope",
-        )
+        swept = data.sel(direction=direction)
+        turning = swept["sweep_frequency"]
+        inside = (turning >= low) & (turning <= high)
+        for where, words in ((inside, "through the band"), (~inside, "outside the band")):
+            if not where.any():
+                continue
+            sizes = swept["sweep_envelope"].where(where).max("sweep_window")
+            bare, damped = (shown(sizes.sel(equipment=name), "mm") for name in ("bare", "damped"))
+            yield (
+                f"largest displacement while the frequency is swept {direction} {words}, "
+                "without / with it",
+                f"{bare} / {damped}",
+                "sweep_envelope, sweep_frequency",
+            )
 
 
 def _rung(data):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from impact_damper.data.datasets import parameters_of
+from impact_damper.data.design_ranges import stable_range
 from impact_damper.figures.machines import cliff, operating, tolerances
 from impact_damper.pages.blocks import (
     Numbers,
@@ -157,7 +158,7 @@ def _dependence(data):
         return
     yield Words(DEPENDENCE.format(frequency=shown(data["branch_frequency"], "Hz", 4)))
     rows = [
-        [str(name).replace("_", " "), *(shown(value, "%", 2) for value in changes)]
+        [str(name).replace("_", " "), *(f"{value:.2f} %" for value in changes)]
         for name, *changes in zip(data["changed"].values, size, modulus, strict=True)
         if any(changes)
     ]
@@ -178,30 +179,29 @@ def _edges(data):
                 f"(at {shown(frequency, 'Hz', 4)})"
             )
         elif np.isfinite(edge):
-            value = f"none down to {shown(edge, 'mm', 4)}" if k == 0 else ""
-            value = value or f"none up to {shown(edge, 'mm', 4)}"
+            way = "up" if k else "down"
+            value = f"none found: quiet at least {way} to {shown(edge, 'mm', 4)}, the last compared"
         else:
             value = "no gap compared is quiet over the band"
-        yield f"cliff {side}: last quiet gap", value, "cliff_gap, cliff_frequency"
-    low, high = data["stability_gap"].values
-    if np.isfinite(low):
+        yield f"cliff {side}: last quiet gap", value, "cliff_gap, cliff_beyond, cliff_frequency"
+    stable = stable_range(data, "gap")
+    if stable:
         k = int(np.argmin(np.abs(data["gap_of_orbit"].values - gap)))
+        where = f"at {shown(data['branch_frequency'], 'Hz', 4)}"
         yield (
-            f"largest multiplier of the quiet orbit at the gap to build, at "
-            f"{shown(data['branch_frequency'], 'Hz', 4)} (stable below 1)",
+            f"largest multiplier of the quiet orbit at the gap to build, {where} (stable below 1)",
             shown(data["modulus_by_gap"].values[k]),
             "modulus_by_gap, gap_of_orbit, branch_frequency",
         )
         yield (
-            f"gaps at which the quiet orbit is stable, at "
-            f"{shown(data['branch_frequency'], 'Hz', 4)}",
-            f"{shown(low, 'mm', 4)} to {shown(high, 'mm', 4)}",
-            "stability_gap, branch_frequency",
+            f"gaps at which the quiet orbit is stable, {where}",
+            f"{stable} mm",
+            "stability_gap, stability_gap_event, branch_frequency",
         )
-    low, high = data["stability_force"].values
-    if np.isfinite(low):
+    stable = stable_range(data, "force")
+    if stable:
         yield (
             "excitation at which the quiet orbit is stable, over the nominal one",
-            f"{shown(low)} to {shown(high)}",
-            "stability_force",
+            stable,
+            "stability_force, stability_force_event",
         )

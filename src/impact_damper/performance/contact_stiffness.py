@@ -21,24 +21,6 @@ MOST_MOTIONS = 30
 AGREED = 1e-6
 
 
-def first_stiffness(machine, contact, mass, gap, frequency) -> float:
-    """Return the stiffness (N/m) for the speed that crosses a gap in half a forcing period.
-
-    Parameters
-    ----------
-    machine : Machine
-    contact : HertzContact
-    mass : float
-        Loose mass, kg.
-    gap : float
-        Full play, m.
-    frequency : float
-        Hz.
-    """
-    reduced = machine.mass * mass / (machine.mass + mass)
-    return contact.impact(2 * gap * frequency, reduced).stiffness
-
-
 def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
     """Find the linear contact stiffness that replaces Hertz's contact in a steady motion.
 

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from impact_damper.data.datasets import parameters_of
+from impact_damper.data.design_ranges import quiet_gaps
 from impact_damper.data.variables import VARIABLES
 
 # Choices of the gap, in words.
@@ -48,15 +49,14 @@ def _row(name, data):
     made, asked = json.loads(data.attrs["machine"]), parameters_of(data)
     sizes = data["competitor_displacement"].sel(force_share=1.0, detuning=0.0).max("frequency")
     absorbers = sizes.drop_sel(competitor="bare").values
-    tolerance = asked["tolerances"].get("gap", 0.0)
     unseen = data["corner_share"].values[:, 0]
     return {
         "machine": name,
         "loose mass, kg": made["damper_mass"],
         "band, Hz": " to ".join(f"{end:g}" for end in asked["band"]),
-        "gap (full play), mm": f"{float(data['design_gap']):.3g} +- {tolerance:.0%}",
+        "gap (full play), mm": _gap(data, asked["tolerances"].get("gap", 0.0)),
         "advice": CHOICES[named(data, "design_choice")],
-        "largest without damper, mm": float(data["balance_displacement"].max()),
+        "largest without damper, mm": _digits(data["balance_displacement"].max()),
         "largest with it, mm": escape_or(data["reached_displacement"].max()),
         "quiet share of 1000 unseen starts": unseen[0],
         "corners of the tolerances": len(unseen) - 1,
@@ -66,6 +66,19 @@ def _row(name, data):
     }
 
 
+def _gap(data, tolerance):
+    """Return the gap with its tolerance, or with the narrower range in which it must be held."""
+    gap = f"{float(data['design_gap']):.3g}"
+    if named(data, "design_choice") == "needs_tolerance":
+        return f"{gap}, held from {quiet_gaps(data)}"
+    return f"{gap} ± {100 * tolerance:.3g} %"
+
+
+def _digits(size):
+    """Return a number with four digits."""
+    return float(f"{float(size):.4g}")
+
+
 def named(data, name) -> str:
     """Return the meaning of a flag of a dataset."""
     flags = VARIABLES[name].flags
@@ -73,6 +86,5 @@ def named(data, name) -> str:
 
 
 def escape_or(size):
-    """Return a size as a number, or the word for a motion that escapes and has none."""
-    size = float(size)
-    return "escapes" if np.isinf(size) else size
+    """Return a size as a number of four digits, or the word for a motion that escapes."""
+    return "escapes" if np.isinf(size) else _digits(size)

@@ -61,11 +61,10 @@ def design(
 ):
     """Find the gap to build, and how sure that is. Takes minutes; goes on where it was stopped."""
     from impact_damper.data.datasets import decode, save
-    from impact_damper.machine.hertz import HertzContact
     from impact_damper.stages.machines import design_damper
 
     given = read(machine_file)
-    band, ball = given["band"], given.get("contact")
+    band = given["band"]
     found = design_damper(
         machine(given),
         **given["damper"],
@@ -73,7 +72,7 @@ def design(
         frequencies=band["points"],
         **{key: given[key] for key in ("candidates", "starts", "share", "tolerances")},
         displacement_limit=given.get("displacement_limit"),
-        contact=HertzContact.of_ball(**ball) if ball else None,
+        contact=hertz_contact(given),
         workers=workers,
         progress=not as_json,
         folder=output / "steps",
@@ -211,11 +210,29 @@ def machine(given):
     return Machine(**given["machine"])
 
 
+def hertz_contact(given):
+    """Return the contact after Hertz of a file's content, or None."""
+    from impact_damper.machine.hertz import HertzContact
+
+    ball = given.get("contact")
+    return HertzContact.of_ball(**ball) if ball else None
+
+
 def damper(given, gap):
-    """Return the damper with a gap, or None without a gap."""
+    """Return the damper with a gap, or None without a gap.
+
+    A contact stiffness that is not given is the one with which the command `design` computes.
+    """
+    from impact_damper.design.stiffness import contact_stiffness_of
+
     if gap is None:
         return None
-    return machine(given).damper(**given["damper"], gap=quantity(gap))
+    owner, values = machine(given), given["damper"]
+    band = given["band"]["first"], given["band"]["last"]
+    stiffness = contact_stiffness_of(
+        owner, values["mass"], band, values.get("contact_stiffness"), hertz_contact(given)
+    )
+    return owner.damper(**values | {"contact_stiffness": stiffness}, gap=quantity(gap))
 
 
 def quantity(text):

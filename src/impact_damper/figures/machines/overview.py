@@ -1,8 +1,11 @@
 """All machines: displacement against frequency, and quiet share and displacement over the gap."""
 
+import json
+from string import ascii_lowercase
+
 from impact_damper.figures.machines.cliff import share_panel, size_panel
 from impact_damper.figures.machines.response import response_panel
-from impact_damper.figures.style import figure, legend, letter_panels, style
+from impact_damper.figures.style import figure, legend, style
 
 CAPTION = """
 One row for each machine. Left: largest displacement against forcing frequency, without the damper
@@ -34,6 +37,13 @@ def draw_machines(*, machines):
         right.set_xlim(middle.get_xlim())
     for axes in panels[-1, 1:]:
         axes.set_xlabel("Gap, full play (mm)")
-    letter_panels(panels[:, 0])
+    for axes, letter, data in zip(panels[:, 0], ascii_lowercase, machines, strict=False):
+        axes.set_title(f"({letter}) {row_title(data)}", loc="left")
     legend(drawn, 4)
     return drawn
+
+
+def row_title(data) -> str:
+    """Return the name of a machine and its mass."""
+    name = data.attrs["name"].replace("_", " ")
+    return f"{name}, {json.loads(data.attrs['machine'])['mass']:g} kg"

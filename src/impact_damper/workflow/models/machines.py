@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import create_model
 from pydantic_core import core_schema
 
-from impact_damper.machine.hertz import Material
+from impact_damper.machine.hertz import HertzContact, Material
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import QUANTITIES, check_si, si_value, wrong_unit
 from impact_damper.system.bounds import RESTITUTION_RANGE, plain
@@ -98,7 +98,14 @@ Damper = create_model(
     __base__=Given,
     mass=quantity_of("mass", "loose mass, at most the mass of the machine", above=0),
     restitution=quantity_of("number", "coefficient of restitution", **RESTITUTION_RANGE),
-    contact_stiffness=quantity_of("stiffness", "stiffness of the contact", above=0),
+    contact_stiffness=(
+        quantity_of(
+            "stiffness",
+            "stiffness of the contact; without it that of `contact`, after Hertz",
+            above=0,
+        ),
+        None,
+    ),
 )
 Body = create_model(
     "Body",
@@ -174,27 +181,44 @@ class MachineEntry(Section):
     counts: ClassVar = ("band.points", "candidates", "starts")
 
     def contradictions(self, path, config):
-        ball = self.contact.values()
-        for key in ("radius", "youngs_modulus", "poissons_ratio"):
-            if ball and key not in ball:
-                yield missing((*path, "contact", key), "needed for a contact after Hertz")
+        lacking = list(self._lacking(path))
+        yield from lacking
         try:
             where = (*path, "machine")
             machine = Machine(**self.machine.values())
             machine.oscillator()
             where = path
-            self._task(machine)
+            if not lacking:
+                self._task(machine)
         except (TypeError, ValueError) as error:
             yield f"{dotted(where)}.{_in_entry(str(error))}"
 
+    def _lacking(self, path):
+        """Yield a line for each key without which the contact is not known."""
+        ball = self.contact.values()
+        for key in ("radius", "youngs_modulus", "poissons_ratio"):
+            if ball and key not in ball:
+                yield missing((*path, "contact", key), "needed for a contact after Hertz")
+        if not ball and self.damper.contact_stiffness is None:
+            reason = "needed here, or radius and material of a ball under contact in its place"
+            yield missing((*path, "damper", "contact_stiffness"), reason)
+
     def _task(self, machine):
-        """Return the task of the design; its module imports SciPy, so it is imported here."""
+        """Return the task of the design; the modules import SciPy, so they are imported here."""
+        from impact_damper.design.stiffness import contact_stiffness_of
         from impact_damper.design.task import Task
 
+        band, ball = (self.band.first, self.band.last), self.contact.values()
+        contact = HertzContact.of_ball(**ball) if ball else None
+        stiffness = contact_stiffness_of(
+            machine, self.damper.mass, band, self.damper.contact_stiffness, contact
+        )
         return Task(
             machine=machine,
-            **self.damper.values(),
-            band=(self.band.first, self.band.last),
+            mass=self.damper.mass,
+            restitution=self.damper.restitution,
+            contact_stiffness=stiffness,
+            band=band,
             frequencies=self.band.points,
             candidates=self.candidates,
             starts=self.starts,

@@ -1,0 +1,49 @@
+"""Stiffness of the contact of a damper that is to be designed, from radius and materials."""
+
+from impact_damper.design.task import Task
+from impact_damper.machine.hertz import HertzContact
+from impact_damper.machine.machine import Machine
+
+# Contact stiffness of a typical damper, dimensionless.
+TYPICAL = 2000.0
+
+
+def contact_stiffness_of(machine, mass, band, stiffness, contact):
+    """Return the contact stiffness given or, without one, the stiffness of a contact after Hertz.
+
+    It is that of an impact at the speed with which the loose mass crosses the gap of the flight
+    rule in half a forcing period, at the middle of the band.
+
+    Parameters
+    ----------
+    machine : Machine
+    mass, band
+        As of `design.task.Task`.
+    stiffness : float, str, pint.Quantity or None
+        N/m.
+    contact : HertzContact or None
+
+    Returns
+    -------
+    float, str or pint.Quantity
+        N/m; `stiffness` as it is if it is given.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If both are missing, `contact` is something else, or machine, mass or band are out of range.
+    """
+    if contact is not None and not isinstance(contact, HertzContact):
+        raise TypeError(f"contact = {contact!r}: must be a HertzContact")
+    if stiffness is None and contact is None:
+        raise ValueError("contact_stiffness: must be given, or contact in its place")
+    if stiffness is not None:
+        return stiffness
+    # restitution and stiffness have no effect on the gap of the flight rule
+    known = isinstance(machine, Machine)
+    typical = machine.scales.to_si(TYPICAL, "stiffness") if known else TYPICAL
+    asked = {"machine": machine, "mass": mass, "band": band}
+    task = Task(**asked, restitution=1.0, contact_stiffness=typical)
+    middle = sum(task.band) / 2
+    reduced = machine.mass * task.mass / (machine.mass + task.mass)
+    return contact.impact(2 * task.rule_gap(middle) * middle, reduced).stiffness
