@@ -13,17 +13,16 @@ import math
 import heyoka
 import numpy as np
 
+from impact_damper.kernel.equation import forcing_amplitude
 from impact_damper.system.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     CUBIC,
     DAMPING,
     DASHPOT,
-    FORCE,
     FREQUENCY,
     INVERSE_MASS_RATIO,
     STIFFNESS,
-    UNBALANCE,
 )
 
 FASTEST = {"fast_math": True, "force_avx512": True}
@@ -79,7 +78,7 @@ class Motions:
             return heyoka.par[len(pars) - 1]
 
         frequency, damping = number(p[FREQUENCY]), number(p[DAMPING])
-        amplitude = p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2
+        amplitude = forcing_amplitude.py_func(p)
         forcing = c if linear_forcing else heyoka.cos(frequency * heyoka.time)
         if not linear_forcing and amplitude != 1:
             forcing = number(amplitude) * forcing

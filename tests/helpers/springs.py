@@ -10,6 +10,7 @@ SPRINGS = {
     "shaken": Oscillator(0.2, 0.8, cubic=0.3, force=0.4, unbalance=0.15),
     "unbalance": Oscillator(0.1, 1.0, cubic=0.02, force=0.0, unbalance=0.3),
     "soft and shaken": Oscillator(0.1, 1.0, cubic=-0.1, force=0.05, unbalance=0.05),
+    "on a shaker": Oscillator(0.1, 1.2, cubic=0.0, force=0.1, unbalance=0.05, shaker=0.4),
     "hard": Oscillator(0.3, 0.0, cubic=20.0, force=5.0),
 }
 
@@ -17,8 +18,8 @@ SPRINGS = {
 def in_other_units(oscillator, damper, frequency, length, time):
     """Oscillator, damper and frequency of the motion Z/length over T/time.
 
-    Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2) cos(W T) keeps its form. With powers of two
-    for both units every number keeps its digits.
+    Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2 + V/W^2) cos(W T) keeps its form. With
+    powers of two for both units every number keeps its digits.
     """
     acceleration = length / time**2
     other = replace(
@@ -28,6 +29,7 @@ def in_other_units(oscillator, damper, frequency, length, time):
         cubic=oscillator.cubic * (length * time) ** 2,
         force=oscillator.force / acceleration,
         unbalance=oscillator.unbalance / length,
+        shaker=oscillator.shaker / acceleration * time**2,
     )
     if damper is not None:
         damper = replace(

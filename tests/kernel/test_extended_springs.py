@@ -18,6 +18,7 @@ DAMPER = Damper(0.3, 0.5, 0.8, 400.0)
 def test_flights_are_those_of_scipy(name):
     oscillator, frequency = SPRINGS[name], 1.3
     force = oscillator.force + oscillator.unbalance * frequency**2
+    force += oscillator.shaker / frequency**2
 
     def rates(time, y):
         spring = oscillator.linear_frequency**2 * y[0] + oscillator.cubic * y[0] ** 3

@@ -16,7 +16,7 @@ OUTCOMES += [
     for name in ("diverged", "non_colliding", "escaped", "at_rest", "drifting")
 ]
 OF_OSCILLATOR = {"damping": 0.215, "linear_frequency": 0.0, "cubic": 1.0, "force": 1.0}
-OF_OSCILLATOR |= {"unbalance": 0.0}
+OF_OSCILLATOR |= {"unbalance": 0.0, "shaker": 0.0}
 USUAL = {"mass_ratio": 0.12, "clearance": 2.0, "restitution": 1.0, "contact_stiffness": 2000.0}
 EXTREMES = [
     {"contact_stiffness": 1e-6},
@@ -48,6 +48,7 @@ EXTREMES = [
     {"force": 0.0, "damping": 1e-5, "linear_frequency": 1.0},
     {"force": 1e6},
     {"force": 0.0, "unbalance": 1e6},
+    {"cubic": 0.0, "linear_frequency": 1.0, "shaker": 1e6},
 ]
 
 

@@ -22,6 +22,7 @@ from impact_damper.system.packed import (
     FORCE,
     FREQUENCY,
     INVERSE_MASS_RATIO,
+    SHAKER,
     STIFFNESS,
     UNBALANCE,
     pack,
@@ -33,8 +34,14 @@ LANE = 5
 ORDERS = {"flight": FLIGHT_ORDER, "contact": CONTACT_ORDER}
 LENGTH = max(ORDERS.values()) + 1
 widths = pytest.mark.parametrize("lanes", [1, 16])
-# Coefficient of the cubic spring, force and unbalance.
-SPRINGS_AND_FORCES = [(1.0, 1.0, 0.0), (-0.7, 0.6, 0.4), (0.0, 0.0, 0.0), (2.5, 0.0, 1.5)]
+# Coefficient of the cubic spring, force, unbalance and shaker.
+SPRINGS_AND_FORCES = [
+    (1.0, 1.0, 0.0, 0.0),
+    (-0.7, 0.6, 0.4, 0.0),
+    (0.0, 0.0, 0.0, 0.0),
+    (2.5, 0.0, 1.5, 0.0),
+    (0.0, 0.2, 0.1, 0.9),
+]
 GIVEN = ("x0", "x1", "q0", "q1", "r1", "mobility", "omega", "cubic")
 SIGNS = [(0.3, -1.1, 0.02, 0.9), (-1.7, 0.4, -0.01, -2.0), (0.0, 0.0, 0.0, 1.0)]
 
@@ -45,7 +52,7 @@ def p(request):
 
 
 def amplitude(p):
-    return p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2
+    return p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2 + p[SHAKER] / p[FREQUENCY] ** 2
 
 
 def drive(p):

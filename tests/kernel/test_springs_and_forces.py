@@ -1,4 +1,4 @@
-"""Springs that harden, soften or are linear, any force and unbalance: against laws and SciPy."""
+"""Springs that harden, soften or are linear, any forcing: against laws and SciPy."""
 
 import math
 
@@ -20,6 +20,7 @@ OSCILLATORS = {
     "softening": Oscillator(0.3, 1.4, -0.15, 0.3, 0.05),
     "linear": Oscillator(0.1, 1.1, 0.0, 0.9),
     "unbalance": Oscillator(0.2, 0.0, 1.0, 0.0, 0.4),
+    "shaker": Oscillator(0.1, 1.1, 0.0, 0.1, 0.05, 0.6),
     "no_force": Oscillator(0.05, 0.9, 0.5, 0.0),
     "no_spring": Oscillator(0.1, 0.0, 0.0, 0.6),
 }
@@ -37,6 +38,7 @@ def scaled(oscillator, damper, frequency, length, rate):
         oscillator.cubic * (rate / length) ** 2,
         oscillator.force * length * rate**2,
         oscillator.unbalance * length,
+        oscillator.shaker * length * rate**4,
     )
     damper = Damper(
         damper.mass_ratio,
@@ -73,7 +75,7 @@ def rates(oscillator, damper, side):
 
     def right(t, y):
         x, v, z, w = y
-        amplitude = o.force + o.unbalance * FREQUENCY**2
+        amplitude = o.force + o.unbalance * FREQUENCY**2 + o.shaker / FREQUENCY**2
         free = amplitude * math.cos(FREQUENCY * t) - o.damping * v
         free -= o.linear_frequency**2 * x + o.cubic * x**3
         pushed = damper.contact_stiffness * (z - side * damper.clearance) + damper.dashpot * w

@@ -139,6 +139,7 @@ def test_forcing_near_a_known_one(time, shift):
     module, frequency = instance(1), 2.0
     a = np.zeros(module.SIZE)
     a[module.FREQUENCY], a[module.FORCE], a[module.UNBALANCE] = frequency, 0.3, 0.8
+    a[module.SHAKER] = 1.2
     if math.isfinite(shift):
         a[module.TIME], a[module.T] = time - 0.25, 0.25 + shift
         pointed(module.look_ahead)(a)
@@ -149,7 +150,10 @@ def test_forcing_near_a_known_one(time, shift):
     found = [a[module.COSINE], a[module.SINE]]
     assert_allclose(
         found,
-        np.multiply(0.3 + 0.8 * frequency**2, [np.cos(frequency * time), np.sin(frequency * time)]),
+        np.multiply(
+            0.3 + 0.8 * frequency**2 + 1.2 / frequency**2,
+            [np.cos(frequency * time), np.sin(frequency * time)],
+        ),
         rtol=0,
         atol=4e-15 * (1 + time),
     )
@@ -159,11 +163,12 @@ def test_forcing_of_lanes():
     """Each lane at its own time, frequency and amplitude."""
     module, random = instance(16), np.random.default_rng(1995)
     a = np.zeros((module.SIZE // 16, 16))
-    time, frequency = random.uniform(0, 100, 16), random.uniform(0, 3, 16)
-    force, unbalance = random.uniform(0, 2, (2, 16))
+    time, frequency = random.uniform(0, 100, 16), random.uniform(0.3, 3, 16)
+    force, unbalance, shaker = random.uniform(0, 2, (3, 16))
     a[module.TIME // 16], a[module.FREQUENCY // 16] = time, frequency
     a[module.FORCE // 16], a[module.UNBALANCE // 16] = force, unbalance
-    amplitude = force + unbalance * frequency**2
+    a[module.SHAKER // 16] = shaker
+    amplitude = force + unbalance * frequency**2 + shaker / frequency**2
     pointed(module.forcing)(a.ravel())
     assert_allclose(
         a[module.COSINE // 16], amplitude * np.cos(frequency * time), rtol=0, atol=1e-12

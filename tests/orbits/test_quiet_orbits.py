@@ -160,11 +160,14 @@ def test_straight_flight_end():
     work = np.pi / 2 * 1.75 / 0.25
     greatest = np.max(work * np.sin(phase) - np.cos(phase))
     assert straight_flight_end(PAPER, 2.0, 0.75) ** 2 * 2.0 == pytest.approx(greatest)
-    # W^2 d0 = (F + U W^2) times the greatest, as long as there is a solution
+    # W^2 d0 = (F + U W^2 + V/W^2) times the greatest, as long as there is a solution
     shaken = Oscillator(0.2, force=0.3, unbalance=0.1)
     end = straight_flight_end(shaken, 2.0, 0.75)
     assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
     assert straight_flight_end(replace(shaken, unbalance=2.0), 2.0, 0.75) == np.inf
+    shaken = replace(shaken, cubic=0.0, shaker=0.4)
+    end = straight_flight_end(shaken, 2.0, 0.75)
+    assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
 
 
 def test_a_row_without_a_known_orbit_is_said_to_have_none():

@@ -40,11 +40,15 @@ def named_orbit(name):
         return converged(
             known.parameters, found.state, found.phase, name in ("design", "inelastic")
         )
+    if name == "on a shaker":
+        return linear_orbit(replace(LINEAR, unbalance=0.1, shaker=0.2), STIFF, 1.0, 0.75)
     return linear_orbit(replace(LINEAR, cubic=SPRINGS[name]), STIFF, 1.0, 0.75)
 
 
 @pytest.fixture(
-    scope="module", params=["design", "inelastic", "large", "resonance", *SPRINGS], ids=str
+    scope="module",
+    params=["design", "inelastic", "large", "resonance", *SPRINGS, "on a shaker"],
+    ids=str,
 )
 def orbit(request):
     return named_orbit(request.param)

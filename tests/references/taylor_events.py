@@ -36,9 +36,10 @@ class Reference:
     def __init__(self, longest=math.inf):
         x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
         names = [heyoka.par[i] for i in range(packed.COUNT + 1)]
-        frequency, damping, stiffness, cubic, force, unbalance, *contact, side = names
+        frequency, damping, stiffness, cubic, force, unbalance, shaker, *contact, side = names
         clearance, spring, inverse_mass, dashpot = contact
-        drive = (force + unbalance * frequency**2) * heyoka.cos(frequency * heyoka.time)
+        amplitude = force + unbalance * frequency**2 + shaker / frequency**2
+        drive = amplitude * heyoka.cos(frequency * heyoka.time)
         free = drive - damping * v - stiffness * x - cubic * x * x * x
         force = spring * (z - side * clearance) + dashpot * w
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative

@@ -25,10 +25,11 @@ def _fields():
 
 def _forces(pars, state, cosine):
     """Acceleration in flight, force of the contact, and mass of the primary over the loose mass."""
-    frequency, damping, stiffness, cubic, amplitude, unbalance, *contact, side = pars
+    frequency, damping, stiffness, cubic, amplitude, unbalance, shaker, *contact, side = pars
     clearance, spring, inverse_mass, dashpot = contact
     x, v, z, w = state
-    free = (amplitude + unbalance * frequency**2) * cosine - damping * v
+    amplitude = amplitude + unbalance * frequency**2 + shaker / frequency**2
+    free = amplitude * cosine - damping * v
     free = free - stiffness * x - cubic * x * x * x
     return free, spring * (z - side * clearance) + dashpot * w, inverse_mass
 

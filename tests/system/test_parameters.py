@@ -37,6 +37,11 @@ def test_values_out_of_range(make, key, value, allowed):
     assert allowed in str(raised.value)
 
 
+def test_only_a_linear_spring_is_on_a_shaker():
+    with pytest.raises(ValueError, match=r"^cubic = 1: must be 0 with shaker = 0\.5 \(on a moving"):
+        Oscillator(0.2, 1.0, shaker=0.5)
+
+
 @pytest.mark.parametrize("value", ["0.1", None, True, 1j, [0.1]])
 def test_values_that_are_no_numbers(value):
     with pytest.raises(TypeError, match="damping = .*: must be a number"):

@@ -1,4 +1,4 @@
-"""Springs of any sign, any force and unbalance: linear limit, folds, peaks, and SciPy."""
+"""Springs of any sign, any forcing: linear limit, folds, peaks, and SciPy."""
 
 import numpy as np
 import pytest
@@ -43,12 +43,14 @@ def balance(a, phase, oscillator, frequency):
     """Residual of the first harmonic of equation (3) without contact."""
     spring = oscillator.linear_frequency**2 - frequency**2 + 0.75 * oscillator.cubic * a**2
     force = oscillator.force + oscillator.unbalance * frequency**2
+    force += oscillator.shaker / frequency**2
     return a * (spring + 1j * oscillator.damping * frequency) - force * np.exp(-1j * phase)
 
 
 def defect(a, oscillator, frequency):
     """Square of the modulus of the spring, inertia and damping, less that of the force."""
     force = oscillator.force + oscillator.unbalance * frequency**2
+    force += oscillator.shaker / frequency**2
     spring = oscillator.linear_frequency**2 - frequency**2 + 0.75 * oscillator.cubic * a**2
     return (a * spring) ** 2 + (a * oscillator.damping * frequency) ** 2 - force**2
 
@@ -78,6 +80,19 @@ def test_peak_of_a_rotating_unbalance_in_closed_form():
     assert_allclose(peak.frequency, 1.2 / np.sqrt(1 - 0.3**2 / (2 * 1.2**2)), rtol=1e-12)
     ratio = 0.3 / (2 * 1.2)
     assert_allclose(peak.amplitude, 0.5 / (2 * ratio * np.sqrt(1 - ratio**2)), rtol=1e-12)
+
+
+def test_peak_on_a_shaker_in_closed_form():
+    """x = V/(W^2 |wl^2 - W^2 + i h W|): the slope of 1/x^2 is a quadratic in W^2."""
+    least = 2 * 1.2**2 - 0.3**2
+    square = (3 * least + np.sqrt(9 * least**2 - 32 * 1.2**4)) / 8
+    peak = maximum_response(Oscillator(0.3, 1.2, cubic=0.0, force=0.0, shaker=0.5))
+    assert_allclose(peak.frequency, np.sqrt(square), rtol=1e-12)
+    assert_allclose(
+        peak.amplitude, 0.5 / square / abs(1.2**2 - square + 0.3j * np.sqrt(square)), rtol=1e-12
+    )
+    with pytest.raises(ValueError, match="shaker = 0.5 it falls"):
+        maximum_response(Oscillator(0.8, 1.2, cubic=0.0, force=0.0, shaker=0.5))
 
 
 def test_a_weak_cubic_spring_tends_to_the_linear_one():
@@ -156,7 +171,8 @@ def test_maximum_response_against_a_search(oscillator):
     )
     assert_allclose(-near.fun, maximum.amplitude, rtol=1e-6)
     assert -near.fun <= maximum.amplitude * (1 + 1e-12)
-    grid = np.linspace(0.01, 6, 1000)
+    # towards W = 0 the response on a shaker grows without end
+    grid = np.linspace(0.6 * maximum.frequency if oscillator.shaker else 0.01, 6, 1000)
     assert all(main_solutions(oscillator, w).amplitude[-1] <= maximum.amplitude for w in grid)
 
 
@@ -267,6 +283,7 @@ def test_many_harmonics_are_the_motion_that_scipy_integrates(name, frequency):
     solution = refine(balances, single_term(oscillator, None, frequency))[-1]
     assert solution.status == "converged"
     force = oscillator.force + oscillator.unbalance * frequency**2
+    force += oscillator.shaker / frequency**2
     begin, period = 0.5 * np.pi / frequency, 2 * np.pi / frequency
 
     def rates(time, y):

@@ -1,10 +1,10 @@
 """The equation of motion of the primary mass without the damper, for kernels.
 
-    Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
+    Z1'' = (F + U W^2 + V/W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with three more parameters: k3, F and U (`parameters.Oscillator`).
-Kernels that evaluate the equation call these functions. `recurrence` has its Taylor series, where
-the cube is a product of series.
+This is equation (3) of the paper with four more parameters of `parameters.Oscillator`: k3, F, U and
+V. Kernels that evaluate the equation call these functions. `recurrence` has its Taylor series,
+where the cube is a product of series.
 """
 
 import math
@@ -19,6 +19,7 @@ from impact_damper.system.packed import (
     FORCE,
     FREQUENCY,
     INVERSE_MASS_RATIO,
+    SHAKER,
     STIFFNESS,
     UNBALANCE,
 )
@@ -26,7 +27,7 @@ from impact_damper.system.packed import (
 
 @kernel_only
 def forcing_amplitude(p, lane=0, lanes=1):
-    """Return the amplitude F + U W^2 of the forcing, over the primary mass.
+    """Return the amplitude F + U W^2 + V/W^2 of the forcing, over the primary mass.
 
     Parameters
     ----------
@@ -37,7 +38,8 @@ def forcing_amplitude(p, lane=0, lanes=1):
         Which trajectory, and how many stand side by side.
     """
     frequency = p[FREQUENCY * lanes + lane]
-    return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
+    without = p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
+    return without + p[SHAKER * lanes + lane] / (frequency * frequency)
 
 
 @partial(kernel_only, fastmath=False)

@@ -46,7 +46,7 @@ class Machine:
         Amplitude of a harmonic motion of the base, m or m/s^2, for a linear spring. Displacements
         are then those in space, not relative to the base: the loose mass of a damper feels no
         force from the base. The force on the machine by spring and dashpot has the amplitude
-        A sqrt(k^2 + c^2 w^2) for the displacement A of the base.
+        A sqrt(k^2 + c^2 w^2) for the displacement A of the base, a/w^2 with the acceleration a.
     unbalance : float
         Mass times eccentricity of a rotating unbalance, kg m; its force is unbalance w^2.
 
@@ -87,9 +87,12 @@ class Machine:
                 f"excitation = {names}: must be one of {', '.join(EXCITATIONS)}, and one alone"
             )
         if given[0].startswith("base") and self.cubic_stiffness:
+            instead = "force" if given == ["base_acceleration"] else "unbalance"
             raise ValueError(
                 f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')}: must be 0 with "
-                f"{given[0]} (the spring's force on the machine would not be harmonic)"
+                f"{given[0]} (relative to the base, the loose mass would feel the base's "
+                "acceleration too; in space, the spring's force would not be harmonic). Without a "
+                f"damper, mass times {given[0]} as {instead} gives the motion relative to the base"
             )
 
     def _check_spring(self):
@@ -180,8 +183,9 @@ class Machine:
         ----------
         frequency : float, optional
             Forcing frequency, Hz. With a moving base the force of the oscillator holds for this
-            frequency alone. Without a frequency it is k A + (c^2 A/(2 k)) w^2, which differs from
-            A sqrt(k^2 + c^2 w^2) by a share of (2 damping_ratio w/w0)^4/8.
+            frequency alone. Without a frequency it is A (k + c^2 w^2/(2 k)), with A = a/w^2 for
+            `base_acceleration`, which differs from A sqrt(k^2 + c^2 w^2) by a share of
+            (2 damping_ratio w/w0)^4/8.
 
         Raises
         ------
@@ -189,37 +193,38 @@ class Machine:
             If the base moves, no frequency is given, and this approximation does not hold.
         """
         scales = self.scales
-        force, unbalance = self.forcing(frequency)
+        force, unbalance, shaker = self.forcing(frequency)
         return Oscillator(
             damping=scales.from_si(self.viscous_damping, "damping"),
             linear_frequency=math.sqrt(scales.from_si(self.linear_stiffness, "stiffness")),
             cubic=scales.from_si(self.cubic_stiffness, "cubic_stiffness"),
             force=scales.from_si(force, "force"),
             unbalance=scales.from_si(unbalance, "unbalance"),
+            shaker=scales.from_si(shaker, "shaker"),
         )
 
-    def forcing(self, frequency=None) -> tuple[float, float]:
-        """Return amplitude of the force, N, and unbalance, kg m; argument as of `oscillator`."""
+    def forcing(self, frequency=None) -> tuple[float, float, float]:
+        """Return the parts F, U and V of the force's amplitude F + U w^2 + V/w^2.
+
+        In N, kg m and N/s^2; argument as of `oscillator`.
+        """
         if self.force is not None:
-            return self.force, 0.0
+            return self.force, 0.0, 0.0
         if self.unbalance is not None:
-            return 0.0, self.unbalance
+            return 0.0, self.unbalance, 0.0
         stiffness, damping = self.linear_stiffness, self.viscous_damping
         if frequency is not None:
             angular = 2 * math.pi * frequency
             amplitude = self.base_displacement or self.base_acceleration / angular**2
-            return amplitude * math.hypot(stiffness, damping * angular), 0.0
-        if self.base_displacement is None:
-            raise ValueError(
-                f"base_acceleration = {with_unit(self.base_acceleration, 'm/s^2')}: must be given "
-                "as base_displacement for a range of frequencies (the force that spring and dashpot"
-                " pass on falls with the frequency's square)"
-            )
+            return amplitude * math.hypot(stiffness, damping * angular), 0.0, 0.0
         ratio = damping / (2 * math.sqrt(stiffness * self.mass))
-        why = "for a range of frequencies with base_displacement: force of the dashpot"
+        given = "base_acceleration" if self.base_displacement is None else "base_displacement"
+        why = f"for a range of frequencies with {given}: force of the dashpot"
         check_si("damping_ratio", ratio, "number", most=LIGHT, why=why)
-        amplitude = self.base_displacement
-        return amplitude * stiffness, amplitude * damping**2 / (2 * stiffness)
+        softness = damping**2 / (2 * stiffness)
+        if self.base_displacement is None:
+            return self.base_acceleration * softness, 0.0, self.base_acceleration * stiffness
+        return self.base_displacement * stiffness, self.base_displacement * softness, 0.0
 
     def check_frequency(self, name, value) -> float:
         """Return a forcing frequency in Hz, or raise an error that names what is allowed."""

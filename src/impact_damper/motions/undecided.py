@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel
-from impact_damper.kernel.equation import has_escaped
+from impact_damper.kernel.equation import forcing_amplitude, has_escaped
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.motions.records import (
     CHAOTIC,
@@ -27,7 +27,7 @@ from impact_damper.motions.records import (
 from impact_damper.motions.rotation_numbers import find_rotation
 from impact_damper.motions.settling import CONFIDENCE, LONGEST_PERIOD, NEAR
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
-from impact_damper.system.packed import CLEARANCE, FORCE, FREQUENCY, UNBALANCE
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Most forcing periods of the first block.
 FIRST = 1500
@@ -117,7 +117,7 @@ def name_undecided(parameters, records, limit, further, stop):
     curves = []
     for i in np.flatnonzero(records["outcome"] == UNRESOLVED):
         p, record = parameters[i], records[i : i + 1]
-        if p[FORCE] + p[UNBALANCE] > 0:
+        if forcing_amplitude.py_func(p) > 0:
             known = [curve for curve in curves if np.array_equal(curve.parameters, p)]
             states = _name_one(p, record, limit, further, known, stop)
             if record["outcome"] == QUASI_PERIODIC:

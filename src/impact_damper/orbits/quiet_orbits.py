@@ -58,10 +58,9 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
     In this limit, of rigid walls and high frequency, the equations of `straight_flight_ratio` give
     W^2 d0/f = k sin(s) - cos(s) for the phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e) and
-    the forcing amplitude f = F + U W^2 of force F and unbalance U, whatever the mass ratio. There
-    is no solution beyond
-    W^2 d0/f = sqrt(1 + k^2), where the forcing no longer supplies the energy that impacts
-    dissipate.
+    the forcing amplitude f = F + U W^2 + V/W^2, whatever the mass ratio. There is no solution
+    beyond W^2 d0/f = sqrt(1 + k^2), where the forcing no longer supplies the energy that impacts
+    dissipate: a quadratic in W^2.
 
     Parameters
     ----------
@@ -78,7 +77,10 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
         return np.inf
     most = np.hypot(1, np.pi / 2 * (1 + restitution) / (1 - restitution))
     left = clearance - most * oscillator.unbalance
-    return float(np.sqrt(oscillator.force * most / left)) if left > 0 else np.inf
+    if left <= 0:
+        return np.inf
+    half = oscillator.force * most / (2 * left)
+    return float(np.sqrt(half + np.hypot(half, np.sqrt(oscillator.shaker * most / left))))
 
 
 def is_symmetric_pair(records):

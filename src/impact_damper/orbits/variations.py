@@ -22,6 +22,7 @@ from functools import cached_property
 
 import numpy as np
 
+from impact_damper.kernel.equation import forcing_amplitude
 from impact_damper.orbits.paths import INTEGRALS, POINTS, Path
 from impact_damper.system.packed import (
     CLEARANCE,
@@ -33,6 +34,7 @@ from impact_damper.system.packed import (
     FORCE,
     FREQUENCY,
     INVERSE_MASS_RATIO,
+    SHAKER,
     STIFFNESS,
     UNBALANCE,
 )
@@ -83,11 +85,12 @@ class Variations:
         p, (x, v, _, w) = self.path.p, self.path.states
         walls, depth = self.path.contacts
         frequency, cosine = p[FREQUENCY], np.cos(p[FREQUENCY] * self.path.times)
-        amplitude = p[FORCE] + p[UNBALANCE] * frequency**2
         free = np.zeros((COUNT, len(x)))
         free[DAMPING], free[STIFFNESS], free[CUBIC] = -v, -x, -(x**3)
         free[FORCE], free[UNBALANCE] = cosine, frequency**2 * cosine
-        free[FREQUENCY] = 2 * p[UNBALANCE] * frequency * cosine
+        free[SHAKER] = cosine / frequency**2
+        growth = p[UNBALANCE] * frequency - p[SHAKER] / frequency**3
+        free[FREQUENCY] = 2 * growth * cosine
         wall = np.zeros((COUNT, len(x)))
         wall[CLEARANCE] = -p[CONTACT_STIFFNESS] * walls
         wall[CONTACT_STIFFNESS], wall[DASHPOT] = depth, np.abs(walls) * w
@@ -95,7 +98,11 @@ class Variations:
         rates = both[:, None] * free - pushed[:, None] * wall
         force = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * wall[DASHPOT]
         rates[:, INVERSE_MASS_RATIO] -= loose * force
-        drive = amplitude * cosine - p[DAMPING] * v - (p[STIFFNESS] + p[CUBIC] * x * x) * x
+        drive = (
+            forcing_amplitude.py_func(p) * cosine
+            - p[DAMPING] * v
+            - (p[STIFFNESS] + p[CUBIC] * x * x) * x
+        )
         moving = self._inverse[:, 0] * v + self._inverse[:, 2] * w
         rates[:, FREQUENCY] -= (moving + both * drive - pushed * force) / frequency
         return rates

@@ -7,6 +7,7 @@ import numpy as np
 from impact_damper.data.datasets import parameters_of
 from impact_damper.data.design_ranges import quiet_gaps
 from impact_damper.figures.machines import drawing
+from impact_damper.machine.machine import EXCITATIONS
 from impact_damper.pages.blocks import Numbers, Picture, Section, Words, percent, shown
 from impact_damper.tables.machines import named
 
@@ -99,7 +100,7 @@ def _machine(asked):
     machine = asked["machine"]
     deviating = {"damping_ratio": "damping", "linear_stiffness": "stiffness"}
     deviating |= {"damping": "damping", "cubic_stiffness": "stiffness"}
-    deviating |= {name: "force" for name in ("force", "unbalance", "base_displacement")}
+    deviating |= {name: "force" for name in EXCITATIONS}
     rows = [
         (
             f"machine: {words}",

@@ -168,7 +168,8 @@ def forced(machine, damper, frequencies):
     for end in (frequencies.max(), frequencies.min()):
         p = pack(machine.oscillator(end), scaled, scales.from_si(end, "frequency"))
     rows = np.tile(p, (len(frequencies), 1))
-    forces, unbalances = np.array([machine.forcing(each) for each in frequencies]).T
+    # the force at each frequency, not the form for a range of them: a base has no part V
+    forces, unbalances, _ = np.array([machine.forcing(each) for each in frequencies]).T
     rows[:, FREQUENCY] = scales.from_si(frequencies, "frequency")
     rows[:, FORCE] = scales.from_si(forces, "force")
     rows[:, UNBALANCE] = scales.from_si(unbalances, "unbalance")

@@ -17,6 +17,7 @@ LINEAR_FREQUENCY_RANGE = {"least": 0.0, "most": 100.0}
 CUBIC_RANGE = {"least": -1e6, "most": 1e6}
 FORCE_RANGE = {"least": 0.0, "most": 1e6}
 UNBALANCE_RANGE = {"least": 0.0, "most": 1e6}
+SHAKER_RANGE = {"least": 0.0, "most": 1e6}
 MASS_RATIO_RANGE = {"least": 1e-6, "most": 10.0}
 CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
 RESTITUTION_RANGE = {

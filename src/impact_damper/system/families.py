@@ -7,7 +7,7 @@ import numpy as np
 from impact_damper.system.bounds import shown
 from impact_damper.system.checks import check_span
 from impact_damper.system.names import nearest
-from impact_damper.system.packed import DASHPOT, FORCE, UNBALANCE, pack
+from impact_damper.system.packed import DASHPOT, FORCE, SHAKER, UNBALANCE, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 # Parameters that can vary along a branch, and the dataclass of each; the frequency is in none. The
@@ -26,7 +26,7 @@ PARAMETERS = {
 }
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
 # Index, in the packed array, of each part of the forcing amplitude.
-FORCING = {"force": FORCE, "unbalance": UNBALANCE}
+FORCING = {"force": FORCE, "unbalance": UNBALANCE, "shaker": SHAKER}
 
 
 def family_of(oscillator, damper, frequency, parameter, span):

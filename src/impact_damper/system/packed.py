@@ -2,7 +2,7 @@
 
 Kernels (compiled functions) take the parameters as an array `p` of COUNT numbers, made by `pack`,
 and read each by the name of its index, as in `p[FREQUENCY]`. The numbers are W, h, omega_l^2, k3,
-F, U, d0, r1, 1/rm (see `parameters`) and the dashpot's coefficient 2 zeta_c sqrt(r1 rm), in the
+F, U, V, d0, r1, 1/rm (see `parameters`) and the dashpot's coefficient 2 zeta_c sqrt(r1 rm), in the
 order of NAMES. `design_slopes` is the derivative of `pack`.
 """
 
@@ -21,6 +21,7 @@ NAMES = (
     "CUBIC",
     "FORCE",
     "UNBALANCE",
+    "SHAKER",
     "CLEARANCE",
     "CONTACT_STIFFNESS",
     "INVERSE_MASS_RATIO",
@@ -34,6 +35,7 @@ COUNT = len(NAMES)
     CUBIC,
     FORCE,
     UNBALANCE,
+    SHAKER,
     CLEARANCE,
     CONTACT_STIFFNESS,
     INVERSE_MASS_RATIO,
@@ -77,6 +79,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     p[CUBIC] = oscillator.cubic
     p[FORCE] = oscillator.force
     p[UNBALANCE] = oscillator.unbalance
+    p[SHAKER] = oscillator.shaker
     if damper is None:
         p[CLEARANCE] = np.inf
         return p

@@ -18,6 +18,7 @@ from impact_damper.system.bounds import (
     LINEAR_FREQUENCY_RANGE,
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
+    SHAKER_RANGE,
     STIFFNESS_RANGE,
     UNBALANCE_RANGE,
     check_parameters,
@@ -55,17 +56,21 @@ class Oscillator:
     cubic : float
         Coefficient k3 of Z1^3 in the spring's force, dimensionless; 1 in the paper's scales.
     force : float
-        Part F of the forcing amplitude F + U W^2, dimensionless; 1 in the paper's scales. For a
-        free decay both F and U are 0.
+        Part F of the forcing amplitude F + U W^2 + V/W^2, dimensionless; 1 in the paper's scales.
+        For a free decay F, U and V are 0.
     unbalance : float
         U in the part U W^2 of the forcing amplitude, which stands for a rotating unbalance. Without
         a damper it may also stand for a base that moves with the amplitude U; Z1 is then relative
         to the base. (With a damper the base would move the loose mass too: use `machine.Machine`.)
+    shaker : float
+        V in the part V/W^2 of the forcing amplitude, which stands for a base with the amplitude a
+        of acceleration at each frequency, as on a shaker: V = omega_l^2 a, and Z1 is the
+        displacement in space. For a linear spring alone.
 
     Raises
     ------
     TypeError, ValueError
-        If a value is not a number or out of range.
+        If a value is not a number or out of range, or if `shaker` is given with a cubic spring.
 
     Examples
     --------
@@ -83,9 +88,17 @@ class Oscillator:
     unbalance: float = parameter(
         UNBALANCE_RANGE, "U", "adds U W^2 to the amplitude of the force", default=0.0
     )
+    shaker: float = parameter(
+        SHAKER_RANGE, "V", "adds V/W^2 to the amplitude of the force", default=0.0
+    )
 
     def __post_init__(self):
         check_parameters(self)
+        if self.shaker and self.cubic:
+            raise ValueError(
+                f"cubic = {self.cubic:g}: must be 0 with shaker = {self.shaker:g} (on a moving "
+                "base the force of a cubic spring is not harmonic)"
+            )
 
     @property
     def hardening(self) -> float:
@@ -93,8 +106,8 @@ class Oscillator:
         return 0.75 * self.cubic
 
     def forcing_amplitude(self, frequency):
-        """Return the amplitude F + U W^2 of the external force at forcing frequencies W."""
-        return self.force + self.unbalance * frequency**2
+        """Return the amplitude F + U W^2 + V/W^2 of the force at forcing frequencies W."""
+        return self.force + self.unbalance * frequency**2 + self.shaker / frequency**2
 
 
 @names_arguments

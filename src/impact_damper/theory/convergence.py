@@ -30,7 +30,8 @@ exact.
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from impact_damper.system.packed import CUBIC, DAMPING, FORCE, FREQUENCY, STIFFNESS, UNBALANCE
+from impact_damper.kernel.equation import forcing_amplitude
+from impact_damper.system.packed import CUBIC, DAMPING, FREQUENCY, STIFFNESS
 
 # MEASURES: errors of max |Z1|, of the retained harmonics of Z1, of the omitted ones (both root mean
 # square), and of a Floquet multiplier. ELASTIC and INELASTIC: their powers of 1/N, without and with
@@ -116,7 +117,7 @@ def singularity_distance(p, state) -> float:
     frequency, cubic = p[FREQUENCY], p[CUBIC]
     if cubic == 0:
         return np.inf
-    force = p[FORCE] + p[UNBALANCE] * frequency**2
+    force = forcing_amplitude.py_func(p)
     length = (force / abs(cubic)) ** (1 / 3)
     duration = 1 / (np.sqrt(abs(cubic)) * length)
 

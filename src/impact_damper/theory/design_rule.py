@@ -7,7 +7,7 @@ def peak_frequency(oscillator) -> float:
     """Peak frequency Wp of rule (19), at which Z1 without the damper lags by a quarter period.
 
     Defined by a = f/(h W) and W^2 = wl^2 + (3/4) k3 a^2 (section 2.1) with the forcing amplitude
-    f = F + U W^2, so Wp^2 = s solves
+    f = F + U W^2 + V/W^2, so without V, which only a linear spring has, Wp^2 = s solves
 
         (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0,   g = (3/4) k3.
 

@@ -1,7 +1,8 @@
 """Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
 
 a is the amplitude and t1 the phase of the primary mass. Equation (3) without contact gives, with
-g = (3/4) k3, the linear frequency wl and the forcing amplitude f = F + U W^2,
+g = (3/4) k3, the linear frequency wl and the forcing amplitude f = F + U W^2 + V/W^2 (V only with
+k3 = 0),
 
     (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2,
 
@@ -141,7 +142,8 @@ def maximum_response(oscillator) -> Point:
 
         (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0,   m = wl^2 + g a^2.
 
-    They coincide at the maximum, where its discriminant, another quadratic in a^2, vanishes.
+    They coincide at the maximum, where its discriminant, another quadratic in a^2, vanishes. With
+    V the response also grows without end towards W = 0, and its local maximum is returned.
 
     Raises
     ------
@@ -149,6 +151,8 @@ def maximum_response(oscillator) -> Point:
         If the amplitude decreases from W = 0 on (large damping), increases without end (a large
         unbalance and a hardening spring), or reaches the barrier of a softening spring.
     """
+    if oscillator.shaker:
+        return _peak_on_a_shaker(oscillator)
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening
     static = force + unbalance * stiffness
@@ -173,6 +177,28 @@ def maximum_response(oscillator) -> Point:
         f"unbalance = {unbalance:g} and cubic = {oscillator.cubic:g}: it falls from W = 0 on, "
         "rises without end, or goes over the barrier of a softening spring"
     )
+
+
+def _peak_on_a_shaker(oscillator):
+    """Return the local maximum of `maximum_response` with V: there the slope of f^2/D vanishes.
+
+    With s = W^2, f = F + U s + V/s and D = s^2 + b s + wl^4, where b = h^2 - 2 wl^2, the slope has
+    the sign of 2 f' D - f D'.
+    """
+    stiffness = oscillator.linear_frequency**2
+    force, unbalance, shaker = oscillator.force, oscillator.unbalance, oscillator.shaker
+    b, c = oscillator.damping**2 - 2 * stiffness, stiffness**2
+    middle = 2 * unbalance * c - force * b - 4 * shaker
+    slope = Polynomial([-2 * shaker * c, -3 * shaker * b, middle, unbalance * b - 2 * force])
+    squares = polynomial_roots(slope.coef)
+    squares = squares[(squares > 0) & (slope.deriv()(squares) < 0)]
+    if len(squares) == 0:
+        raise ValueError(
+            f"damping = {oscillator.damping:g}: the response has no peak, with shaker = "
+            f"{shaker:g} it falls from W = 0 on"
+        )
+    frequency = float(np.sqrt(squares[0]))
+    return Point(frequency, float(free_solutions(oscillator, frequency).amplitude[0]))
 
 
 def free_folds(oscillator) -> list[Point]:

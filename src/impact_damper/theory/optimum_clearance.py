@@ -1,7 +1,7 @@
 """The optimum clearance by harmonic balance, by straight flight and by rules for designers.
 
 The clearance d0 is stated as the ratio rm W^2 d0, short for rm W^2 d0/f, with the mass ratio rm,
-the forcing frequency W and the forcing amplitude f = F + U W^2. Rule (18) has the ratio 1.
+the forcing frequency W and the forcing amplitude f = F + U W^2 + V/W^2. Rule (18) has the ratio 1.
 """
 
 from dataclasses import replace

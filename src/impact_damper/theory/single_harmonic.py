@@ -5,8 +5,8 @@ displacement relative to the loose mass. Equation (6d) requires sin(t1 - t2) = 0
 and let the amplitude a have either sign. With a < 0, Z1 and Z2 are in antiphase. b > 0 loses no
 solution: changing the signs of both a and b only shifts t1 by half a period.
 
-The equations hold for elastic contact (restitution 1). Below, g = (3/4) k3 and f = F + U W^2 is
-the forcing amplitude, 1 in the paper. Every quantity is dimensionless, angles are in radian.
+The equations hold for elastic contact (restitution 1). Below, g = (3/4) k3, and f is the forcing
+amplitude F + U W^2 + V/W^2, 1 in the paper. Every quantity is dimensionless, angles are in radian.
 """
 
 from typing import NamedTuple

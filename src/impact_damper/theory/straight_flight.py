@@ -4,7 +4,7 @@ At small displacement the cubic spring is negligible, and the primary mass is a 
 under the forcing and two impulses per period. The walls may be rigid or stiff, the impacts elastic
 or inelastic. The optimum value of rm W^2 d0 follows for two criteria: the smallest max |Z1|, and
 the smallest first harmonic of Z1. Lengths are in units of f/W^2 with the forcing amplitude
-f = F + U W^2, so that rm W^2 d0 stands for rm W^2 d0/f everywhere in this module.
+f, so that rm W^2 d0 stands for rm W^2 d0/f everywhere in this module.
 """
 
 from functools import cache
@@ -189,7 +189,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
         If the frequency is not above the linear frequency omega_l, or there is no forcing.
     """
     check_damper(damper)
-    if oscillator.force == oscillator.unbalance == 0:
+    if oscillator.forcing_amplitude(1.0) == 0:
         raise ValueError("force = 0, unbalance = 0: a quiet motion needs a forcing")
     frequency = check_number(
         "frequency",

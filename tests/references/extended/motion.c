@@ -19,8 +19,8 @@ enum { ORDER = 32, TERMS = ORDER + 1, MOST_ROOTS = ORDER };
 enum { DONE = 0, LOG_FULL = 1, NO_MEMORY = 2, TOO_MANY_STEPS = 3 };
 
 typedef struct {
-    real frequency, damping, stiffness, cubic, force, unbalance, clearance, spring, inverse_mass,
-        dashpot;
+    real frequency, damping, stiffness, cubic, force, unbalance, shaker, clearance, spring,
+        inverse_mass, dashpot;
 } Parameters;
 
 /* Numbers in an array of packed parameters. */
@@ -167,7 +167,8 @@ static int roots(const real *series, real length, int sign, real *found, int mos
 static void expand(const Run *run, Series *s)
 {
     const Parameters *p = run->p;
-    real w = p->frequency, phase = w * run->t, factor = p->force + p->unbalance * w * w;
+    real w = p->frequency, phase = w * run->t;
+    real factor = p->force + p->unbalance * w * w + p->shaker / (w * w);
     real drive[4] = {cosl(phase), -sinl(phase), -cosl(phase), sinl(phase)};
     int touching = run->side != 0, columns = touching ? 4 : 2;
     memset(s, 0, sizeof *s);
@@ -373,7 +374,7 @@ int motion(const double *packed, const real *first, real start, const real *time
            long *counts)
 {
     Parameters p = {packed[0], packed[1], packed[2], packed[3], packed[4],
-                    packed[5], packed[6], packed[7], packed[8], packed[9]};
+                    packed[5], packed[6], packed[7], packed[8], packed[9], packed[10]};
     Run run = {.p = &p, .t = start, .since = IDENTITY, .margin = INFINITY,
                .turnings = turnings, .turning_room = turning_room};
     Series s;

@@ -48,6 +48,7 @@ KINDS = {
     "softening spring": {"linear_frequency": (2.0, 4.0), "cubic": (-0.05, 0.0)},
     "other forces": {"cubic": (0.1, 10.0), "force": (0.1, 10.0), "unbalance": (0.1, 3.0)},
     "no force": {"linear_frequency": (0.0, 2.0), "force": (0.0, 0.0)},
+    "on a shaker": {"linear_frequency": (0.3, 2.0), "cubic": (0.0, 0.0), "shaker": (0.1, 3.0)},
 }
 
 

@@ -1,7 +1,8 @@
 """Keys for the parameters of the model: oscillator, damper, forcing, and ranges of them.
 
 The keys of an oscillator and of a damper are the fields of `Oscillator` and `Damper`, which hold
-their bounds and meaning: a new field is a new key wherever all of them may be given.
+their bounds and meaning: a new field is a new key wherever all of them may be given. Only `shaker`
+is no key: linear machines on a shaker are entries of `machines`.
 """
 
 from dataclasses import fields
@@ -20,7 +21,9 @@ BOUNDS, MEANINGS = (
     for key in ("bounds", "meaning")
 )
 BOUNDS["frequency"], MEANINGS["frequency"] = FREQUENCY_RANGE, "W, forcing frequency"
-OSCILLATOR, DAMPER = ([each.name for each in fields(part)] for part in (Oscillator, Damper))
+OSCILLATOR, DAMPER = (
+    [each.name for each in fields(part) if each.name != "shaker"] for part in (Oscillator, Damper)
+)
 PARAMETERS = {name: number(MEANINGS[name], **BOUNDS[name]) for name in BOUNDS}
 
 MASS_RATIO, CLEARANCE, RESTITUTION, CONTACT_STIFFNESS, FREQUENCY = (

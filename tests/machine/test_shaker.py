@@ -1,0 +1,128 @@
+"""A machine on a shaker, whose base has one amplitude of acceleration at all frequencies."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+import impact_damper as idm
+from impact_damper.design.task import Task
+
+MASS, STIFFNESS, RATIO, ACCELERATION = 12.0, 2e5, 0.02, 3.0
+MACHINE = idm.Machine(
+    mass=MASS, linear_stiffness=STIFFNESS, damping_ratio=RATIO, base_acceleration=ACCELERATION
+)
+NATURAL = math.sqrt(STIFFNESS / MASS) / (2 * math.pi)
+LOOSE, GAP, RESTITUTION, WALL = 0.6, 8e-3, 0.7, 2e6
+DAMPER = MACHINE.damper(mass=LOOSE, gap=GAP, restitution=RESTITUTION, contact_stiffness=WALL)
+
+
+def test_response_over_a_band_is_the_transmissibility_in_space():
+    """Within the share (2 zeta w/w0)^4/8 that the force over a range of frequencies is off."""
+    hertz = np.linspace(12, 30, 7)
+    found = idm.frequency_response(MACHINE, None, hertz, starts=2)
+    r = hertz / NATURAL
+    passed = np.hypot(1, 2 * RATIO * r) / np.hypot(1 - r**2, 2 * RATIO * r)
+    expected = 1e3 * ACCELERATION / (2 * math.pi * hertz) ** 2 * passed
+    off = found["maximum_displacement"].max("motion") / expected - 1
+    assert np.all(np.abs(off) < (2 * RATIO * r) ** 4 / 8 + 1e-8)
+
+
+@pytest.fixture(scope="module")
+def branch():
+    """Orbits with two contacts over the frequency, with the part V of the force."""
+    start = idm.steady_motion(MACHINE, DAMPER, 20, (0, 0, 0, 0.3)).state.values
+    return idm.orbit_branch(MACHINE, DAMPER, 20, start, parameter="frequency", span=(18, 22))
+
+
+@pytest.fixture(params=[18.0, 20.0, 21.9])
+def point(branch, request):
+    """The orbit of the branch whose frequency is nearest."""
+    return branch.isel(point=int(np.argmin(np.abs(branch.followed_value.values - request.param))))
+
+
+def test_orbits_of_a_branch_are_those_at_one_frequency(point):
+    """There the force is exact, and so the acceleration is made to give that of the branch."""
+    hertz = float(point.followed_value)
+    ratio = MACHINE.viscous_damping * 2 * math.pi * hertz / STIFFNESS
+    same = (1 + ratio**2 / 2) / math.hypot(1, ratio)
+    machine = replace(MACHINE, base_acceleration=ACCELERATION * same)
+    damper = machine.damper(mass=LOOSE, gap=GAP, restitution=RESTITUTION, contact_stiffness=WALL)
+    alone = idm.periodic_orbit(machine, damper, hertz, point.orbit_state)
+    for name in ("orbit_displacement", "orbit_multiplier_real"):
+        assert_allclose(np.ravel(alone[name]), point[name], rtol=1e-8, err_msg=name)
+    assert 0 < same - 1 < (2 * RATIO * hertz / NATURAL) ** 4 / 8
+
+
+def test_orbits_of_a_branch_are_those_of_three_bodies_in_space(point):
+    """Base, machine and loose mass by SciPy: after a forcing period the motion repeats."""
+    angular = 2 * math.pi * float(point.followed_value)
+    c, amplitude = MACHINE.viscous_damping, ACCELERATION / angular**2
+    logarithm, ratio = math.log(RESTITUTION), LOOSE / MASS
+    share = -logarithm / math.sqrt((1 + ratio) * (math.pi**2 + logarithm**2))
+    dashpot = 2 * share * math.sqrt(WALL * LOOSE)
+    # the force of spring and dashpot leads the base
+    lead = math.atan2(c * angular, STIFFNESS)
+
+    def rate(t, y):
+        base = amplitude * math.cos(angular * t - lead)
+        speed = -amplitude * angular * math.sin(angular * t - lead)
+        apart, closing = y[0] - y[2], y[1] - y[3]
+        depth = max(apart - GAP / 2, 0) + min(apart + GAP / 2, 0)
+        push = WALL * depth + (dashpot * closing if depth else 0)
+        pull = -STIFFNESS * (y[0] - base) - c * (y[1] - speed) - push
+        return [y[1], pull / MASS, y[3], push / LOOSE]
+
+    x, v, z, w = point.orbit_state.values
+    begin = float(point.orbit_phase) / angular
+    run = solve_ivp(
+        rate,
+        (begin, begin + 2 * math.pi / angular),
+        [x, v, x - z, v - w],
+        method="DOP853",
+        rtol=1e-10,
+        atol=1e-13,
+        max_step=2e-5,
+    )
+    size = [1e-3, 0.1, 1e-3, 0.1]
+    assert int(point.orbit_contacts) == 2
+    assert_allclose(run.y[:, -1] / size, run.y[:, 0] / size, atol=2e-5)
+    assert_allclose(1e3 * np.abs(run.y[0]).max(), point.orbit_displacement, rtol=1e-5)
+
+
+def test_rule_for_the_clearance_in_closed_form():
+    """At resonance the force is k a/w0^2, and that of the dashpot adds the share 2 zeta^2."""
+    square = STIFFNESS / MASS
+    force = STIFFNESS * ACCELERATION / square * (1 + 2 * RATIO**2)
+    expected = force / (0.05 * MASS * square)
+    assert idm.optimum_clearance(MACHINE, 0.05) == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_design_looks_where_the_machine_resonates():
+    task = Task(
+        machine=MACHINE,
+        mass=LOOSE,
+        restitution=RESTITUTION,
+        contact_stiffness=WALL,
+        band=(18, 23),
+        frequencies=6,
+        candidates=4,
+        starts=16,
+        share=0.5,
+    )
+    response = ACCELERATION / (2 * math.pi * task.grid) ** 2
+    r = task.grid / NATURAL
+    response *= np.hypot(1, 2 * RATIO * r) / np.hypot(1 - r**2, 2 * RATIO * r)
+    assert_allclose(task.bare, 1e3 * response, rtol=1e-9)
+    # the peak of V/(W^2 D) lies below the natural frequency
+    lowest, highest = task.resonance
+    assert highest == pytest.approx(NATURAL) and 0.995 * NATURAL < lowest < NATURAL
+
+
+def test_an_acceleration_may_be_given_in_units_of_gravity():
+    given = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.01}
+    machine = idm.Machine(**given, base_acceleration="0.5 gravity")
+    assert machine.base_acceleration == pytest.approx(4.903325, rel=1e-12)
