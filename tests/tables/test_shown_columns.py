@@ -1,11 +1,14 @@
 """Tables for people: a title, at most nine columns with words as heads; the CSV has the others."""
 
+import re
 from importlib import import_module
 
 import pytest
 from helpers.made_up import world
 from helpers.made_up_design import made_up_design
 
+from impact_damper.data.table_files import in_words
+from impact_damper.rivals.words import method_in_words
 from impact_damper.workflow.chapter import make_table
 from impact_damper.workflow.registry import TABLES
 
@@ -58,6 +61,27 @@ def test_markdown_is_a_title_a_note_and_the_chosen_columns_of_the_csv(name, data
     assert f"`{name}.csv`" in lines[2]
     found = [head.strip() for head in lines[4].replace(r"\|", "/").strip("|").split("|")]
     assert found == [head.replace("|", "/") for head in heads(name).values()]
+
+
+@pytest.mark.parametrize("name", INVENTED)
+def test_cells_for_people_have_no_internal_names(name, data, tmp_path):
+    """A word with an underscore is a key; the CSV has it, where there is one."""
+    make_table(name, data, tmp_path / name)
+    rows = [line for line in (tmp_path / f"{name}.md").read_text().splitlines() if line[0:1] == "|"]
+    assert [row for row in rows if re.search(r"\w_\w", row)] == []
+
+
+def test_cells_in_words():
+    assert in_words("figure_05a") == "figure 5 (a)"
+    assert in_words("figure_03c_rule") == "figure 3 (c), rule"
+    assert in_words("figure_10") == "figure 10"
+    assert in_words("over_mass_ratio") == "over mass ratio"
+    assert in_words("inf") == "∞"
+    assert in_words("1.5") == "1.5"
+    assert method_in_words("merson") == "Merson"
+    assert method_in_words("merson_kink") == "Merson, kink"
+    assert method_in_words("taylor_12_15") == "Taylor, orders 12 and 15"
+    assert method_in_words("rigid_mended") == "rigid, corrected"
 
 
 def test_a_table_without_data_says_so(tmp_path):

@@ -1,19 +1,23 @@
 """Tables written as CSV and as Markdown."""
 
 import numbers
+import re
+from functools import partial
 
 import numpy as np
 
 from impact_damper.data.whole_files import whole
 
-# Significant digits of numbers.
-DIGITS = 6
+# Significant digits of numbers in files of values, and in tables for people.
+DIGITS, FEW_DIGITS = 6, 4
+LARGE = 1e7
 
 
 def save_table(frame, csv_path, markdown_path, document=None) -> None:
     """Write a table as CSV and as Markdown; each file appears only when it is complete.
 
-    Numbers are rounded to six significant digits; NaN and None become empty cells.
+    Numbers are rounded to six significant digits, in Markdown to four; NaN and None become empty
+    cells.
 
     Parameters
     ----------
@@ -22,8 +26,9 @@ def save_table(frame, csv_path, markdown_path, document=None) -> None:
     document : callable, optional
         Function from the rounded table to its Markdown text; `as_markdown` by default.
     """
-    shown = frame.map(_rounded).astype(object)
-    _write(csv_path, shown.to_csv(index=False, lineterminator="\n"))
+    values = frame.map(_rounded).astype(object)
+    _write(csv_path, values.to_csv(index=False, lineterminator="\n"))
+    shown = frame.map(partial(_rounded, digits=FEW_DIGITS)).astype(object)
     _write(markdown_path, (document or as_markdown)(shown) + "\n")
 
 
@@ -37,7 +42,7 @@ def as_markdown(frame) -> str:
     return text.to_markdown(index=False, disable_numparse=True)
 
 
-def for_people(frame, title, heads, csv_name) -> str:
+def for_people(frame, title, heads, csv_name, cells=None) -> str:
     """Return the Markdown text of the columns of a table that people read first.
 
     Parameters
@@ -50,8 +55,14 @@ def for_people(frame, title, heads, csv_name) -> str:
         column that the frame does not have, since its data were not computed, is left out.
     csv_name : str
         Name of the file with all columns.
+    cells : dict of callable, optional
+        Keyed by column: maps the text of a cell to the words shown. Other cells are shown as
+        `in_words` returns them.
     """
-    shown = frame[[name for name in heads if name in frame]].rename(columns=heads)
+    cells = cells or {}
+    shown = frame[[name for name in heads if name in frame]]
+    shown = shown.apply(lambda column: column.map(cells.get(column.name, in_words)))
+    shown = shown.rename(columns=heads)
     note = (
         "Numbers without a unit are dimensionless; an empty cell is a quantity that does not "
         f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns."
@@ -60,15 +71,29 @@ def for_people(frame, title, heads, csv_name) -> str:
     return "\n\n".join([f"# {title}", note, body])
 
 
+def in_words(cell) -> str:
+    """Return the words for a cell: names of figures and of entries without underscores, and ∞.
+
+    "figure_05a" becomes "figure 5 (a)", "figure_03c_rule" "figure 3 (c), rule", "over_damping"
+    "over damping".
+    """
+    cell = re.sub(r"^figure_0*([0-9]+)([a-z])", r"figure_\1 (\2)", str(cell))
+    cell = re.sub(r"^figure_0*([0-9]+)", r"figure \1", cell).replace(")_", "), ")
+    return "∞" if cell == "inf" else re.sub(r"(?<=\w)_(?=\w)", " ", cell)
+
+
 def _write(path, content):
     with whole(path) as part:
         part.write_text(content)
 
 
-def _rounded(value):
-    """Return the text of a table cell for its value."""
+def _rounded(value, digits=DIGITS):
+    """Return the text of a table cell for its value; numbers below 1e7 have no exponent."""
     if isinstance(value, str):
         return value
     if isinstance(value, numbers.Integral):
         return str(value)
-    return "" if value is None or np.isnan(value) else f"{value:.{DIGITS}g}"
+    if value is None or np.isnan(value):
+        return ""
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e+" in text and abs(value) < LARGE else text

@@ -21,7 +21,8 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
+from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode
+from impact_damper.rivals.words import method_in_words
 
 CAPTION = """
 Error against work in floating-point operations. A line joins the tolerances of an integrator, or
@@ -30,14 +31,14 @@ the run's standard error. Plus: the run failed. Dashed: required accuracy. Refer
 program in 80-bit arithmetic, for chaos a longer run.
 """
 
-# Models that solve for an orbit directly: label, colour, marker and line.
-ORBIT_ROLES = {
-    "rigid": ("rigid impacts", GREY, "s", "none"),
-    "rigid_mended": ("rigid, corrected", GREY, "D", "none"),
-    "rigid_balance": ("one term, (14)", SKY, "P", "none"),
-    "full_balance": ("one term, (7)", SKY, "X", "none"),
-    "many_harmonics": ("many harmonics", SKY, "h", "-"),
-    "shooting": ("shooting", BLACK, "*", "none"),
+# Colour, marker and line of models that solve for an orbit directly.
+ORBIT_LOOKS = {
+    "rigid": (GREY, "s", "none"),
+    "rigid_mended": (GREY, "D", "none"),
+    "rigid_balance": (SKY, "P", "none"),
+    "full_balance": (SKY, "X", "none"),
+    "many_harmonics": (SKY, "h", "-"),
+    "shooting": (BLACK, "*", "none"),
 }
 # Marker and line of integrators, by whether they locate contacts.
 LOOKS = {True: ("^", "-"), False: ("v", ":")}
@@ -150,12 +151,11 @@ def _method(axes, role, work, error, bars, good, bad):
 def _roles(data):
     """Return label, colour, marker and line of each method, in the order of the legend."""
     roles = {"taylor": (METHODS["taylor"].title, METHODS["taylor"].colour, "o", "-")}
-    further = sorted(set(data["method"].values) - {*COMPARED["accuracy"], *ORBIT_ROLES})
+    further = sorted(set(data["method"].values) - {*COMPARED["accuracy"], *ORBIT_LOOKS})
     for name, (marker, line) in zip(further, cycle(OTHER_ORDERS)):
-        words = "Taylor, orders {1} and {2}".format(*name.split("_"))
-        roles[name] = (words, METHODS["taylor"].colour, marker, line)
+        roles[name] = (method_in_words(name), METHODS["taylor"].colour, marker, line)
     for label in COMPARED["accuracy"]:
         if label not in roles:
             name, located = name_and_mode(label)
-            roles[label] = (title_with_mode(label), METHODS[name].colour, *LOOKS[located])
-    return roles | ORBIT_ROLES
+            roles[label] = (method_in_words(label), METHODS[name].colour, *LOOKS[located])
+    return roles | {name: (method_in_words(name), *look) for name, look in ORBIT_LOOKS.items()}

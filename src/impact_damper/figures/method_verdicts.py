@@ -24,6 +24,7 @@ from impact_damper.figures.style import (
     style,
 )
 from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
+from impact_damper.rivals.words import CASES
 
 CAPTION = """
 Whether an integrator, started near a periodic orbit, ends on the motion that Floquet multipliers
@@ -39,20 +40,6 @@ ROLES = {
     "wrong_branch": (VERMILION, "wrong branch"),
     "stays_wrongly": (BLUE, "stays where it must leave"),
     "failed": (BLACK, "fails"),
-}
-# Names of the test cases in words; a case of one's own keeps its name.
-CASES = {
-    "quiet": "quiet motion, elastic",
-    "quiet_inelastic": "quiet motion, inelastic",
-    "quiet_fold_before": "quiet motion near its end",
-    "quiet_fold_after": "beyond the quiet motion's end",
-    "symmetry_breaking_before": "before a loss of symmetry",
-    "symmetry_breaking_after": "beyond a loss of symmetry",
-    "basin_resonance": "free, attracted to resonance",
-    "basin_not_non_resonance": "free, not to the small motion",
-    "free_fold_before": "free resonance near its end",
-    "free_fold_after": "beyond the resonance's end",
-    "subharmonic": "free one-third subharmonic",
 }
 
 

@@ -10,6 +10,7 @@ import pandas as pd
 from impact_damper.claims import extract
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.rivals.methods import COMPARED, ORBIT_MODELS
+from impact_damper.rivals.words import method_in_words
 from impact_damper.tables import clearance, responses
 
 INTEGRATORS = COMPARED["accuracy"]
@@ -49,6 +50,8 @@ SHOWN = {
         "relative error": "relative error",
     },
 }
+# Words for the cells of a column; other cells are keys without underscores.
+CELLS = {"method": method_in_words}
 
 
 def models(datasets) -> pd.DataFrame:

@@ -35,6 +35,19 @@ SHOWN = {
         "upper": "share at most (95 %)",
     },
 }
+# Words for the cells of a column; other cells are keys without underscores.
+TRUTHS = {
+    "high": "violent",
+    "high chaotic": "violent and chaotic",
+    "low": "small",
+    "low chaotic": "small and chaotic",
+    "other low": "another small motion",
+    "far": "further off",
+}
+CELLS = {
+    "question": lambda cell: cell.replace("high motion", "violent motion"),
+    "truth": lambda cell: TRUTHS.get(cell, cell),
+}
 
 
 def balance_map(datasets) -> pd.DataFrame:

@@ -55,6 +55,14 @@ def _counts(name, values):
     return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
 
 
+# Words for the cells of a column; other cells are keys without underscores.
+EXITS = {
+    "zero_penetration": "at zero penetration, as in appendix B",
+    "no_tension": "at zero force, without pull",
+}
+CELLS = {"exit": lambda cell: EXITS.get(cell, cell)}
+
+
 def contact_model(datasets) -> pd.DataFrame:
     """For each exit rule: number of map cells with each verdict, and contacts without load."""
     rows = []

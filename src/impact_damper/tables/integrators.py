@@ -6,7 +6,9 @@ import pandas as pd
 from impact_damper.claims import extract
 from impact_damper.data.datasets import flag
 from impact_damper.data.shares import missed_share
+from impact_damper.data.table_files import in_words
 from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode, title_with_mode
+from impact_damper.rivals.words import CASES, method_in_words
 
 
 def _setting(label):
@@ -44,6 +46,8 @@ SHOWN = {
         for label in COMPARED["method_verdicts"]
     },
 }
+# Words for the cells of a column; other cells are keys without underscores.
+CELLS = {"method": method_in_words, "scene": lambda cell: CASES.get(cell, in_words(cell))}
 
 
 def missed_contacts(datasets) -> pd.DataFrame:

@@ -73,6 +73,15 @@ SHOWN = {
         "not seen, at most": "of a motion not seen, at most",
     },
 }
+# Words for the cells of a column; other cells are keys without underscores.
+STAGES = {
+    "response": "frequency responses",
+    "subharmonic": "starts on the free subharmonic",
+    "optimum": "clearance sweeps",
+    "studies": "planes of two parameters",
+    "balance_map, high run": "starts at violent solutions of (7)",
+}
+CELLS = {"stage": lambda cell: STAGES.get(cell, cell)}
 
 
 def outcomes(datasets) -> pd.DataFrame:

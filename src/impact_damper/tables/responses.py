@@ -63,6 +63,8 @@ SHOWN = {
         "least speed of contact": "least speed of contact",
     },
 }
+# Words for the cells of a column; other cells are keys without underscores.
+CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
 
 
 def bands(datasets) -> pd.DataFrame:

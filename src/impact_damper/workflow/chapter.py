@@ -33,6 +33,7 @@ def make_table(name, datasets, path) -> None:
         title=table.caption.removesuffix("."),
         heads=module.SHOWN[name],
         csv_name=f"{name}.csv",
+        cells=getattr(module, "CELLS", {}),
     )
     table_files.save_table(frame, f"{path}.csv", f"{path}.md", document)
     _write(f"{path}.rst", table.caption)

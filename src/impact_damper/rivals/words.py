@@ -1,0 +1,39 @@
+"""Names of test cases and of models of orbits in words, for figures and tables."""
+
+from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
+
+# Test cases of the verdicts on motions; a case of one's own keeps its name.
+CASES = {
+    "quiet": "quiet motion, elastic",
+    "quiet_inelastic": "quiet motion, inelastic",
+    "quiet_fold_before": "quiet motion near its end",
+    "quiet_fold_after": "beyond the quiet motion's end",
+    "symmetry_breaking_before": "before a loss of symmetry",
+    "symmetry_breaking_after": "beyond a loss of symmetry",
+    "basin_resonance": "free, attracted to resonance",
+    "basin_not_non_resonance": "free, not to the small motion",
+    "free_fold_before": "free resonance near its end",
+    "free_fold_after": "beyond the resonance's end",
+    "subharmonic": "free one-third subharmonic",
+}
+# Models that solve for an orbit directly.
+MODELS = {
+    "rigid": "rigid impacts",
+    "rigid_mended": "rigid, corrected",
+    "rigid_balance": "one term, (14)",
+    "full_balance": "one term, (7)",
+    "many_harmonics": "many harmonics",
+    "shooting": "shooting",
+}
+
+
+def method_in_words(label) -> str:
+    """Title of a model or of an integrator, with its treatment of contacts or orders, if named."""
+    if label in MODELS:
+        return MODELS[label]
+    name, *orders = label.split("_") if label.startswith("taylor_") else (label,)
+    if orders:
+        return "Taylor, orders {} and {}".format(*orders)
+    if label in METHODS:
+        return METHODS[label].title
+    return title_with_mode(label) if name_and_mode(label)[0] in METHODS else label
