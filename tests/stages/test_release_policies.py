@@ -6,10 +6,24 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import solve_ivp
 from scipy.stats import binom
 
-from impact_damper.migration.policies import DRAWS, HOLD, STATE, Policy, hold, run_trials
-from impact_damper.migration.release_set import depth_of, release_set, signed_distance
-from impact_damper.stages.basins import free_attractors
-from impact_damper.stages.release_policies import PHASES, quantile, release_policies
+from impact_damper.data.shares import wilson
+from impact_damper.migration.choice import HOLDS, expected_cycles
+from impact_damper.migration.clairvoyant import clairvoyant, earliest
+from impact_damper.migration.policies import (
+    DRAWS,
+    HOLD,
+    PHASE,
+    SETTLED,
+    STATE,
+    Draws,
+    Policy,
+    hold,
+    run_trials,
+)
+from impact_damper.migration.recorded import label_moments, record
+from impact_damper.migration.release_set import depth_of, signed_distance
+from impact_damper.stages.release_policies import release_policies, under_disturbance
+from impact_damper.stages.release_trials import PHASES, free_case, quantile
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.system.settling import Settling
@@ -19,12 +33,13 @@ PAPER = Damper(0.12, 2.0)
 W = 1.85
 
 
+ON = pack(CUBIC, PAPER, W)
+
+
 @pytest.fixture(scope="module")
 def free():
-    """Packed parameters without the damper, attractors, and the release set."""
-    p = pack(CUBIC, None, W)
-    attractors = free_attractors(p, np.array([3.0, 4.5]), Settling())
-    return p, attractors, release_set(p, attractors, 0, PHASES, 32, Settling())
+    """The oscillator without the damper, with the release set."""
+    return free_case(CUBIC, W, 32, Settling(), 1)
 
 
 def course(state, begin, end, damper):
@@ -42,23 +57,102 @@ def course(state, begin, end, damper):
     return solve_ivp(slope, (begin, end), state, "DOP853", **accuracy).y[:, -1]
 
 
+def some_holds(free, count):
+    """Starts on the resonance motion and random numbers of holds."""
+    draws = np.random.default_rng(4).random((count, DRAWS))
+    return np.tile(free.attractors.centre[-1], (count, 1)), draws
+
+
 def test_a_hold_is_the_motion_of_scipy(free):
-    p, attractors, releases = free
-    draws = np.random.default_rng(4).random((5, DRAWS))
-    starts = np.tile(attractors.centre[-1], (5, 1))
-    arguments = np.full(5, 350.0), Policy(HOLD, 1.3), releases, np.zeros((5, 2)), 1e-10
-    held = hold(pack(CUBIC, PAPER, W), p, starts, draws, *arguments)
+    starts, draws = some_holds(free, 5)
+    held = hold(ON, free, starts, draws, np.full(5, 350.0), Policy(HOLD, 1.3), np.zeros((5, 2)))
     period = 2 * np.pi / W
     for draw, out in zip(draws, held, strict=True):
         strobe = np.pi / 2 / W
         on = strobe + draw[0] * period
-        y = course(np.tile(attractors.centre[-1], 2), strobe, on, None)
+        y = course(np.tile(free.attractors.centre[-1], 2), strobe, on, None)
         y[2:] = (2 * draw[1] - 1) * PAPER.clearance, 0.0
         y = course(y, on, on + 1.3 * period, PAPER)
         off = on + 1.3 * period
         y = course(y, off, off + out["ahead"] * period, None)
         assert_allclose(out["state"], y[:2], atol=2e-4)
         assert ((off - strobe) / period + out["ahead"]) % 1 == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize("phase", [0, 5, 15])
+def test_a_recording_passes_through_the_releases_of_a_policy(free, phase):
+    starts, draws = some_holds(free, 20)
+    recording = record(ON, free, starts, draws, np.full(20, 6.0))
+    policy, most = Policy(PHASE, 4.0, phase), np.full(20, 50.0)
+    held = hold(ON, free, starts, draws, most, policy, np.zeros((20, 2)))
+    rows = np.arange(20)
+    every = np.tile(np.arange(recording.depth.shape[1]), (20, 1))
+    cycles = recording.cycles(rows[:, None], every)
+    at = np.argmax((cycles >= 4) & (recording.phase(rows[:, None], every) == phase), axis=1)
+    assert_allclose(recording.cycles(rows, at), held["cycles"], atol=1e-12)
+    assert_allclose(recording.ahead(rows, at), held["ahead"], atol=1e-12)
+    assert_array_equal(recording.impacts[rows, at], held["impacts"])
+    assert_array_equal(recording.depth[rows, at], held["depth"])
+
+
+def test_the_earliest_arrival_is_that_of_all_moments(free):
+    """Pruning and the release set leave no earlier arrival out."""
+    starts, draws = some_holds(free, 12)
+    recording = record(ON, free, starts, draws, np.full(12, 15.0))
+    rows, moments = np.nonzero(~np.isnan(recording.depth))
+    none = np.full(len(rows), np.inf)
+    labels, times = label_moments(free, recording, rows, moments, none)
+    best = np.full(12, np.inf)
+    np.minimum.at(best, rows, np.where(labels == free.goal, times, np.inf))
+    arrival, at = earliest(free, recording, np.full(12, 100.0))
+    assert_allclose(arrival, best)
+    assert np.isfinite(best).sum() > 6
+    hit = np.isfinite(arrival)
+    assert np.all(recording.cycles(np.arange(12), at)[hit] < arrival[hit])
+
+
+@pytest.mark.parametrize("damper", [PAPER, Damper(0.25, 1.0, 0.75)])
+def test_no_policy_beats_the_clairvoyant_bound(free, damper):
+    """In the same trials; a restart from another motion than the resonance may win a few."""
+    on = pack(CUBIC, damper, W)
+    bound = clairvoyant(on, free, 40, 350.0, 6)
+    policies = Policy(SETTLED), Policy(HOLD, 8.0), Policy(PHASE, 2.0, 3), Policy(STATE, 8.0)
+    for policy in policies:
+        outcome = run_trials(on, free, policy, 40, 350.0, 6)
+        assert np.sum(outcome.reached) <= np.sum(bound.reached)
+        assert np.mean(outcome.cycles >= bound.cycles) >= 0.95
+        assert np.median(outcome.cycles) >= np.median(bound.cycles)
+    some = clairvoyant(on, free, 40, 350.0, 6, examined=10)
+    assert_array_equal(some.cycles, bound.cycles[:10])
+
+
+def test_a_huge_margin_never_releases(free):
+    outcome = run_trials(ON, free, Policy(STATE, np.inf, margin=100.0), 5, 350.0, 3)
+    assert np.all(outcome.releases == 0) and not np.any(outcome.reached)
+    assert_allclose(outcome.damper, 350.0, atol=1 / PHASES)
+
+
+def test_without_a_disturbance_the_success_is_that_of_the_policy(free):
+    policy = Policy(STATE, 8.0)
+    models = dict.fromkeys([(1.0, 1.0)], free)
+    success, _ = under_disturbance(ON, models, policy, 20, 7, {"none": {}, "again": {"noise": 0.0}})
+    outcome = run_trials(ON, free, policy, 20, 350.0, [7, 0])
+    assert_allclose(success[:, 0], [wilson(np.sum(outcome.reached[:10]), 10)] * 2)
+
+
+def test_expected_cycles_are_those_of_single_holds(free):
+    """The chance of success in a hold, by other random numbers and without a recording."""
+    of_hold, of_phase = expected_cycles(ON, free, 100, [1])
+    assert of_phase.shape == (len(HOLDS), PHASES) and np.all(of_hold >= of_phase.min(axis=1))
+    drawn = Draws(2, 400).following()
+    starts = np.tile(free.attractors.centre[-1], (400, 1))
+    most, none = np.full(400, 100.0), np.zeros((400, 2))
+    held = hold(ON, free, starts, drawn[:, :DRAWS].copy(), most, Policy(HOLD, 8.0), none)
+    labels, periods = free.labels(held["state"])
+    hits = labels == free.goal
+    expected = np.sum(held["cycles"] + held["ahead"] + periods) / np.sum(hits)
+    spread = 3 * np.sqrt((1 / np.mean(hits) - 1) * (1 / 400 + 1 / 100))
+    assert of_hold[HOLDS.index(8)] == pytest.approx(expected, rel=spread)
 
 
 def test_distances_in_a_half_plane():
@@ -69,7 +163,7 @@ def test_distances_in_a_half_plane():
 
 def test_depth_tells_where_free_motions_of_scipy_settle(free):
     """Deep inside the release set every motion comes to the goal; far outside none does."""
-    _, attractors, releases = free
+    attractors, releases = free.attractors, free.releases
     generator = np.random.default_rng(5)
     told = 0
     for k in range(60):
@@ -88,15 +182,13 @@ def test_depth_tells_where_free_motions_of_scipy_settle(free):
 
 
 def test_nothing_is_deep_beyond_the_grid(free):
-    _, _, releases = free
+    releases = free.releases
     assert depth_of(releases.depth, releases.half, 0, 100.0, 0.0) == -np.inf
 
 
 def test_trials_add_up_and_threads_do_not_matter(free):
-    p, attractors, releases = free
-    arguments = attractors, 0, Policy(STATE), releases, 30, 350.0, 3, Settling()
-    one = run_trials(pack(CUBIC, PAPER, W), p, *arguments, 1)
-    two = run_trials(pack(CUBIC, PAPER, W), p, *arguments, 2)
+    one = run_trials(ON, free, Policy(STATE, np.inf), 30, 350.0, 3)
+    two = run_trials(ON, free._replace(workers=2), Policy(STATE, np.inf), 30, 350.0, 3)
     for first, second in zip(one, two, strict=True):
         assert_array_equal(first, second)
     assert np.all(one.cycles[one.reached] <= 350) and np.all(np.isinf(one.cycles[~one.reached]))
@@ -112,11 +204,14 @@ def test_the_interval_of_a_quantile_covers_it():
 
 
 def test_the_dataset_of_a_small_comparison():
-    data = release_policies(CUBIC, [PAPER], [W], noisy_frequency=W, trials=20, tested=800, cells=16)
-    state, settled = (data.policy_success.sel(policy=name) for name in ("state", "settled"))
-    assert state.sel(bound="lower").item() > settled.sel(bound="upper").item()
+    data = release_policies(
+        CUBIC, [PAPER], [W], noisy_frequencies=[W], trials=20, tested=800, cells=16
+    )
+    success = {name: data.policy_success.sel(policy=name) for name in data.policy.values}
+    assert success["state"].sel(bound="lower").item() > success["settled"].sel(bound="upper").item()
+    assert success["clairvoyant"].sel(bound="share").item() == 1
     test = [data[f"{name}_share"].sel(bound="share").item() for name in ("predicted", "realised")]
     # three standard errors of the realised share
     assert abs(test[0] - test[1]) < 3 * np.sqrt(test[1] * (1 - test[1]) / 800)
     assert np.all(data.least_impulse <= data.median_impulse)
-    assert np.all(data.noisy_success.notnull())
+    assert np.all(data.disturbed_success.notnull())

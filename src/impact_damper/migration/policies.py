@@ -8,7 +8,8 @@ the trial goes on from there.
     settled  at a random phase, once the states at the strobes repeat: the paper's policy
     hold     after a fixed number of cycles
     phase    after a number of cycles, at a fixed phase of the forcing
-    state    as soon as the measured state lies inside the release set by a margin
+    state    as soon as the measured state lies inside the release set by a margin; after a number
+             of cycles without such a state in any case, for another try
 """
 
 import math
@@ -16,8 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.attraction.labels import label_states
-from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.migration.release_set import depth_of
 from impact_damper.motions import ensemble
@@ -49,7 +49,7 @@ class Policy(NamedTuple):
     kind : int
         SETTLED, HOLD, PHASE or STATE.
     hold : float
-        Forcing periods with the damper on, at least.
+        Forcing periods with the damper on: exactly for HOLD, at least for PHASE, at most for STATE.
     phase : int
         Of PHASE: index of the phase among those of the release set.
     margin : float
@@ -66,6 +66,17 @@ class Policy(NamedTuple):
     margin: float = 0.0
     noise: float = 0.0
     delay: int = 0
+
+
+@kernel_only
+def switch_on(on, off, starts, draws, i, tolerance, y, work):
+    """Run trial i freely to its switching on; set y there, return the time and the wall touched."""
+    y[0], y[1], y[2], y[3] = starts[i, 0], starts[i, 1], starts[i, 0], starts[i, 1]
+    first = strobe_time(on)
+    begin = first + draws[i, 0] * 2.0 * math.pi / on[FREQUENCY]
+    advance(off, y, np.empty((0, 4)), 0, first, begin, tolerance, work)
+    y[2], y[3] = (2.0 * draws[i, 1] - 1.0) * on[CLEARANCE], 0.0
+    return begin, side_of(on, y)
 
 
 @kernel
@@ -96,7 +107,7 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
     stop : array of bool, shape (1,)
         Set to true by another thread, it ends the run.
     """
-    kind, least, wanted, margin, size, delay = rules
+    kind, length, wanted, margin, size, delay = rules
     none, work = np.empty((0, 4)), workspace()
     phases = depth.shape[0]
     period = 2.0 * math.pi / on[FREQUENCY]
@@ -106,16 +117,11 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
         if stop[0]:
             return
         out = held[i]
-        y[0], y[1], y[2], y[3] = starts[i, 0], starts[i, 1], starts[i, 0], starts[i, 1]
-        t = strobe_time(on)
-        begin = t + draws[i, 0] * period
-        advance(off, y, none, 0, t, begin, tolerance, work)
-        y[2], y[3] = (2.0 * draws[i, 1] - 1.0) * on[CLEARANCE], 0.0
-        side = side_of(on, y)
+        begin, side = switch_on(on, off, starts, draws, i, tolerance, y, work)
         k = int(math.floor(begin / step)) + 1
         t, waiting, release, strobes = begin, -1, math.inf, 0
-        if kind == HOLD:
-            release = begin + least * period
+        if kind == HOLD or kind == STATE:
+            release = begin + length * period
         out.impacts, out.depth = 0, math.nan
         out.released = True
         while True:
@@ -136,11 +142,11 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
                 strobes += 1
                 if n > 0:
                     release = t + draws[i, 2] * n * period
-            elif kind == PHASE and phase == wanted and t - begin >= least * period:
+            elif kind == PHASE and phase == wanted and t - begin >= length * period:
                 out.depth = depth_of(depth, half, phase, y[0], y[1])
                 break
             elif kind == STATE:
-                if waiting < 0 and t - begin >= least * period:
+                if waiting < 0:
                     m = (i * 7919 + k) % len(noise)
                     x = y[0] + size * noise[m, 0]
                     v = y[1] + size * on[FREQUENCY] * noise[m, 1]
@@ -159,29 +165,32 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
         out.state[0], out.state[1] = y[0], y[1]
 
 
-def hold(on, off, starts, draws, limits, policy, releases, noise, tolerance, workers=1):
-    """Return the array of HELD of `hold_many`, computed on several threads."""
+def hold(on, free, starts, draws, limits, policy, noise):
+    """Return the array of HELD of `hold_many`, computed on several threads.
+
+    `free` is the `FreeCase`.
+    """
     held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
-    assert on.shape == off.shape == (COUNT,)
+    assert on.shape == free.p.shape == (COUNT,)
 
     def work(part):
         hold_many(
             on,
-            off,
+            free.p,
             starts[part],
             draws[part],
             limits[part],
             tuple(policy),
-            releases.depth,
-            releases.half,
+            free.releases.depth,
+            free.releases.half,
             noise[part.start :],
-            tolerance,
+            free.settling.tolerance,
             held[part],
             stop,
         )
 
     work(slice(0, 0))
-    ensemble.run_chunks(work, len(starts), workers, None, stop, size=8)
+    ensemble.run_chunks(work, len(starts), free.workers, None, stop, size=8)
     return held
 
 
@@ -196,7 +205,6 @@ class Outcome(NamedTuple):
     damper : forcing periods with the damper on
     impacts : contacts begun
     releases : number of releases
-    first_depth, first_label : measured depth at the first release, and the motion that it led to
     """
 
     reached: np.ndarray
@@ -204,68 +212,74 @@ class Outcome(NamedTuple):
     damper: np.ndarray
     impacts: np.ndarray
     releases: np.ndarray
-    first_depth: np.ndarray
-    first_label: np.ndarray
+
+    @classmethod
+    def failed(cls, trials):
+        """Return the outcome of trials in which the damper is never switched on."""
+        none = np.zeros(trials, int)
+        reached, cycles = np.zeros(trials, bool), np.full(trials, np.inf)
+        return cls(reached, cycles, np.zeros(trials), none, none.copy())
 
 
-def run_trials(on, off, attractors, goal, policy, releases, trials, limit, seed, settling, workers):
-    """Run trials of a policy, each for at most `limit` forcing periods; return their `Outcome`.
+class Draws:
+    """The random numbers of trials, which are the same for each policy with the same seed.
+
+    Attributes
+    ----------
+    noise : numpy.ndarray, shape (m, 2)
+        Standard normal numbers.
+    """
+
+    def __init__(self, seed, trials):
+        self._generator, self._trials = np.random.default_rng(seed), trials
+        self.noise = self._generator.standard_normal((4096 + trials, 2))
+
+    def following(self):
+        """Return numbers from 0 to 1 for the next hold of each trial, shape (trials, DRAWS + 1).
+
+        The last one chooses the passage of the free motion at which the hold begins.
+        """
+        return self._generator.random((self._trials, DRAWS + 1))
+
+
+def run_trials(on, free, policy, trials, limit, seed, examined=None):
+    """Return the `Outcome` of trials of a policy.
 
     A free motion counts as settled in a proven neighbourhood of an attractor.
+
+    Parameters
+    ----------
+    on : array, shape (packed.COUNT,)
+        Packed parameters with the damper.
+    free : FreeCase
+    policy : Policy
+    trials : int
+    limit : float
+        Forcing periods after which a trial ends.
+    seed : int or sequence of int
+    examined : int, optional
+        Number of the first trials that are run; all of them by default.
     """
-    generator = np.random.default_rng(seed)
-    noise = generator.standard_normal((4096 + trials, 2))
-    resonance = len(attractors.records) - 1
-    place = np.full(trials, resonance)
-    spent, damper = np.zeros(trials), np.zeros(trials)
-    impacts, count = np.zeros(trials, int), np.zeros(trials, int)
-    reached = np.zeros(trials, bool)
-    first_depth, first_label = np.full(trials, np.nan), np.full(trials, -1)
-    open_ = np.arange(trials)
+    random, examined = Draws(seed, trials), examined or trials
+    place = np.full(examined, free.resonance)
+    spent, outcome = np.zeros(examined), Outcome.failed(examined)
+    open_ = np.arange(examined)
     while len(open_):
-        draws = generator.random((trials, DRAWS + 1))[open_]
-        starts = _points(attractors, place[open_], draws[:, DRAWS])
-        held = hold(
-            on,
-            off,
-            starts,
-            draws[:, :DRAWS].copy(),
-            limit - spent[open_],
-            policy,
-            releases,
-            noise,
-            settling.tolerance,
-            workers,
-        )
-        free = np.flatnonzero(held["released"])
-        labels, periods = label_states(
-            off,
-            held["state"][free],
-            math.pi / 2,
-            attractors,
-            settling.tolerance,
-            settling.limit,
-            workers,
-        )
-        damper[open_] += held["cycles"]
-        impacts[open_] += held["impacts"]
+        draws = random.following()[open_]
+        starts = free.strobe_states(place[open_], draws[:, DRAWS])
+        left = limit - spent[open_]
+        held = hold(on, free, starts, draws[:, :DRAWS].copy(), left, policy, random.noise)
+        let_go = np.flatnonzero(held["released"])
+        labels, periods = free.labels(held["state"][let_go])
+        outcome.damper[open_] += held["cycles"]
+        outcome.impacts[open_] += held["impacts"]
         spent[open_] += held["cycles"]
-        let = open_[free]
-        spent[let] += held["ahead"][free] + periods
-        new = count[let] == 0
-        first_depth[let[new]], first_label[let[new]] = held["depth"][free][new], labels[new]
-        count[let] += 1
-        reached[let] = (labels == goal) & (spent[let] <= limit)
-        place[let] = np.where(labels >= 0, labels, resonance)
-        going = ~reached[let] & (spent[let] < limit) & (labels != goal)
+        let = open_[let_go]
+        spent[let] += held["ahead"][let_go] + periods
+        outcome.releases[let] += 1
+        outcome.reached[let] = (labels == free.goal) & (spent[let] <= limit)
+        place[let] = np.where(labels >= 0, labels, free.resonance)
+        going = ~outcome.reached[let] & (spent[let] < limit) & (labels != free.goal)
         open_ = let[going]
-    return Outcome(
-        reached, np.where(reached, spent, np.inf), damper, impacts, count, first_depth, first_label
-    )
-
-
-def _points(attractors, labels, shares):
-    """Return a state at a strobe of each attractor, of one of its passages."""
-    first = np.searchsorted(attractors.owner, labels)
-    number = np.searchsorted(attractors.owner, labels, side="right") - first
-    return attractors.centre[first + np.minimum((shares * number).astype(int), number - 1)]
+    outcome.cycles[outcome.reached] = spent[outcome.reached]
+    return outcome

@@ -35,6 +35,11 @@ class ReleaseSet(NamedTuple):
     depth: np.ndarray
     half: np.ndarray
 
+    @property
+    def cell(self):
+        """Width of a cell in units of Z1."""
+        return 2 * self.half[0] / self.depth.shape[1]
+
 
 def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> ReleaseSet:
     """Return the release set of a free oscillator.

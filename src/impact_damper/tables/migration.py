@@ -34,17 +34,6 @@ SHOWN = {
         "to resonance": "share to the resonance",
         "to subharmonic": "share to the subharmonic",
     },
-    "release_policies": {
-        "rm": "mass ratio rm",
-        "d0": "clearance d0",
-        "e": "restitution e",
-        "W": "forcing frequency Ω",
-        "policy": "policy",
-        "within 350 cycles": "share within 350 cycles",
-        "median cycles": "median time [forcing cycles]",
-        "95 % of cycles": "95 % arrive within [forcing cycles]",
-        "median damper on": "median time with damper [forcing cycles]",
-    },
 }
 
 
@@ -120,49 +109,6 @@ def release_scan(datasets) -> pd.DataFrame:
                     | {f"to {end}".replace("_", "-"): part[end].mean() for end in part}
                 )
     return pd.DataFrame(rows)
-
-
-def release_policies(datasets) -> pd.DataFrame:
-    """Success, cycles and cost of each policy, and the test of the prediction, for each damper."""
-    rows = []
-    for data in datasets.get("release_policies", {}).values():
-        for case, frequency in np.ndindex(data.sizes["case"], data.sizes["frequency"]):
-            here = data.isel(case=case, frequency=frequency)
-            damper = {
-                symbol: float(here[f"case_{name}"])
-                for symbol, name in (
-                    ("rm", "mass_ratio"),
-                    ("d0", "clearance"),
-                    ("e", "restitution"),
-                )
-            }
-            tested = {
-                f"goal {word}": float(here[f"{word}_share"].sel(bound="share"))
-                for word in ("predicted", "realised")
-            }
-            impulse = {"least impulse without damper": float(here.least_impulse)}
-            for policy in here.policy.values:
-                one = here.sel(policy=policy)
-                rows.append(
-                    damper
-                    | {"W": float(here.frequency), "policy": policy}
-                    | _bounded("within 350 cycles", one.policy_success)
-                    | _bounded("median cycles", one.policy_cycles.sel(quantile=0.5))
-                    | _bounded("95 % of cycles", one.policy_cycles.sel(quantile=0.95))
-                    | _bounded("median damper on", one.policy_damper)
-                    | _bounded("median impacts", one.policy_impacts)
-                    | {"releases": float(one.policy_releases), "hold": float(one.policy_hold)}
-                    | {"phase": float(one.policy_phase)}
-                    | tested
-                    | impulse
-                )
-    return pd.DataFrame(rows)
-
-
-def _bounded(words, value):
-    """Return columns of a share or quantile and the ends of its interval."""
-    names = {"share": words, "lower": f"{words}, at least", "upper": f"{words}, at most"}
-    return {name: float(value.sel(bound=bound)) for bound, name in names.items()}
 
 
 def _ranges(grid, chosen):

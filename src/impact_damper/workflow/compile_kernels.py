@@ -100,7 +100,7 @@ def warm_up_settling() -> None:
     settling = Settling(patience=100, limit=100, watched=1)
     basins(OSCILLATOR, None, FREQUENCY, cells=2, settling=settling)
     numbers = {"trials": 1, "tested": 1, "cells": 4, "settling": settling}
-    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], noisy_frequency=2.0, **numbers)
+    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], noisy_frequencies=[], **numbers)
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
     )

@@ -3,6 +3,7 @@
 from impact_damper.data.variables.variable import Variable
 
 CASE = ("case", "frequency")
+DISTURBED = ("case", "noisy_frequency", "disturbance", "margin")
 
 VARIABLES = {
     "case": Variable(("case",), "index of a damper"),
@@ -12,10 +13,17 @@ VARIABLES = {
         ("margin",),
         "least distance inside the goal's basin, over the size of the resonance",
     ),
-    "noise": Variable(
-        ("noise",), "error of the measured state, over the size of the resonance motion"
+    "noisy_frequency": Variable(
+        ("noisy_frequency",),
+        "forcing frequency at which disturbances are studied",
+        "Omega",
+        quantity="frequency",
     ),
-    "delay": Variable(("delay",), "delay of the release in forcing periods"),
+    "disturbance": Variable(
+        ("disturbance",),
+        "error of the measured state over the size of the resonance motion, delay in forcing "
+        "periods, or errors of the damping and the force that the controller assumes",
+    ),
     "case_mass_ratio": Variable(("case",), "mass ratio of a damper", "rm"),
     "case_clearance": Variable(("case",), "clearance of a damper", "d0", quantity="clearance"),
     "case_restitution": Variable(("case",), "coefficient of restitution of a damper", "e"),
@@ -32,7 +40,8 @@ VARIABLES = {
     "policy_impacts": Variable((*CASE, "policy", "bound"), "median of the impacts"),
     "policy_releases": Variable((*CASE, "policy"), "mean number of releases"),
     "policy_hold": Variable(
-        (*CASE, "policy"), "forcing periods with the damper on that the policy chose"
+        (*CASE, "policy"),
+        "forcing periods with the damper on that the policy chose: hold, phase and, at most, state",
     ),
     "policy_phase": Variable(
         (*CASE, "policy"), "phase Omega T of the release that the policy chose", units="radian"
@@ -56,14 +65,11 @@ VARIABLES = {
         "median over phases of the least change of velocity that leads to the goal",
         quantity="velocity",
     ),
-    "noisy_success": Variable(
-        ("noise", "margin", "bound"), "share of trials that reach the goal with a noisy state"
+    "disturbed_success": Variable(
+        (*DISTURBED, "bound"), "share of trials that reach the goal in spite of a disturbance"
     ),
-    "delayed_success": Variable(
-        ("delay", "margin", "bound"), "share of trials that reach the goal with a late release"
-    ),
-    "wrong_model_success": Variable(
-        ("margin", "bound"),
-        "share of trials that reach the goal with damping and force wrong by 5 % and 1 %",
+    "disturbed_cycles": Variable(
+        (*DISTURBED, "bound"),
+        "median of the forcing periods until the goal in spite of a disturbance",
     ),
 }

@@ -128,7 +128,9 @@ class ReleasePolicies(WithOscillator):
 
     dampers: entries(PolicyDamper)
     frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
-    noisy_frequency: FREQUENCY
+    noisy_frequencies: several(
+        FREQUENCY, "frequencies with noise, delay and a wrong model", least=1, distinct=True
+    )
     trials: count("trials of each policy", **RUNS_RANGE)
     tested: count("releases that test the prediction", **RUNS_RANGE)
     cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
@@ -136,9 +138,10 @@ class ReleasePolicies(WithOscillator):
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)
         yield from increasing((*path, "frequencies"), self.frequencies, "frequencies of a curve")
-        if self.noisy_frequency not in self.frequencies:
-            reason = f"must be one of {dotted((*path, 'frequencies'))}"
-            yield problem((*path, "noisy_frequency"), self.noisy_frequency, reason)
+        for index, frequency in enumerate(self.noisy_frequencies):
+            if frequency not in self.frequencies:
+                reason = f"must be one of {dotted((*path, 'frequencies'))}"
+                yield problem((*path, "noisy_frequencies", index), frequency, reason)
 
 
 SECTIONS = {

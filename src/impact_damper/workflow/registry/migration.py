@@ -43,7 +43,7 @@ def basins(config, name):
 
 def release_policies(config, name):
     entry = config["release_policies"][name]
-    keys = ("frequencies", "noisy_frequency", "trials", "tested", "cells")
+    keys = ("frequencies", "noisy_frequencies", "trials", "tested", "cells")
     return {
         "oscillator": oscillator(config, entry["oscillator"]),
         "dampers": [damper(config, each) for _, each in sorted(entry["dampers"].items())],
@@ -64,6 +64,7 @@ KINDS = (
     Kind("release", ("migration",)),
     Kind("basins", ("basins",), damper=False, most=4),
     Kind("release_policies", ("release_policies",), most=1),
+    Kind("release_disturbances", ("release_policies",), most=1),
 )
 TABLES = (
     Table(
@@ -80,8 +81,21 @@ TABLES = (
     ),
     Table(
         "release_policies",
-        "tables.migration",
+        "tables.policies",
         ("release_policies",),
-        "When to let go of the damper: success and cycles of each policy.",
+        "When to let go of the damper: success and cycles of each policy, with a bound.",
+    ),
+    Table(
+        "release_predictions",
+        "tables.policies",
+        ("release_policies",),
+        "Whether releases do what the release set predicts, on releases not used to build it, and "
+        "whether the policy by state takes at most half the time of random release.",
+    ),
+    Table(
+        "release_disturbances",
+        "tables.policies",
+        ("release_policies",),
+        "Noise, delay and a wrong model: success of the policy by state and the best margin.",
     ),
 )

@@ -1,0 +1,78 @@
+"""Noise, delay and a wrong model in the release by state (figure kind `release_disturbances`)."""
+
+import numpy as np
+
+from impact_damper.figures.release_policies import case_label
+from impact_damper.figures.style import (
+    CURVES,
+    GREY,
+    PALE,
+    curve,
+    figure,
+    letter_panels,
+    style,
+)
+
+CAPTION = """
+Against the margin inside the basin that the controller asks for, over the size of the resonance
+motion. Above: share of trials that reach the non-resonance motion within 350 cycles. Below: median
+of the cycles. Noise is relative to the resonance motion; h and the force are those that the
+controller assumes. Dotted, with grey area: what a controller could reach that knows state and future.
+"""
+
+# Disturbances that are drawn, and their words; the table has all.
+WORDS = {
+    "none": "none",
+    "noise 10 %": "noise of 10 %",
+    "delay 1/4": "1/4 period late",
+    "h -5 %, force +1 %": "h 5 % too low, force 1 % too high",
+    "noise 3 %, delay 1/8, h +5 %, force -1 %": "noise of 3 %, 1/8 period late, wrong h and force",
+}
+
+
+@style({"axes.titley": None})
+def draw_release_disturbances(*, release_policies):
+    """Draw success (above) and cycles (below) against the margin for each disturbance and damper.
+
+    Parameters
+    ----------
+    release_policies : list of xarray.Dataset
+        One dataset of the stage release_policies.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    (data,) = release_policies
+    drawn = figure("double", 5.4)
+    panels = drawn.subplots(2, data.sizes["case"], sharex=True, sharey="row", squeeze=False)
+    frequencies = data["noisy_frequency"].values
+    for row, (quantity, frequency) in enumerate(
+        [("success", frequencies.min()), ("cycles", frequencies.max())]
+    ):
+        for case, axes in enumerate(panels[row]):
+            one = data.isel(case=case).sel(noisy_frequency=frequency)
+            axes.set_title(rf"$\Omega = {frequency:g}$, {case_label(one)}", fontsize=7, loc="right")
+            bound = one[f"policy_{quantity}"].sel(policy="clairvoyant", frequency=frequency)
+            draw_disturbances(axes, one[f"disturbed_{quantity}"], bound)
+    panels[0, 0].set(ylabel="Share within 350 cycles", ylim=(-0.05, 1.05))
+    panels[1, 0].set(ylabel="Median of the cycles", ylim=(8, 400), yscale="log")
+    for axes in panels[-1]:
+        axes.set_xlabel("Margin")
+    letter_panels(panels.ravel())
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside lower center", ncols=3)
+    return drawn
+
+
+def draw_disturbances(axes, values, bound):
+    """Draw success or median against the margin for each disturbance, and the clairvoyant bound."""
+    if "quantile" in bound.dims:
+        bound = bound.sel(quantile=0.5)
+    share, lower, upper = (float(bound.sel(bound=name)) for name in ("share", "lower", "upper"))
+    axes.axhspan(lower, min(upper, 1e3), color=PALE)
+    axes.axhline(share, color=GREY, linestyle=":", label="future known")
+    for k, (disturbance, words) in enumerate(WORDS.items()):
+        look = curve(k) | {"marker": CURVES[k][2], "label": words}
+        one = values.sel(disturbance=disturbance, bound="share")
+        axes.plot(values["margin"], one.where(np.isfinite(one)), **look)

@@ -1,0 +1,62 @@
+"""The free oscillator and the trials that stages of policies of migration share."""
+
+import math
+
+import numpy as np
+
+from impact_damper.data.shares import QUANTILE, wilson
+from impact_damper.migration.free_case import FreeCase
+from impact_damper.migration.release_set import release_set
+from impact_damper.motions.free_motions import free_motions
+from impact_damper.stages.basins import REACH, free_attractors
+from impact_damper.system.packed import pack
+
+# Phases of the forcing at which the state is looked at.
+PHASES = 16
+QUANTILES = [0.5, 0.95]
+
+
+def free_case(oscillator, frequency, cells, settling, workers) -> FreeCase:
+    """Return the free oscillator at a frequency with its release set.
+
+    Raises
+    ------
+    ValueError
+        If it has not both a non-resonance and a resonance motion.
+    """
+    p = pack(oscillator, None, frequency)
+    known = free_motions(oscillator, frequency, settling)
+    window = REACH / 2 * np.array([known.displacement, known.speed])
+    attractors = free_attractors(p, window, settling)
+    ones = np.flatnonzero(attractors.records["period"] == 1)
+    if len(ones) < 2 or ones[-1] != len(attractors.records) - 1:
+        raise ValueError(
+            f"frequency = {frequency:g}: must have a non-resonance and a resonance motion "
+            "without the damper"
+        )
+    goal = int(ones[0])
+    releases = release_set(p, attractors, goal, PHASES, cells, settling, workers)
+    return FreeCase(p, attractors, goal, releases, settling, workers)
+
+
+def summary(outcome):
+    """Return registered variables of the trials of one policy."""
+    return {
+        "policy_success": wilson(np.sum(outcome.reached), len(outcome.reached)),
+        "policy_cycles": [quantile(outcome.cycles, share) for share in QUANTILES],
+        "policy_damper": quantile(outcome.damper, 0.5),
+        "policy_impacts": quantile(outcome.impacts, 0.5),
+        "policy_releases": np.mean(outcome.releases),
+    }
+
+
+def quantile(values, share):
+    """Return a quantile and its distribution-free 95 % interval, by order statistics, shape (3,).
+
+    The number of values below the quantile is binomial.
+    """
+    ordered, count = np.sort(np.asarray(values, float)), len(values)
+    spread = QUANTILE * math.sqrt(count * share * (1 - share))
+    places = count * share + np.array([0.0, -spread, spread])
+    rounded = [math.ceil(places[0]) - 1, math.floor(places[1]) - 1, math.ceil(places[2])]
+    return ordered[np.clip(rounded, 0, count - 1)]
