@@ -52,6 +52,7 @@ LARGE = {
     "orbits": "one file for each way to find or to follow orbits, and what these share",
     "rivals": "one file for each integrator, and what they and the models share",
     "stages": "one file for each stage of the workflow; some stages have a second one",
+    "tables": "one file for each subject; a subject's tables share the reading of its datasets",
     "theory": "one file for each approximation, and the mathematics they share",
     "workflow/models": "one file for each subject of the configuration, and what they share",
 }

@@ -16,9 +16,8 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Above: share of trials that reach the non-resonance motion within 350 cycles, with 95 % intervals,
-by four rules of release, with the numbers of cycles and the phase that were best in other trials.
-Below: median of the cycles. Dotted, with grey area: what a controller could reach that knows state
-and future exactly.
+by four rules of release, their numbers chosen in other trials. Below: median of the cycles. Dotted,
+with grey area: what a controller could reach that knows state and future.
 """
 
 WORDS = {
