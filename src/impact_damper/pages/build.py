@@ -11,17 +11,17 @@ from impact_damper.machine.machine import EXCITATIONS
 from impact_damper.pages.blocks import Numbers, Picture, Section, Words, percent, shown
 from impact_damper.tables.machines import named
 
-# Given values of a machine: words, unit.
+# Given values of a machine: words, unit, and this unit in SI units.
 GIVEN = {
-    "mass": ("mass without the loose mass", "kg"),
-    "linear_stiffness": ("stiffness of the spring", "N/m"),
-    "cubic_stiffness": ("cubic stiffness of the spring", "N/m³"),
-    "damping_ratio": ("damping ratio", ""),
-    "damping": ("coefficient of the dashpot", "N s/m"),
-    "force": ("amplitude of the force", "N"),
-    "unbalance": ("unbalance", "kg m"),
-    "base_displacement": ("amplitude of the moving base", "m"),
-    "base_acceleration": ("amplitude of the base's acceleration", "m/s²"),
+    "mass": ("mass without the loose mass", "kg", 1),
+    "linear_stiffness": ("stiffness of the spring", "N/m", 1),
+    "cubic_stiffness": ("cubic stiffness of the spring", "N/m³", 1),
+    "damping_ratio": ("damping ratio", "%", 0.01),
+    "damping": ("coefficient of the dashpot", "N s/m", 1),
+    "force": ("amplitude of the force", "N", 1),
+    "unbalance": ("unbalance", "kg mm", 1e-3),
+    "base_displacement": ("amplitude of the moving base", "mm", 1e-3),
+    "base_acceleration": ("amplitude of the base's acceleration", "m/s²", 1),
 }
 HOW = (
     "Give the loose mass a straight slot in the machine, along the direction in which the machine "
@@ -104,10 +104,10 @@ def _machine(asked):
     rows = [
         (
             f"machine: {words}",
-            f"{shown(machine[name], unit)}{_deviation(asked, deviating.get(name, name))}",
+            f"{shown(machine[name] / size, unit)}{_deviation(asked, deviating.get(name, name))}",
             f"parameters.machine.{name}",
         )
-        for name, (words, unit) in GIVEN.items()
+        for name, (words, unit, size) in GIVEN.items()
         if machine.get(name)
     ]
     low, high = asked["band"]
