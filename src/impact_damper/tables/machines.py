@@ -56,7 +56,7 @@ def _row(name, data):
         "band, Hz": " to ".join(f"{end:g}" for end in asked["band"]),
         "gap (full play), mm": _gap(data, asked["tolerances"].get("gap", 0.0)),
         "advice": CHOICES[named(data, "design_choice")],
-        "largest without damper, mm": _digits(data["balance_displacement"].max()),
+        "largest without damper, mm": float(data["balance_displacement"].max()),
         "largest with it, mm": escape_or(data["reached_displacement"].max()),
         "quiet share of 1000 unseen starts": unseen[0],
         "corners of the tolerances": len(unseen) - 1,
@@ -74,11 +74,6 @@ def _gap(data, tolerance):
     return f"{gap} ± {100 * tolerance:.3g} %"
 
 
-def _digits(size):
-    """Return a number with four digits."""
-    return float(f"{float(size):.4g}")
-
-
 def named(data, name) -> str:
     """Return the meaning of a flag of a dataset."""
     flags = VARIABLES[name].flags
@@ -86,5 +81,6 @@ def named(data, name) -> str:
 
 
 def escape_or(size):
-    """Return a size as a number of four digits, or the word for a motion that escapes."""
-    return "escapes" if np.isinf(size) else _digits(size)
+    """Return a size as a number, or the word for a motion that escapes and has none."""
+    size = float(size)
+    return "escapes" if np.isinf(size) else size
