@@ -86,7 +86,7 @@ def absorber_responses(
         and how the search for motions ended; over the force share the largest displacement between
         the first and the last frequency, sought between the frequencies too, and where it is; over
         `competitor` and `detuning` the stiffness, damping and cubic stiffness of the absorbers. The
-        bare machine has the same values at all
+        machine alone has the same values at all
         detunings. The attribute `remarks` says in words, keyed by competitor, why one is not
         possible.
 
@@ -119,7 +119,7 @@ def absorber_responses(
     for name, absorber in absorbers.items():
         row = COMPETITORS.index(name)
         for column, detuning in enumerate(detunings if absorber else [None]):
-            # all detunings of the bare machine at once
+            # all detunings of the machine alone at once
             column = column if absorber else slice(None)
             built = absorber and absorber.detuned(detuning)
             values, sizes = _responses(machine, built, frequencies, shares, starts, seed, sizes)
@@ -142,7 +142,7 @@ def absorber_responses(
 def competitors(machine, mass, frequencies, band=None):
     """Return the absorbers keyed by competitor, and remarks on those that are not possible.
 
-    The absorber of the bare machine is None. Arguments as of `absorber_responses`.
+    The absorber of the machine alone is None. Arguments as of `absorber_responses`.
     """
     absorbers, remarks = {"bare": None}, {}
     if machine.linear_stiffness == 0:

@@ -135,7 +135,7 @@ def _design_orbits(datasets):
 
 
 def _quiet_and_high_orbits(datasets):
-    """Measures of claim 3 for omega_l = 0, from the ranges of W of quiet and high exact orbits."""
+    """Measures of claim 3 for omega_l = 0, from the ranges of W of quiet and violent orbits."""
     reach, beside, pairs = [], [], []
     for name in extract.ELASTIC:
         branches, free = exact_orbits.of_curve(datasets, name)
@@ -169,8 +169,7 @@ CLAIMS = (
         source="section 3",
         interpretation="Near the peak frequency, for the designs with the clearance of (19), and "
         "for the exact orbits of the dampers of figures 5 and 8, whose rm Wp^2 d0 is within 4 % "
-        "of 1. A small motion has period 1 and less than half of the amplitude of the free "
-        "resonance.",
+        "of 1. A small motion is a quiet one, of period 1 and below half of the free resonance.",
         measures=(
             Measure(
                 "vanishing",
@@ -243,51 +242,51 @@ CLAIMS = (
         text="Whatever omega_l, a stable low-amplitude solution exists around Wp; a stable "
         "high-amplitude one coexists outside the suppression band.",
         source="section 3, figure 3",
-        interpretation="Low and high mean below and above half of the free resonance. Outside the "
-        "band means from 0.75 Wp to the lower edge of the band, since above the band the "
-        "resonance branch has ended. Judged by the stable solutions of (7), for omega_l = 0 also "
-        "by the stable exact orbits of any period, and for the designs of figure 3 by the exact "
-        "quiet orbit at Wp, followed from heavy damping.",
+        interpretation="Low and high amplitudes are read as quiet and violent motions, below and "
+        "above half of the free resonance. Outside the band means from 0.75 Wp to the lower edge "
+        "of the band, since above the band the resonance branch has ended. Judged by the stable "
+        "solutions of (7), for omega_l = 0 also by the stable exact orbits of any period, and for "
+        "the designs of figure 3 by the exact quiet orbit at Wp, followed from heavy damping.",
         measures=(
             Measure(
                 "reach",
-                "least distance from Wp, over Wp, to a frequency without a stable low solution",
+                "least distance from Wp, over Wp, to a frequency without a stable quiet solution",
                 least=0.1,
                 decisive=True,
             ),
             Measure("bands", "share of designs with a suppression band", least=1, decisive=True),
             Measure(
                 "beside",
-                "least share of frequencies below the band with a stable high solution",
+                "least share of frequencies below the band with a stable violent solution",
                 least=0.5,
                 decisive=True,
             ),
             Measure(
                 "beside",
-                "least share of frequencies below the band with a stable high solution",
+                "least share of frequencies below the band with a stable violent solution",
                 least=1,
             ),
             Measure(
                 "orbit_reach",
-                "least distance from Wp, over Wp, to a frequency without a stable low orbit",
+                "least distance from Wp, over Wp, to a frequency without a stable quiet orbit",
                 least=0.1,
                 decisive=True,
             ),
             Measure(
                 "orbits_beside",
-                "least share of the range below the band with a stable high orbit",
+                "least share of the range below the band with a stable violent orbit",
                 least=0.5,
                 decisive=True,
             ),
             Measure(
                 "orbits_beside",
-                "least share of the range below the band with a stable high orbit",
+                "least share of the range below the band with a stable violent orbit",
                 least=1,
             ),
             Measure(
                 "truly_stable",
-                "share of the stable high solutions of (7) whose nearest symmetric orbit with two "
-                "contacts is stable",
+                "share of the stable violent solutions of (7) whose nearest symmetric orbit with "
+                "two contacts is stable",
             ),
             Measure(
                 "multiplier", "median of the largest Floquet multiplier modulus of these orbits"

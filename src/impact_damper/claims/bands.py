@@ -104,9 +104,9 @@ CLAIMS = (
         "in it barely depends on omega_l.",
         source="sections 3 and 4, figures 3, 5 and 10",
         interpretation="The width is taken by harmonic balance, and for rm and e also by the "
-        "motions that exist: from the end of the last stable high orbit or high chaotic motion to "
-        "the fold of the free resonance branch. The reduction is 1 - |a|/(free amplitude) at Wp, "
-        "with the clearances of the captions.",
+        "motions that exist: from the end of the last violent motion, a stable orbit or chaotic, "
+        "to the fold of the free resonance branch. The reduction is 1 - |a|/(free amplitude) at "
+        "Wp, with the clearances of the captions.",
         measures=(
             Measure(
                 "linear",

@@ -53,7 +53,7 @@ def high_and_chaotic(datasets):
         total.append(np.sum(chaotic) * extract.spacing(response))
     contacts, orbits, twins = np.concatenate(contacts), pd.concat(orbits), pd.concat(twins)
     if len(contacts) == 0 or not orbits.a.notna().any():
-        raise Missing("There is no stable high orbit beside a solution of (7)")
+        raise Missing("There is no stable violent orbit beside a solution of (7)")
     return {
         "more": np.mean(contacts > 2 + 1e-6),
         "fewest": np.nanmin(fewest),
@@ -67,7 +67,7 @@ def high_and_chaotic(datasets):
 
 
 def _lasting(response, free):
-    """Return whether each chaotic high motion lasted in all runs by which its life was measured."""
+    """Return whether each violent chaos lasted in all runs by which its life was measured."""
     chaotic = high_motions(response, free) & extract.is_outcome(response, "chaotic")
     ends = response.life_ends.transpose(*chaotic.dims).values[chaotic.values]
     return ends[ends >= 0] == 0
@@ -107,7 +107,7 @@ CLAIMS = (
             ),
             Measure(
                 "skew",
-                "largest distance of such an orbit from its mirror image half a period later",
+                "largest distance of such an orbit from its mirror image half a cycle later",
                 most=1e-6,
                 decisive=True,
             ),
@@ -123,26 +123,26 @@ CLAIMS = (
         "harmonic balance; regions of different impact number are separated by narrow chaotic "
         "regimes.",
         source="section 3, figure 5",
-        interpretation="A high motion is above half of the free resonance. Contacts are counted "
-        "for all high motions at the frequencies of the responses, chaotic ones included. "
-        "Harmonic balance is compared with max |Z1| of the stable high orbits of any period. A "
-        "narrow range is at most 0.1 wide in W.",
+        interpretation="High amplitude is read as a violent motion, above half of the free "
+        "resonance. Contacts are counted for all violent motions at the frequencies of the "
+        "responses, chaotic ones included. Harmonic balance is compared with max |Z1| of the "
+        "stable violent orbits of any period. A narrow range is at most 0.1 wide in W.",
         measures=(
             Measure(
                 "more",
-                "share of high motions with more than two contacts a period",
+                "share of violent motions with more than two contacts a cycle",
                 least=0.5,
                 decisive=True,
             ),
             Measure(
                 "error",
-                "median relative difference between |a| and max |Z1| of stable high orbits",
+                "median relative difference between |a| and max |Z1| of stable violent orbits",
                 most=0.1,
                 decisive=True,
             ),
             Measure(
                 "harmonic",
-                "median relative difference between |a| and the first harmonic of stable high "
+                "median relative difference between |a| and the first harmonic of stable violent "
                 "orbits",
             ),
             Measure(
@@ -151,17 +151,19 @@ CLAIMS = (
                 "symmetric orbit with two contacts, stable or unstable",
             ),
             Measure(
-                "fewest", "smallest number of contacts a period of a stable high orbit", least=2.01
+                "fewest",
+                "least number of contacts a cycle of a stable violent orbit",
+                least=2.01,
             ),
             Measure(
-                "widest", "width in W of the widest range with a chaotic high motion", most=0.1
+                "widest", "width in W of the widest range with a chaotic violent motion", most=0.1
             ),
             Measure(
-                "total", "total width in W with a chaotic high motion, largest value of a damper"
+                "total", "total width in W with a chaotic violent motion, largest value of a damper"
             ),
             Measure(
                 "lasting",
-                "share of the chaotic high motions none of whose runs ended, all others being "
+                "share of the chaotic violent motions none of whose runs ended, all others being "
                 "transients",
             ),
         ),
@@ -194,7 +196,7 @@ CLAIMS = (
                 "within_gap", "least share of starts that collide, ball within the gap", least=1
             ),
             Measure("beyond_wall", "largest share of starts in the literal ball beyond a wall"),
-            Measure("wait", "longest time to the first collision, forcing periods"),
+            Measure("wait", "longest time to the first collision, in cycles"),
         ),
         evidence=first_collisions,
         finding=motions_findings.first_collisions,

@@ -39,7 +39,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Mask of the high motions with the damper.
+    """Mask of the violent motions with the damper.
 
     `response` is a dataset of the stage `response`; `free` holds the branches without damper.
     """
@@ -51,15 +51,15 @@ def high_motions(response, free):
 
 
 def chaotic_high(response, free):
-    """Mask of the frequencies at which a high motion with damper is chaotic."""
+    """Mask of the frequencies at which a violent motion with damper is chaotic."""
     return (high_motions(response, free) & extract.is_outcome(response, "chaotic")).any("motion")
 
 
 def suppression_band(datasets, name):
-    """Return the range of W without a high motion, below the end of the free resonance branch.
+    """Return the range of W without a violent motion, below the end of the free resonance branch.
 
     The lower edge is the larger of two frequencies: the upper end of the branches of stable high
-    orbits, and the last frequency of the response with a high motion that did not settle. The
+    orbits, and the last frequency of the response with a violent motion that did not settle. The
     latter is known only to within one step of the response's frequencies.
 
     Raises

@@ -59,7 +59,8 @@ NO_ORBIT = BestOrbit(np.nan, np.nan, np.nan, np.nan, np.nan, "absent")
 def refine(task, grid, stable) -> BestOrbit:
     """Return the smallest stable quiet orbit of a map.
 
-    Its frequency is that at which, of those with a stable quiet orbit, the bare machine moves most.
+    Its frequency is the one, of those with a stable quiet orbit, at which the machine alone moves
+    most.
 
     Parameters
     ----------

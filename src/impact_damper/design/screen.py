@@ -1,4 +1,4 @@
-"""First look at a design: the bare machine, rules for the gap, and exact quiet orbits.
+"""First look at a design: the machine alone, rules for the gap, and exact quiet orbits.
 
 The screening uses the cheapest model that answers a question. Harmonic balance gives the response
 without the damper; the flight rule and, for a linear machine, the slow invariant manifold give the
@@ -124,9 +124,9 @@ def screen(task, *, workers=1, progress=None) -> Screening:
 def _limit(task, best):
     """Return the largest displacement of a quiet motion as far as the orbits tell, mm.
 
-    If the task gives none: the geometric mean of the displacements of the bare machine and of the
+    If the task gives none: the geometric mean of the displacements of the machine alone and of the
     best orbit at its frequency, so that a motion is quiet if it lies, on a logarithmic scale,
-    nearer to the orbit. Without an orbit, half of the bare machine's displacement.
+    nearer to the orbit. Without an orbit, half of the machine's own displacement.
     """
     if task.displacement_limit is not None:
         return 1e3 * task.displacement_limit

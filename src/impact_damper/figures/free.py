@@ -5,7 +5,7 @@ from impact_damper.figures.style import axis_label, figure, legend, letter_panel
 
 CAPTION = """
 Largest displacement of the periodic orbits without a damper against forcing frequency, on every
-branch on which a settled motion was found. Triangles: period of three forcing periods. Short
+branch on which a settled motion was found. Triangles: period of three cycles. Short
 vertical lines: other periods.
 """
 

@@ -78,7 +78,7 @@ def draw_method_verdicts(*, method_verdicts):
             axes.invert_xaxis()
         axes.xaxis.set_major_locator(LogLocator(numticks=4))
         axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_xlabel("Steps a forcing period" if fixed else axis_label(data["method_tolerance"]))
+        axes.set_xlabel("Steps a cycle" if fixed else axis_label(data["method_tolerance"]))
         axes.set_yticks(
             scenes[:-1] + 0.5, [CASES.get(str(name), str(name)) for name in data["scene"].values]
         )

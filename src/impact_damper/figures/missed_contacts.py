@@ -49,7 +49,7 @@ def draw_missed_contacts(*, missed_contacts):
         image = _panel(axes, data, name)
         axes.set_title(METHODS[name].title, loc="right", fontsize=8)
         if METHODS[name].fixed:
-            axes.set_ylabel("Steps a forcing period")
+            axes.set_ylabel("Steps a cycle")
         elif k % COLUMNS == 0:
             axes.set_ylabel(axis_label(data["method_tolerance"]))
         if k + COLUMNS >= count:

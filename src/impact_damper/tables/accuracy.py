@@ -21,7 +21,7 @@ WORDS = {
     "state": "state to {:g}",
     "contact_time": "contact times to {:g}",
     "contacts": "number of contacts to {:g}",
-    "contact_rate": "contacts a period to {:g} of them",
+    "contact_rate": "contacts a cycle to {:g} of them",
     "displacement": "mean max |Z1| to {:g} of it",
     "exponent": "Lyapunov exponent to {:g} of it",
 }
@@ -38,7 +38,7 @@ SHOWN = {
         "meets it": "meets it",
         "choice": "choice",
         "of max |Z1|": "error of max |Z1|",
-        "contacts a period": "contacts a forcing period",
+        "contacts a period": "contacts a cycle",
     },
     "readings": {
         "data": "data",

@@ -12,8 +12,8 @@ from impact_damper.rivals.words import CASES, method_in_words
 
 
 def _setting(label):
-    """Return the setting of a method: steps in a forcing period or tolerance."""
-    return "steps a period" if METHODS[name_and_mode(label)[0]].fixed else "tolerance"
+    """Return the setting of a method: steps in a cycle or tolerance."""
+    return "steps a cycle" if METHODS[name_and_mode(label)[0]].fixed else "tolerance"
 
 
 # Columns of the Markdown tables with their heads; the CSV files have all columns.
@@ -22,7 +22,7 @@ SHOWN = {
         "data": "data",
         "method": "method",
         "tolerance": "tolerance",
-        "fixed steps": "fixed steps a period",
+        "fixed steps": "fixed steps a cycle",
         "contacts": "contacts near grazing",
         "found": "found",
         "unseen": "passed unseen",
@@ -35,7 +35,7 @@ SHOWN = {
         "within": "allowed error",
         "r1": "contact stiffness r1",
         "h": "largest step h",
-        "steps a period": "steps a forcing period",
+        "steps a period": "steps a cycle",
         "h omega_c": "h ωc, ωc the contact frequency",
         "slope of 1/h in r1": "slope of log 1/h over log r1",
         "its error": "standard error of the slope",

@@ -57,9 +57,9 @@ SHOWN = {
         "Lyapunov exponent": "Lyapunov exponent",
         "runs that end": "runs in which chaos ends",
         "of": "of runs",
-        "mean life, periods": "mean life [forcing periods]",
-        "at least": "at least [forcing periods]",
-        "at most": "at most [forcing periods]",
+        "mean life, periods": "mean life [cycles]",
+        "at least": "at least [cycles]",
+        "at most": "at most [cycles]",
     },
     "shares": {
         "data": "data",

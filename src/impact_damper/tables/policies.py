@@ -15,9 +15,9 @@ SHOWN = {
     | {
         "policy": "policy",
         "within 350 cycles": "share within 350 cycles",
-        "median cycles": "median time [forcing cycles]",
-        "95 % of cycles": "95 % arrive within [forcing cycles]",
-        "median damper on": "median time with damper [forcing cycles]",
+        "median cycles": "median time [cycles]",
+        "95 % of cycles": "95 % arrive within [cycles]",
+        "median damper on": "median time with damper [cycles]",
     },
     "release_predictions": DAMPER
     | {
@@ -33,7 +33,7 @@ SHOWN = {
         "without margin": "share within 350 cycles without margin",
         "best margin": "best margin",
         "with best margin": "share with the best margin",
-        "median cycles": "median time with the best margin [forcing cycles]",
+        "median cycles": "median time with the best margin [cycles]",
     },
 }
 SYMBOLS = {"rm": "mass_ratio", "d0": "clearance", "e": "restitution"}

@@ -43,7 +43,7 @@ SHOWN = {
     "orbits": {
         "data": "curve",
         "branch": "branch",
-        "period": "period [forcing periods]",
+        "period": "period [cycles]",
         "from W": "from Ω",
         "to W": "to Ω",
         "stable W": "stable Ω",
@@ -54,7 +54,7 @@ SHOWN = {
     "bifurcations": {
         "data": "curve",
         "branch": "branch",
-        "period": "period [forcing periods]",
+        "period": "period [cycles]",
         "W": "forcing frequency Ω",
         "event": "event",
         "max |Z1|": "displacement max |Z1|",

@@ -34,14 +34,14 @@ def quiet_and_high(
         exact = (
             "At Wp the exact quiet orbit is unstable in "
             f"{part_of(1 - designs_stable, 'designs of figure 3', designs)}, with Floquet "
-            f"multipliers up to {number(design_multiplier)}; in all of them it is stable only "
+            f"multipliers up to {number(design_multiplier)}; it is stable in all designs only "
             f"above h = {number(design_damping, 2)}."
         )
     return (
-        f"{exact} By (7) {part_of(bands, 'designs')} have a suppression band, a stable low "
-        f"solution everywhere within {percent(reach)} of Wp, and below the band a stable high "
-        f"solution at {least(beside)} of the frequencies. For omega_l = 0 exact low orbits are "
-        f"stable within {percent(orbit_reach)} of Wp, and stable high ones fill "
+        f"{exact} By (7) {part_of(bands, 'designs')} have a suppression band, a stable quiet "
+        f"solution everywhere within {percent(reach)} of Wp, and below the band a stable violent "
+        f"solution at {least(beside)} of the frequencies. For omega_l = 0 quiet orbits are stable "
+        f"within {percent(orbit_reach)} of Wp, and stable violent ones fill "
         f"{least(orbits_beside)} of the range below the band."
     )
 

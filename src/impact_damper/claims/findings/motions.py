@@ -15,14 +15,14 @@ def quiet_contacts(two, skew, **others):
 
 def high_and_chaotic(more, fewest, error, widest, **others):
     """Return the finding on claim 6."""
-    few = "" if fewest > 2 else f", though some stable high orbits have only {number(fewest)}"
+    few = "" if fewest > 2 else f", though some stable violent orbits have only {number(fewest)}"
     ranges = "The chaotic ranges are narrow: the widest"
     if widest > 0.1:
         ranges = "But the chaotic ranges are not narrow: one"
     return (
-        f"Of the high motions {percent(more)} have more than two contacts a cycle{few}. Harmonic "
-        f"balance differs from the stable high orbits by {percent(error)} in the median. {ranges} "
-        f"is {number(widest, 2)} wide in W."
+        f"Of the violent motions {percent(more)} have more than two contacts a cycle{few}. "
+        f"Harmonic balance differs from the stable violent orbits by {percent(error)} in the "
+        f"median. {ranges} is {number(widest, 2)} wide in W."
     )
 
 

@@ -46,7 +46,7 @@ VARIABLES = {
     ),
     "average_error": Variable(
         (*RUN, "statistic"),
-        "standard error of the average, from its values in batches of forcing periods",
+        "standard error of the average, from its values in batches of cycles",
     ),
     "reference_average": Variable(("statistic",), "average in the reference"),
     "reference_average_error": Variable(

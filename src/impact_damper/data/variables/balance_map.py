@@ -131,10 +131,8 @@ VARIABLES = {
         flags=RUN_MOTION,
     ),
     "high_run_outcome": Variable(CELL, "outcome of the high run", flags=OUTCOME),
-    "high_run_period": Variable(
-        CELL, "period of the motion of the high run in forcing periods", "n"
-    ),
-    "high_run_contacts": Variable(CELL, "contacts begun per forcing period in the high run"),
+    "high_run_period": Variable(CELL, "period of the motion of the high run in cycles", "n"),
+    "high_run_contacts": Variable(CELL, "contacts begun per cycle in the high run"),
     "high_run_displacement": Variable(CELL, "largest displacement in the high run", "max |Z1|"),
     "high_run_exponent": Variable(CELL, "largest Lyapunov exponent of the high run, per unit time"),
     "high_run_error": Variable(CELL, "standard error of high_run_exponent"),

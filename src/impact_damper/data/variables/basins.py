@@ -36,14 +36,14 @@ VARIABLES = {
     ),
     "basin_periods": Variable(
         ("basin_velocity", "basin_displacement"),
-        "forcing periods after which it is known where a state leads",
+        "cycles after which it is known where a state leads",
     ),
     "basin_share": Variable(
         ("attractor", "basin_velocity", "basin_displacement"),
         "share of the places of the loose mass from which a state leads to an attractor",
     ),
     "attractor": Variable(("attractor",), "index of an attractor, by rising max |Z1|"),
-    "attractor_period": Variable(("attractor",), "period in forcing periods", "n"),
+    "attractor_period": Variable(("attractor",), "period in cycles", "n"),
     "attractor_displacement": Variable(
         ("attractor",), "largest displacement", "max |Z1|", quantity="displacement"
     ),
@@ -74,7 +74,7 @@ VARIABLES = {
     "without_attractor": Variable(
         ("without_attractor",), "reason why a state leads to no attractor"
     ),
-    "saddle_period": Variable(("saddle",), "period of an unstable orbit in forcing periods", "n"),
+    "saddle_period": Variable(("saddle",), "period of an unstable orbit in cycles", "n"),
     "saddle_displacement": Variable(
         ("saddle",),
         "displacement of an unstable orbit at the phase of the plane",

@@ -27,7 +27,7 @@ VARIABLES = {
     ),
     "orbit_limit": Variable(
         (),
-        "displacement halfway, in logarithms, between the bare machine and its least quiet orbit",
+        "displacement halfway, in logarithms, between the machine alone and its least quiet orbit",
         quantity="displacement",
     ),
     "displacement_limit": Variable(
@@ -50,7 +50,7 @@ VARIABLES = {
     ),
     "best_orbit_frequency": Variable(
         (),
-        "frequency at which, of those with a stable quiet orbit, the bare machine moves most",
+        "frequency at which, of those with a stable quiet orbit, the machine alone moves most",
         quantity="frequency",
     ),
     "best_orbit_gap": Variable(
@@ -95,10 +95,8 @@ VARIABLES = {
     "median_displacement": Variable(
         CELL, "median displacement of the motions that starts reach", quantity="displacement"
     ),
-    "quiet_time_median": Variable(
-        CELL, "median of the forcing periods in which quiet motions settle"
-    ),
-    "quiet_time_late": Variable(CELL, "forcing periods in which 95 % of the quiet motions settle"),
+    "quiet_time_median": Variable(CELL, "median of the cycles in which quiet motions settle"),
+    "quiet_time_late": Variable(CELL, "cycles in which 95 % of the quiet motions settle"),
     "chaotic_share": Variable(CELL, "share of starts that lead to chaos"),
     "uncertain_share": Variable(
         CELL, "share of starts whose motion had neither settled nor was certainly chaotic"
@@ -138,9 +136,7 @@ VARIABLES = {
     ),
     "life_gap": Variable(("life",), "gap at which lives were observed", quantity="displacement"),
     "life_share": Variable(("life", BOUND), "share of starts that end quiet in the longest run"),
-    "life_rate": Variable(
-        ("life", BOUND), "rate at which other motions become quiet, per forcing period"
-    ),
+    "life_rate": Variable(("life", BOUND), "rate at which other motions become quiet, per cycle"),
     "branch_frequency": Variable(
         (), "frequency at which the quiet orbit is followed", quantity="frequency"
     ),
@@ -245,7 +241,7 @@ VARIABLES = {
         ("frequency",), "r.m.s. displacement of the largest motion reached", quantity="displacement"
     ),
     "motion_peak_mean": Variable(
-        ("frequency",), "mean of its peaks of each forcing period", quantity="displacement"
+        ("frequency",), "mean of its peaks of each cycle", quantity="displacement"
     ),
     "motion_peak_high": Variable(
         ("frequency",), "95th percentile of these peaks", quantity="displacement"

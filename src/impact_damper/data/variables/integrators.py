@@ -43,7 +43,7 @@ VARIABLES = {
     ),
     "mean_steps": Variable(
         ("integrator", "method_tolerance"),
-        "mean number of steps per forcing period in flight, failed runs excluded",
+        "mean number of steps per cycle in flight, failed runs excluded",
     ),
     "motion_error": Variable(
         ("integrator", "method_tolerance"),
@@ -51,9 +51,7 @@ VARIABLES = {
     ),
     "passages": Variable(("integrator",), "number of passages run for each tolerance"),
     "passages_drawn": Variable((), "number of random flights among which the passages were chosen"),
-    "fixed_steps": Variable(
-        ("method_tolerance",), "steps per forcing period of the fixed-step method"
-    ),
+    "fixed_steps": Variable(("method_tolerance",), "steps per cycle of the fixed-step method"),
     "expected_unseen": Variable(
         ("method_tolerance", "depth"),
         "expected share of contacts that lie between two ends of fixed steps, at random times",
@@ -74,7 +72,7 @@ VARIABLES = {
         ("fixed_method", "contact_stiffness", "scaled_step"),
         "largest relative deviation of max |Z1| in any period, infinite if the run diverged",
     ),
-    "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps per forcing period"),
+    "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps per cycle"),
     "stable_step": Variable(
         ("fixed_method", "contact_stiffness", "accuracy"),
         "largest step such that this step and all smaller ones keep the accuracy",
@@ -119,17 +117,15 @@ VARIABLES = {
         "largest tolerance, or smallest number of steps, such that it and all stricter ones give "
         "the right verdict",
     ),
-    "verdict_steps": Variable(
-        ("method_tolerance",), "steps per forcing period of fixed-step methods"
-    ),
+    "verdict_steps": Variable(("method_tolerance",), "steps per cycle of fixed-step methods"),
     "scene_multiplier": Variable(
         ("scene",), "modulus of the dominant Floquet multiplier of the orbit"
     ),
-    "scene_period": Variable(("scene",), "period of the orbit in forcing periods", "n"),
+    "scene_period": Variable(("scene",), "period of the orbit in cycles", "n"),
     "landing_period": Variable(
         ("scene",), "period of the motion that results, 0 if it does not settle", "n"
     ),
-    "scene_periods": Variable(("scene",), "number of forcing periods of a run"),
+    "scene_periods": Variable(("scene",), "number of cycles of a run"),
     "scene_frequency": Variable(("scene",), "forcing frequency", "Omega"),
     "scene_truth": Variable(
         ("scene",),

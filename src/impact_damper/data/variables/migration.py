@@ -26,7 +26,7 @@ VARIABLES = {
     ),
     "released_period": Variable(
         ("trial", "switching"),
-        "period in forcing periods of the motion released_from, 0 if it has not settled",
+        "period in cycles of the motion released_from, 0 if it has not settled",
         "n",
     ),
     "released_displacement": Variable(
@@ -50,13 +50,13 @@ VARIABLES = {
         flags={"not_reached": 0, "reached": 1},
     ),
     "switchings": Variable(("trial",), "number of times that the damper is switched on in a run"),
-    "damper_time": Variable(("trial",), "forcing periods with the damper on"),
+    "damper_time": Variable(("trial",), "cycles with the damper on"),
     "release_time": Variable(
-        ("trial",), "forcing periods from first switching the damper on to last switching it off"
+        ("trial",), "cycles from first switching the damper on to last switching it off"
     ),
     "total_time": Variable(
         ("trial",),
-        "forcing periods from first switching the damper on to the end of the last free run",
+        "cycles from first switching the damper on to the end of the last free run",
     ),
     "example": Variable((), "index of the run whose displacement is stored"),
     "bound": Variable(("bound",), "share, or lower or upper end of its 95 % interval"),
@@ -67,21 +67,15 @@ VARIABLES = {
         "number of releases in all runs for each pair of a damped and a following free motion",
     ),
     "reached_share": Variable(("bound",), "share of runs that arrive on the non-resonance branch"),
-    "within_share": Variable(("bound",), "share of runs that arrive within 350 forcing periods"),
+    "within_share": Variable(("bound",), "share of runs that arrive within 350 cycles"),
     # releases of each damped motion
     "damped_kind": Variable(("damped",), "kind of damped motion", flags=DAMPED_MOTION),
-    "damped_period": Variable(
-        ("damped",), "period in forcing periods, 0 if it has not settled", "n"
-    ),
+    "damped_period": Variable(("damped",), "period in cycles, 0 if it has not settled", "n"),
     "damped_displacement": Variable(
         ("damped",), "largest displacement, if it has settled", "max |Z1|", quantity="displacement"
     ),
-    "damped_contacts": Variable(
-        ("damped",), "contacts begun per forcing period, if it has settled"
-    ),
-    "release_phase": Variable(
-        ("damped", "release"), "forcing periods from Omega T = pi/2 to the release"
-    ),
+    "damped_contacts": Variable(("damped",), "contacts begun per cycle, if it has settled"),
+    "release_phase": Variable(("damped", "release"), "cycles from Omega T = pi/2 to the release"),
     "release_displacement": Variable(
         ("damped", "release"),
         "displacement of the primary mass at the release",
@@ -103,13 +97,13 @@ VARIABLES = {
     # lifetime of the violent transient
     "life": Variable(
         ("run",),
-        "forcing periods until the violent transient ends, if it ends before the time horizon",
+        "cycles until the violent transient ends, if it ends before the time horizon",
     ),
-    "landing_time": Variable(("run",), "forcing periods until the run has settled, if it has"),
+    "landing_time": Variable(("run",), "cycles until the run has settled, if it has"),
     "landed_on": Variable(("run",), "motion on which the run settles", flags=DAMPED_MOTION),
-    "age": Variable(("age",), "forcing periods since the damper was switched on"),
+    "age": Variable(("age",), "cycles since the damper was switched on"),
     "survival": Variable(("age", "bound"), "share of runs whose transient is longer than age"),
     "at_risk": Variable(("age",), "number of runs whose transient is longer than age"),
-    "escape_rate": Variable(("bound",), "rate at which transients end, per run and forcing period"),
-    "horizon": Variable((), "forcing periods after which a run is cut off"),
+    "escape_rate": Variable(("bound",), "rate at which transients end, per run and cycle"),
+    "horizon": Variable((), "cycles after which a run is cut off"),
 }

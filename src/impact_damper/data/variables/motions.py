@@ -52,8 +52,8 @@ VARIABLES = {
         ("contact",), "relative velocity at the end of a contact", "Z2'", quantity="velocity"
     ),
     "outcome": Variable(("frequency", "motion"), "outcome of the motion", flags=OUTCOME),
-    "period": Variable(("frequency", "motion"), "period of the motion in forcing periods", "n"),
-    "contacts": Variable(("frequency", "motion"), "contacts begun per forcing period"),
+    "period": Variable(("frequency", "motion"), "period of the motion in cycles", "n"),
+    "contacts": Variable(("frequency", "motion"), "contacts begun per cycle"),
     "maximum_displacement": Variable(
         ("frequency", "motion"), "largest displacement", "max |Z1|", quantity="displacement"
     ),
@@ -101,9 +101,7 @@ VARIABLES = {
         "difference of the second frequency between the halves of the run",
         quantity="frequency",
     ),
-    "periods_run": Variable(
-        ("frequency", "motion"), "forcing periods run before the motion settled"
-    ),
+    "periods_run": Variable(("frequency", "motion"), "cycles run before the motion settled"),
     # frequency responses
     "branch": Variable(
         ("frequency", "motion"),
@@ -128,7 +126,7 @@ VARIABLES = {
         ("frequency", "start"),
         "index along the dimension `motion` of the motion that a random start leads to",
     ),
-    "run_length": Variable(("frequency", "start"), "forcing periods run from a random start"),
+    "run_length": Variable(("frequency", "start"), "cycles run from a random start"),
     "end_value": Variable(
         ("end",), "parameter of the sweep at the end of a branch", quantity="followed"
     ),
@@ -151,14 +149,12 @@ VARIABLES = {
         ("frequency", "motion"),
         "number of runs of the chaotic motion that ended, -1 if it is not chaotic or none was run",
     ),
-    "mean_life": Variable(
-        ("frequency", "motion"), "mean life of the chaotic motion in forcing periods"
-    ),
+    "mean_life": Variable(("frequency", "motion"), "mean life of the chaotic motion in cycles"),
     "mean_life_lower": Variable(
-        ("frequency", "motion"), "mean life, lower end of its 95 % interval, forcing periods"
+        ("frequency", "motion"), "mean life, lower end of its 95 % interval, cycles"
     ),
     "mean_life_upper": Variable(
-        ("frequency", "motion"), "mean life, upper end of its 95 % interval, forcing periods"
+        ("frequency", "motion"), "mean life, upper end of its 95 % interval, cycles"
     ),
     # how wide the search by random starts was
     "start_displacement": Variable(
@@ -189,5 +185,5 @@ VARIABLES = {
     "ball": Variable(("ball",), "ball of states from which random starts are drawn"),
     "beyond_wall": Variable(("ball",), "share of starts that lie beyond a wall"),
     "colliding": Variable(("ball",), "share of starts that lead to a collision"),
-    "longest_wait": Variable(("ball",), "longest time to the first collision, forcing periods"),
+    "longest_wait": Variable(("ball",), "longest time to the first collision, cycles"),
 }

@@ -40,7 +40,7 @@ VARIABLES = {
         "that the multipliers hold for infinitesimal disturbances only",
         flags={"not_converged": 0, "regular": 1, "near_grazing": 2},
     ),
-    "orbit_contacts": Variable(("point",), "contacts begun per forcing period in an orbit"),
+    "orbit_contacts": Variable(("point",), "contacts begun per cycle in an orbit"),
     "orbit_asymmetry": Variable(
         ("point",),
         "distance of an orbit from its mirror image half a period later",
@@ -101,7 +101,7 @@ VARIABLES = {
         quantity="displacement",
     ),
     # branches
-    "branch_period": Variable(("branch",), "period in forcing periods of the orbits", "n"),
+    "branch_period": Variable(("branch",), "period in cycles of the orbits", "n"),
     "branch_events_lost": Variable(
         ("branch",), "number of events on a branch that were not located"
     ),

@@ -21,8 +21,8 @@ VARIABLES = {
     ),
     "disturbance": Variable(
         ("disturbance",),
-        "error of the measured state over the size of the resonance motion, delay in forcing "
-        "periods, or errors of the damping and the force that the controller assumes",
+        "error of the measured state over the size of the resonance motion, delay in "
+        "cycles, or errors of the damping and the force that the controller assumes",
     ),
     "case_mass_ratio": Variable(("case",), "mass ratio of a damper", "rm"),
     "case_clearance": Variable(("case",), "clearance of a damper", "d0", quantity="clearance"),
@@ -32,16 +32,16 @@ VARIABLES = {
     ),
     "policy_cycles": Variable(
         (*CASE, "policy", "quantile", "bound"),
-        "forcing periods until the motion has settled on the goal, infinite without success",
+        "cycles until the motion has settled on the goal, infinite without success",
     ),
     "policy_damper": Variable(
-        (*CASE, "policy", "bound"), "median of the forcing periods with the damper on"
+        (*CASE, "policy", "bound"), "median of the cycles with the damper on"
     ),
     "policy_impacts": Variable((*CASE, "policy", "bound"), "median of the impacts"),
     "policy_releases": Variable((*CASE, "policy"), "mean number of releases"),
     "policy_hold": Variable(
         (*CASE, "policy"),
-        "forcing periods with the damper on that the policy chose: hold, phase and, at most, state",
+        "cycles with the damper on that the policy chose: hold, phase and, at most, state",
     ),
     "policy_phase": Variable(
         (*CASE, "policy"), "phase Omega T of the release that the policy chose", units="radian"
@@ -70,6 +70,6 @@ VARIABLES = {
     ),
     "disturbed_cycles": Variable(
         (*DISTURBED, "bound"),
-        "median of the forcing periods until the goal in spite of a disturbance",
+        "median of the cycles until the goal in spite of a disturbance",
     ),
 }

@@ -25,10 +25,10 @@ VARIABLES = {
         quantity="displacement",
     ),
     "damped_subharmonic_period": Variable(
-        ("frequency",), "period of damped_subharmonic in forcing periods, 0 if there is none", "n"
+        ("frequency",), "period of damped_subharmonic in cycles, 0 if there is none", "n"
     ),
     "damped_subharmonic_contacts": Variable(
-        ("frequency",), "contacts begun per forcing period in damped_subharmonic"
+        ("frequency",), "contacts begun per cycle in damped_subharmonic"
     ),
     "reached_subharmonic": Variable(
         ("frequency",),
@@ -56,9 +56,7 @@ VARIABLES = {
         "share of starts on the free subharmonic that lead to each motion, damper switched on",
     ),
     "subharmonic_branch": Variable(("subharmonic",), "number of a branch of damped subharmonics"),
-    "subharmonic_period": Variable(
-        ("subharmonic",), "period of the branch in forcing periods", "n"
-    ),
+    "subharmonic_period": Variable(("subharmonic",), "period of the branch in cycles", "n"),
     "subharmonic_displacement": Variable(
         ("subharmonic",),
         "largest displacement of the primary mass on the branch",

@@ -8,11 +8,11 @@ VARIABLES = {
     "equipment": Variable(("equipment",), "whether the machine has its damper"),
     "envelope": Variable(
         ("equipment", "window"),
-        "largest displacement in a forcing period, or in a free period",
+        "largest displacement in a cycle, or in a free period",
         quantity="displacement",
     ),
     "window_contacts": Variable(
-        ("equipment", "window"), "contacts begun in a forcing period, or in a free period"
+        ("equipment", "window"), "contacts begun in a cycle, or in a free period"
     ),
     "transient_status": Variable(("equipment",), "how the transient ended", flags=ENDS),
 }

@@ -50,7 +50,7 @@ def draw_competitors(data):
 
 
 def _panel(axes, sizes, x):
-    """Draw the bare machine and each absorber, with a band between its detuned versions."""
+    """Draw the machine alone and each absorber, with a band between its detuned versions."""
     x = np.asarray(x)
     plot_sizes(axes, x, sizes.sel(competitor="bare", detuning=0.0).values, **BARE)
     for name, look in LOOKS.items():
