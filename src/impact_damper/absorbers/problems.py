@@ -104,4 +104,7 @@ def steps_for(problems, states, longest):
         # the displacement X reached is X^2 = 4 energy/(stiffness + root)
         fastest = fastest + stiffness + 3 * np.maximum(root - stiffness, 0.0)
     least = 2 * np.pi * np.sqrt(fastest) / longest
-    return np.ceil(np.maximum(least, LEAST_STEPS)).astype(int)
+    # a motion that has escaped needs no certain number of steps
+    return np.ceil(
+        np.where(np.isfinite(least), np.maximum(least, LEAST_STEPS), LEAST_STEPS)
+    ).astype(int)

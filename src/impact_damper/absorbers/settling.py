@@ -126,7 +126,7 @@ def settle(problems, orbits, problem, starts, sizes) -> Settled:
             break
     displacement = np.full(len(starts), np.nan)
     end[active], displacement[active], state[active] = _watch(
-        problems, orbits, problem[active], state[active], sizes
+        problems, orbits, problem[active], state[active], sizes, bound
     )
     if active_size(problems) < SIZE and needed > looks:
         # beats of a free vibration that has not yet decayed look like a motion without a period
@@ -134,10 +134,11 @@ def settle(problems, orbits, problem, starts, sizes) -> Settled:
     return Settled(orbits, problem, end, displacement, state)
 
 
-def _watch(problems, orbits, problem, state, sizes):
+def _watch(problems, orbits, problem, state, sizes, bound):
     """Watch runs that were long near no orbit.
 
-    Return their ends, the largest |x| of the wandering ones, and their last states.
+    Return their ends, the largest |x| of the wandering ones, and their last states. A run of which
+    a component is not below `bound` at the end has escaped.
     """
     distances, displacements = [], []
     for _ in range(WATCHED):
@@ -149,6 +150,7 @@ def _watch(problems, orbits, problem, state, sizes):
     end = _candidates(orbits, problem)[nearest, columns]
     approaches = _falls(distances[:, nearest, columns])
     end = np.where(approaches, end, np.where(_falls(displacements), UNSETTLED, WANDERING))
+    end[~(np.abs(state) < bound).all(axis=1)] = ESCAPED
     return end, np.where(end == WANDERING, displacements.max(axis=0), np.nan), state
 
 
