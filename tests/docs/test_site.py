@@ -76,6 +76,14 @@ def test_every_link_and_picture_exists():
     assert not dead, "\n".join(dead)
 
 
+def test_every_plot_of_a_tutorial_is_shown():
+    """Each call of `idm.plot` leaves a picture on the page."""
+    for path in sorted((SITE.parents[1] / "tutorials").glob("*.md")):
+        drawn = path.read_text().count("idm.plot.")
+        shown = (SITE / "tutorials" / f"{path.stem}.html").read_text().count("<img")
+        assert shown >= drawn, path.stem
+
+
 def test_nothing_is_loaded_from_elsewhere():
     """The site works offline: scripts, styles and pictures are its own."""
     loaded = re.compile(r'<(?:script|img|link)[^>]+(?:src|href)="(https?:[^"]+)"')

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
+from impact_damper.plot.drawing import looks
 
 matplotlib.use("Agg")
 
@@ -168,3 +169,14 @@ def test_the_package_starts_without_matplotlib():
     code = "import sys, impact_damper as idm; idm.Oscillator, idm.simulate; 'plot' in dir(idm)"
     code += "; assert 'matplotlib' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_backend_that_becomes_interactive_stays_so():
+    """As that of notebooks does with the first figure; they show no other figures without it."""
+    before = matplotlib.is_interactive()
+    try:
+        with looks(None):
+            matplotlib.interactive(True)
+        assert matplotlib.is_interactive()
+    finally:
+        matplotlib.interactive(before)

@@ -1,7 +1,8 @@
 """What all plots share: checks of datasets, new figures, and legends."""
 
-from contextlib import nullcontext
+from contextlib import contextmanager
 
+import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib import pyplot
@@ -53,9 +54,20 @@ def dataset_in(data, takes, words) -> xr.Dataset:
     return found[0]
 
 
+@contextmanager
 def looks(ax):
-    """Return a context with the style of the paper's figures for new axes only."""
-    return style() if ax is None else nullcontext()
+    """Context with the style of the paper's figures for new axes only.
+
+    The backend of notebooks is loaded with the first figure and makes matplotlib interactive. That
+    outlives the style; otherwise a notebook would show the first figure only.
+    """
+    if ax is not None:
+        yield
+        return
+    with style():
+        yield
+        interactive = matplotlib.is_interactive()
+    matplotlib.interactive(interactive)
 
 
 def axes_for(ax, count=1, height=3.6):
