@@ -25,7 +25,7 @@ from impact_damper.figures.style import save_figure
 
 # How much of everything: in full, and to see that all of it runs.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
-        "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 10,
+        "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 40,
         "settled": 2000,
         "design": {"frequencies": 41, "candidates": 12, "starts": 96}}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
