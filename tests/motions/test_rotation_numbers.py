@@ -24,6 +24,18 @@ def test_rotation_of_a_curve(number, sense):
     assert abs(found.number - number) < 1e-12
 
 
+@pytest.mark.parametrize("slenderness", [30.0, 1e4])
+def test_slender_curves_are_known_as_soon_as_round_ones(slenderness):
+    """Stretching a curve in one direction changes nothing."""
+    points = on_curve(1 - GOLDEN, 1000) * np.exp(0.4j)
+    slender = find_rotation(points.real + 1j * points.imag / slenderness)
+    assert slender.known and abs(slender.number - 1 + GOLDEN) < 1e-11
+
+
+def test_points_on_a_line_are_no_curve():
+    assert find_rotation(on_curve(1 - GOLDEN).real.astype(complex)) is None
+
+
 def test_error_falls_faster_than_a_power():
     """Doubling the orbit gains more than a factor of 50; without weights it gains about 2."""
     errors = []

@@ -8,6 +8,8 @@ from helpers.known_orbits import INELASTIC, PAPER
 from helpers.sampling import sample
 
 from impact_damper.motions import ensemble, records, strobe_map, undecided
+from impact_damper.motions.following import follow_stable
+from impact_damper.motions.rotation_numbers import find_rotation
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.system.settling import Settling
@@ -53,6 +55,42 @@ def test_frequencies_are_those_of_the_spectrum(torus):
     # among them are lines of the second frequency alone
     orders = np.argmin(apart.reshape(len(peaks), -1), axis=1) // 25 - 9
     assert np.sum(orders != 0) >= 3
+
+
+def test_torus_turns_as_the_orbit_it_splits_off_from():
+    """At a Neimark-Sacker point the rotation number is the angle of the multiplier exp(i angle).
+
+    The torus splits off from an orbit of period 3, which becomes unstable towards low frequencies.
+    """
+    p = pack(PAPER, INELASTIC, 1.6)
+    state = np.array([0.7796012138, 0.1703671945, 0.8163322819, -0.9718488376])
+    p, (state, multiplier) = follow_stable(p, state, 3, FREQUENCY, 1.55)
+    assert abs(multiplier) == pytest.approx(1, abs=1e-6) and multiplier.imag > 0.5
+    onset, angle = p[FREQUENCY], np.angle(multiplier) / (2 * np.pi)
+    numbers = []
+    for below in (2e-3, 1e-3):
+        p[FREQUENCY] = onset - below
+        record = examined(p, state + np.array([1e-3, 0, 0, 0]))
+        assert record["outcome"] == records.QUASI_PERIODIC
+        assert record["first_frequency"] == pytest.approx(p[FREQUENCY] / 3, rel=1e-12)
+        numbers.append(record["second_frequency"] / record["first_frequency"])
+    assert (numbers[0] - angle) / (numbers[1] - angle) == pytest.approx(2, abs=0.1)
+    assert 2 * numbers[1] - numbers[0] == pytest.approx(angle, abs=5e-6)
+
+
+def test_torus_that_is_bent_around_its_centre_in_one_plane():
+    """In (Z1, Z1') it is a crescent; in two more planes the rotation number is the same."""
+    p = pack(PAPER, Damper(0.43819, 2.51322, 0.70627), 1.01298)
+    starts = np.random.default_rng(3).uniform(-1, 1, (16, 4))
+    found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
+    record = found[found["outcome"] == records.QUASI_PERIODIC][0]
+    begin, period = strobe_map.strobe_time(p), 2 * math.pi / p[FREQUENCY]
+    states, _ = sample(p, record["state"], begin, begin + np.arange(1, 3000) * period)
+    assert find_rotation(states[:, 0] + 1j * states[:, 1]) is None
+    number = record["second_frequency"] / record["first_frequency"]
+    for first, second in ((0, 2), (1, 3)):
+        other = find_rotation(states[:, first] + 1j * states[:, second])
+        assert other.number == pytest.approx(number, abs=1e-8)
 
 
 def test_starts_on_one_torus_have_one_name(torus):

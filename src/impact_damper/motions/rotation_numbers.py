@@ -60,9 +60,10 @@ def birkhoff_average(values):
 def find_rotation(points):
     """Return how a map turns the closed curve on which an orbit lies, or None if it lies on none.
 
-    The rotation number is the average advance of the angle around the average of the points. In the
-    order of their phases by this number points on a closed curve go around once; on other sets they
-    jump from side to side.
+    The rotation number is the average advance of the angle around the average of the points, which
+    are stretched so that they spread equally in all directions: on a slender curve the angle hardly
+    advances but at the two ends, and its average converges slowly. In the order of their phases by
+    this number points on a closed curve go around once; on other sets they jump from side to side.
 
     Parameters
     ----------
@@ -75,7 +76,7 @@ def find_rotation(points):
     """
     if len(points) < FEWEST:
         return None
-    angle = np.angle(points - birkhoff_average(points)) / (2 * math.pi)
+    angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
     # the advances, a set on a circle, are cut open in the widest gap between them
     order = np.sort(advance)
@@ -91,6 +92,15 @@ def find_rotation(points):
     half, quarter = len(advance) // 2, len(advance) // 4
     parts = [birkhoff_average(advance[k : k + half]) for k in (0, quarter, len(advance) - half)]
     return Rotation(float(min(number % 1, -number % 1)), float(np.ptp(parts)))
+
+
+def _rounded(points):
+    """Return points relative to their average, stretched to equal spread in all directions."""
+    apart = points - birkhoff_average(points)
+    plane = np.stack([apart.real, apart.imag])
+    spread, axes = np.linalg.eigh(plane @ plane.T)
+    x, y = axes.T @ plane
+    return x * math.sqrt(max(spread[1], 0.0)) + 1j * y * math.sqrt(max(spread[0], 0.0))
 
 
 def _goes_around_once(angle, number):

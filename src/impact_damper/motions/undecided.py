@@ -140,7 +140,11 @@ def _name_one(p, record, limit, further, known, stop):
     """
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
-    states = np.empty((0, 4))
+    states = np.empty((LONGEST_PERIOD, 4))
+    if known:
+        run_block(p, y.copy(), tangent.copy(), states, np.empty(LONGEST_PERIOD), stop)
+        if _is_known(record, known, states):
+            return states
     while count <= further:
         states, growth = np.empty((count, 4)), np.empty(count)
         contacts, escaped = run_block(p, y, tangent, states, growth, stop)
@@ -155,11 +159,8 @@ def _name_one(p, record, limit, further, known, stop):
         record["reach"] = np.maximum(record["reach"], far)
         mean, error = _exponent(growth)
         record["lyapunov_exponent"], record["lyapunov_error"] = mean / period, error / period
-        for curves in known:
-            if _is_on(curves.states, states[-LONGEST_PERIOD:]):
-                for name in TORUS:
-                    record[name] = curves.record[name]
-                return states
+        if _is_known(record, known, states[-LONGEST_PERIOD:]):
+            break
         record["outcome"] = (
             _on_orbit(p, record, states, contacts, limit)
             or _quasi_periodic(p, record, states, mean, error)
@@ -171,10 +172,15 @@ def _name_one(p, record, limit, further, known, stop):
     return states
 
 
-def _is_on(curve, states):
-    """Return whether states lie, to NEIGHBOUR, on the closed curves given by many states."""
-    apart = np.abs(states[:, None, :3] - curve[None, :, :3]).max(axis=2)
-    return bool(np.max(np.min(apart, axis=1)) < NEIGHBOUR)
+def _is_known(record, known, states):
+    """Return whether states lie, to NEIGHBOUR, on known curves; if so, complete the record."""
+    for curves in known:
+        apart = np.abs(states[:, None, :3] - curves.states[None, :, :3]).max(axis=2)
+        if np.max(np.min(apart, axis=1)) < NEIGHBOUR:
+            for name in TORUS:
+                record[name] = curves.record[name]
+            return True
+    return False
 
 
 def _exponent(growth):
@@ -221,13 +227,17 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states lie on closed curves that the map turns, or UNRESOLVED.
 
-    Each of the curves is tried, since one on which contacts begin or end at the strobe has corners.
+    Each of the curves is tried, since one on which contacts begin or end at the strobe has corners;
+    and each in the plane of the primary mass and in that of the relative motion, since in one of
+    them it may be bent so far that it does not go around its centre.
     """
     if abs(mean) > NEUTRAL * error:
         return UNRESOLVED
-    points = states[:, 0] + 1j * states[:, 1] / p[FREQUENCY]
+    planes = [states[:, k] + 1j * states[:, k + 1] / p[FREQUENCY] for k in (0, 2)]
     for curves in range(1, LONGEST_PERIOD + 1):
-        found = [find_rotation(points[first::curves]) for first in range(curves)]
+        found = [
+            find_rotation(points[first::curves]) for points in planes for first in range(curves)
+        ]
         found = [rotation for rotation in found if rotation is not None]
         if found:
             best = min(found, key=lambda rotation: rotation.error)
