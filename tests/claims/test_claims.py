@@ -22,7 +22,7 @@ from impact_damper.claims.claim import (
 )
 from impact_damper.claims.extract import ELASTIC
 from impact_damper.claims.suppression import suppression_band
-from impact_damper.claims.verdicts import CLAIMS, claims, document, title
+from impact_damper.claims.verdicts import CLAIMS, claims, document, title, typeset
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.motions.steady import steady_motion
 from impact_damper.stages.branches import orbit_branch
@@ -300,7 +300,7 @@ def test_claims_are_shown_by_figures_of_the_configuration():
 def test_page_has_verdict_sentence_figure_and_folded_numbers_of_each_claim(data):
     table = claims(data)
     page = document(table)
-    for row in table.to_dict("records"):
+    for row in table.map(typeset).to_dict("records"):
         _, _, section = page.partition(f"\n## {title(row['number'])}\n")
         section = section.partition("\n## ")[0]
         top, _, folded = section.partition("<details>")
@@ -309,6 +309,7 @@ def test_page_has_verdict_sentence_figure_and_folded_numbers_of_each_claim(data)
         assert all(f"figures/{name}.png" in top for name in row["figures"].split())
         assert row["criterion"] in folded
     assert page.count("<details>") == len(table)
+    assert typeset("rm W^2 d0 = pi^2/8, omega_l >= sqrt(2)") == "rm W² d0 = π²/8, ωl ≥ √(2)"
 
 
 SHARP = Measure("sharp", "the sharp number", most=1.0, decisive=True)

@@ -235,7 +235,6 @@ CLAIMS = (
         ),
         evidence=rigid_against_elastic,
         finding=balance_findings.rigid_against_elastic,
-        figures=("figure_05a",),
     ),
     Claim(
         number="3",

@@ -203,6 +203,6 @@ CLAIMS = (
         ),
         evidence=amplitude_by_mass,
         finding=balance_findings.amplitude_by_mass,
-        figures=("figure_05b",),
+        figures=("figure_06",),
     ),
 )

@@ -3,6 +3,8 @@
 Slips are misprints and gaps of the paper.
 """
 
+import re
+
 import pandas as pd
 
 from impact_damper.claims import (
@@ -90,7 +92,18 @@ def document(frame, picture=None) -> str:
             f"\n- **Numbers:**{numbers or ' none'}",
             "</details>",
         ]
-    return "\n\n".join(part for part in parts if part)
+    return typeset("\n\n".join(part for part in parts if part))
+
+
+# Symbols of plain text as they are printed.
+PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√", ">=": "≥"}
+
+
+def typeset(text) -> str:
+    """Return a text with the symbols of print: ωl, squares, π, roots and ≥."""
+    for plain, printed in PRINTED.items():
+        text = re.sub(plain, printed, text)
+    return text
 
 
 def title(number):

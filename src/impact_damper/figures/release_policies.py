@@ -13,20 +13,13 @@ from impact_damper.figures.style import (
     parameter_label,
     style,
 )
+from impact_damper.tables.policies import POLICIES
 
 CAPTION = """
 Above: share of trials that reach the non-resonance motion within 350 cycles, with 95 % intervals,
 by four rules of release, their numbers chosen in other trials. Below: median of the cycles. Dotted,
 with grey area: what a controller could reach that knows state and future.
 """
-
-WORDS = {
-    "settled": "random phase once settled",
-    "hold": "fixed number of cycles",
-    "phase": "fixed phase",
-    "state": "state in the goal's basin",
-    "clairvoyant": "future known",
-}
 
 
 @style({"axes.titley": None})
@@ -67,10 +60,10 @@ def draw_case(above, below, one):
     """Draw the policies with one damper: success above, cycles below."""
     frequency = one["frequency"].values
     for k, policy in enumerate(one["policy"].values):
-        look = curve(k) | {"marker": CURVES[k][2], "label": WORDS[policy]}
+        look = curve(k) | {"marker": CURVES[k][2], "label": POLICIES[policy]}
         success = one["policy_success"].sel(policy=policy).values
         if policy == "clairvoyant":
-            look = {"color": GREY, "linestyle": ":", "label": WORDS[policy]}
+            look = {"color": GREY, "linestyle": ":", "label": POLICIES[policy]}
             above.fill_between(frequency, success[:, 1], success[:, 2], color=PALE)
             above.plot(frequency, success[:, 0], **look)
         else:

@@ -36,6 +36,15 @@ SHOWN = {
         "median cycles": "median time with the best margin [cycles]",
     },
 }
+POLICIES = {
+    "settled": "random phase once settled",
+    "hold": "fixed number of cycles",
+    "phase": "fixed phase",
+    "state": "state in the goal's basin",
+    "clairvoyant": "future known",
+}
+# Words for the cells of a column; other cells are keys without underscores.
+CELLS = {"policy": lambda cell: POLICIES.get(cell, cell)}
 SYMBOLS = {"rm": "mass_ratio", "d0": "clearance", "e": "restitution"}
 
 
