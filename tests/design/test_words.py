@@ -42,7 +42,7 @@ def test_a_range_that_goes_on_beyond_what_was_looked_at_is_said_to():
     assert "hold it from 6 or less to 8.5 mm. The" in said("needs_tolerance")
     words = said(stability_gap_event=[4, 0], stability_force_event=[0, 4])
     assert "is stable from 6.5 or less to 8.8 mm" in words
-    assert "is stable from 0.5 to 2 or more times the nominal force" in words
+    assert "is stable from 0.5 to 2 or more times the nominal one" in words
 
 
 def test_a_large_motion_is_told_with_the_starts_that_lead_to_it():

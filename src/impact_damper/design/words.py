@@ -199,8 +199,8 @@ def _amplitudes(data):
     if not stable:
         return ""
     return (
-        f"The damper needs a force within a range: at {float(data['branch_frequency']):.4g} Hz its "
-        f"quiet orbit is stable from {stable} times the nominal force."
+        f"The damper needs an excitation within a range: at {float(data['branch_frequency']):.4g} "
+        f"Hz its quiet orbit is stable from {stable} times the nominal one."
     )
 
 
