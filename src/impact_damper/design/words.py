@@ -99,18 +99,26 @@ def _worst(kind, data):
 
 
 def _untouched(data, gap):
-    """Return the motion of the machine alone inside the gap, if there is one that is not quiet."""
+    """Return the motion of the machine alone inside the gap, where it is not quiet."""
+    limit = float(data["displacement_limit"])
     size = float(np.fmax.reduce(data["untouched_displacement"].values))
-    if not size > float(data["displacement_limit"]):
-        return ""
-    room = gap / 2 - size
-    return (
-        f"At some frequencies the machine without the damper moves less than half the gap, up to "
-        f"{size:.3g} mm. A loose mass that lies still within {room:.2g} mm of the middle of the "
-        f"gap ({_percent(2 * room / gap, 2)} of it) when the machine starts is then not touched, "
-        "and the machine moves as without the damper until the loose mass drifts; one that begins "
-        "at an end of the gap is touched at once. No random start led to this motion."
-    )
+    texts = []
+    if gap / 2 > limit:
+        texts.append(
+            "At rest in the middle of the gap the loose mass is first touched when the machine "
+            f"moves half the gap, {gap / 2:.3g} mm: until then the damper does nothing."
+        )
+    if size > limit:
+        room = gap / 2 - size
+        texts.append(
+            f"At some frequencies the machine without the damper moves less than that, up to "
+            f"{size:.3g} mm. A loose mass that lies still within {room:.2g} mm of the middle of "
+            f"the gap ({_percent(2 * room / gap, 2)} of it) when the machine starts is then not "
+            "touched, and the machine moves as without the damper until the loose mass drifts; one "
+            "that begins at an end of the gap is touched at once. No random start led to this "
+            "motion."
+        )
+    return " ".join(texts)
 
 
 def _sureness(data):

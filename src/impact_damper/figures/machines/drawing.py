@@ -43,8 +43,8 @@ def draw_drawing(data):
     _slot(axes, left, bottom + 0.3 * height, loose * scale, gap * scale)
     letter(axes, LEFT + width / 2, bottom + height + 0.17, f"gap {gap:.3g} mm", color=VERMILION)
     letter(axes, left + loose * scale / 2, bottom + 0.3 * height + 0.48 * loose * scale, "$m_2$")
-    letter(axes, LEFT + width / 2, bottom + 0.12, f"$m_1$ = {made['mass']:.3g} kg", **SMALL)
-    words = f"$m_2$ = {made['damper_mass']:.3g} kg, $e$ = {made['restitution']:.3g}"
+    letter(axes, LEFT + width / 2, bottom + 0.12, f"$m_1$ = {made['mass']:.4g} kg", **SMALL)
+    words = f"$m_2$ = {made['damper_mass']:.4g} kg, $e$ = {made['restitution']:.3g}"
     letter(axes, LEFT + width / 2, 2.85, words, **SMALL)
     _scale_bar(axes, scale, body)
     return axes.figure
