@@ -16,7 +16,7 @@ def test_shares_are_stacked_with_intervals():
     # only below the upper edge of the figure there are intervals
     ends = [segment for lines in axes.collections for segment in lines.get_segments()]
     np.testing.assert_allclose(ends, [[[1, 0.25], [1, 0.75]], [[1.5, 0.45], [1.5, 0.95]]])
-    assert "at most 30.0%" in axes.get_title(loc="right")
+    assert "at most 30 %" in axes.get_title(loc="right")
 
 
 def test_a_motion_keeps_its_colour():

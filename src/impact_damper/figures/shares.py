@@ -98,12 +98,13 @@ def _draw(datasets, named):
     used = panels.flat[: len(datasets)]
     for axes, data in zip(used, datasets, strict=True):
         shares_panel(axes, data)
-        unseen = f"not seen: at most {float(data['missed_share']):.1%}"
+        unseen = f"not seen: at most {100 * float(data['missed_share']):.2g} %"
         words = parameter_label(parameters_of(data), *named)
         axes.set_title(f"{words}; {unseen}", loc="right", fontsize=8)
     for axes in panels[:, 0]:
         axes.set_ylabel("Share of random starts")
-    letter_panels(used)
+    if len(datasets) > 1:
+        letter_panels(used)
     legend(drawn, 4, order=LOOKS)
     return drawn
 

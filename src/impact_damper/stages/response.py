@@ -69,10 +69,11 @@ def frequency_response(
     xarray.Dataset
         For each (frequency, motion) a distinct motion with outcome, period, contacts, extremum of
         |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, number of the random
-        starts that lead to it, and mean life if it is chaotic; for each (frequency, start) outcome
-        and length of a run; for each `end` the end of a branch; for each `frequency` how large the
-        starts and the free motions are; and an upper bound on the share of starts that lead to a
-        motion which no random start reached.
+        starts that lead to it, 95 % interval of their share, and mean life if it is chaotic;
+        motions of one branch are the same motion at different frequencies; for each (frequency,
+        start) outcome and length of a run; for each `end` the end of a branch; for each `frequency`
+        how large the starts and the free motions are; and an upper bound on the share of starts
+        that lead to a motion which no random start reached.
 
     Raises
     ------
