@@ -69,7 +69,7 @@ FILES = {
         *chapters("clearance", "responses"),
     },
     "src/impact_damper/migration/legs.py": {
-        *("migration/*", "release_scan/*", "release_policies/*"),
+        *("migration/*", "release_scan/*", "release_policies/*", "release_dampers/*"),
         *chapters("migration", "claims"),
     },
 }

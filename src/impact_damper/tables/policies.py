@@ -3,6 +3,8 @@
 import numpy as np
 import pandas as pd
 
+from impact_damper.data.best_dampers import best_clearances
+
 # Columns of the Markdown tables with their heads; the CSV files have all columns.
 DAMPER = {
     "rm": "mass ratio rm",
@@ -34,6 +36,17 @@ SHOWN = {
         "best margin": "best margin",
         "with best margin": "share with the best margin",
         "median cycles": "median time with the best margin [cycles]",
+    },
+    "release_dampers": {
+        "W": DAMPER["W"],
+        "e": DAMPER["e"],
+        "rm": DAMPER["rm"],
+        "d0 for migration": "best clearance for migration by state",
+        "median cycles": "median time there [cycles]",
+        "d0 for suppression": "best clearance for suppression",
+        "quiet": "quiet displacement there over the free resonance",
+        "median cycles, suppression": "median time there by state [cycles]",
+        "same": "as good for migration",
     },
 }
 POLICIES = {
@@ -123,6 +136,41 @@ def release_disturbances(datasets) -> pd.DataFrame:
                     | _bounded("median cycles", one.disturbed_cycles.sel(margin=best))
                     | {"clairvoyant": float(bound.sel(bound="share"))}
                 )
+    return pd.DataFrame(rows)
+
+
+def release_dampers(datasets) -> pd.DataFrame:
+    """For each frequency, restitution and mass ratio the best gap for migration and suppression.
+
+    The best gap for suppression is as good for migration if the intervals of the medians overlap.
+    """
+    rows = []
+    for data in datasets.get("release_dampers", {}).values():
+        for frequency, restitution in np.ndindex(
+            data.sizes["frequency"], data.sizes["restitution"]
+        ):
+            one = data.isel(frequency=frequency, restitution=restitution)
+            best = best_clearances(one)
+            ratio = one.damper_quiet / one.resonance_displacement
+            cycles = one.damper_cycles.sel(policy="state")
+            success = one.damper_success.sel(policy="state", bound="share")
+            for k, mass_ratio in enumerate(one.mass_ratio.values):
+                row = {"W": float(one.frequency), "e": float(one.restitution), "rm": mass_ratio}
+                gaps = {name: best[name][k] for name in ("migration", "suppression")}
+                row |= {f"d0 for {name}": gap for name, gap in gaps.items()}
+                if np.isfinite([*gaps.values()]).all():
+                    here, quiet = (
+                        cycles.sel(mass_ratio=mass_ratio, clearance=gap) for gap in gaps.values()
+                    )
+                    row |= _bounded("median cycles", here)
+                    row |= _bounded("median cycles, suppression", quiet)
+                    at = {"mass_ratio": mass_ratio, "clearance": gaps["suppression"]}
+                    row |= {"quiet": float(ratio.sel(at))}
+                    row |= {"share, suppression": float(success.sel(at))}
+                    overlap = float(quiet.sel(bound="lower")) <= float(here.sel(bound="upper"))
+                    found = np.isfinite(quiet.sel(bound="share"))
+                    row |= {"same": _yes(len({*gaps.values()}) == 1 or (overlap and found))}
+                rows.append(row)
     return pd.DataFrame(rows)
 
 

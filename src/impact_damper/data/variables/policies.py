@@ -3,6 +3,7 @@
 from impact_damper.data.variables.variable import Variable
 
 CASE = ("case", "frequency")
+DAMPER = ("frequency", "restitution", "mass_ratio", "clearance")
 DISTURBED = ("case", "noisy_frequency", "disturbance", "margin")
 
 VARIABLES = {
@@ -72,4 +73,25 @@ VARIABLES = {
         (*DISTURBED, "bound"),
         "median of the cycles until the goal in spite of a disturbance",
     ),
+    # of the stage release_dampers
+    "cut_restitution": Variable(("cut_restitution",), "coefficient of restitution", "e"),
+    "resonance_displacement": Variable(
+        ("frequency",), "max |Z1| of the free resonance motion", quantity="displacement"
+    ),
 }
+
+for part, dims in {"damper": DAMPER, "cut": ("frequency", "cut_restitution")}.items():
+    VARIABLES |= {
+        f"{part}_success": Variable(
+            (*dims, "policy", "bound"), "share of trials that reach the goal within 350 cycles"
+        ),
+        f"{part}_cycles": Variable(
+            (*dims, "policy", "bound"), "median of the forcing periods until the goal"
+        ),
+        f"{part}_quiet": Variable(
+            dims, "max |Z1| of the quiet motion with the damper on", quantity="displacement"
+        ),
+        f"{part}_largest": Variable(
+            dims, "largest max |Z1| of the motions with the damper on", quantity="displacement"
+        ),
+    }

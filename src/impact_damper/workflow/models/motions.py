@@ -9,7 +9,7 @@ from impact_damper.system.bounds import (
     SCAN_LIFETIME_RANGE,
 )
 from impact_damper.workflow.models.messages import dotted, problem
-from impact_damper.workflow.models.section import increasing
+from impact_damper.workflow.models.section import Section, increasing
 from impact_damper.workflow.models.settings import starts_of
 from impact_damper.workflow.models.system import (
     CLEARANCE,
@@ -18,7 +18,9 @@ from impact_damper.workflow.models.system import (
     DAMPER,
     FREQUENCIES,
     FREQUENCY,
+    MASS_RATIO,
     NEEDED,
+    RESTITUTION,
     MaybeWithDamper,
     WithDamper,
     WithOscillator,
@@ -144,6 +146,33 @@ class ReleasePolicies(WithOscillator):
                 yield problem((*path, "noisy_frequencies", index), frequency, reason)
 
 
+class RestitutionCut(Section):
+    """Damper of which the restitution is varied."""
+
+    mass_ratio: MASS_RATIO
+    clearance: CLEARANCE
+    restitutions: several(RESTITUTION, "increasing values of e", least=2, distinct=True)
+
+
+class ReleaseDampers(WithOscillator):
+    """Maps of dampers, for migration and for suppression."""
+
+    frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
+    mass_ratios: several(MASS_RATIO, "evenly spaced values of rm", least=2, distinct=True)
+    clearances: several(CLEARANCE, "evenly spaced values of d0", least=2, distinct=True)
+    restitutions: several(RESTITUTION, "values of e of the maps", least=1, distinct=True)
+    cut: RestitutionCut
+    trials: count("trials of each policy with each damper", **RUNS_RANGE)
+    starts: count("random starts of motions with each damper", **RUNS_RANGE)
+    cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        for key in ("frequencies", "mass_ratios", "clearances"):
+            yield from increasing((*path, key), getattr(self, key), "values of an axis")
+        yield from increasing((*path, "cut", "restitutions"), self.cut.restitutions, "a cut")
+
+
 SECTIONS = {
     "curves": Curve,
     "motion": Motion,
@@ -153,4 +182,5 @@ SECTIONS = {
     "release_scan": ReleaseScan,
     "basins": Basins,
     "release_policies": ReleasePolicies,
+    "release_dampers": ReleaseDampers,
 }

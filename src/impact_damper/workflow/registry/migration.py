@@ -52,12 +52,25 @@ def release_policies(config, name):
     }
 
 
+def release_dampers(config, name):
+    entry = config["release_dampers"][name]
+    keys = ("frequencies", "mass_ratios", "clearances", "restitutions", "cut")
+    more = ("trials", "starts", "cells")
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        "dampers": {key: entry[key] for key in keys},
+        "numbers": {key: entry[key] for key in more} | {"seed": config["seed"]},
+        "settling": settling(config),
+    }
+
+
 TITLE = "Migration control"
 STAGES = (
     Stage("migration", "migration", migration),
     Stage("release_scan", "release_scan", release_scan),
     Stage("basins", "basins", basins),
     Stage("release_policies", "release_policies", release_policies),
+    Stage("release_dampers", "release_dampers", release_dampers),
 )
 KINDS = (
     Kind("migration", ("migration",)),
@@ -65,6 +78,7 @@ KINDS = (
     Kind("basins", ("basins",), damper=False, most=4),
     Kind("release_policies", ("release_policies",), most=1),
     Kind("release_disturbances", ("release_policies",), most=1),
+    Kind("release_dampers", ("release_dampers",), damper=False, most=1),
 )
 TABLES = (
     Table(
@@ -97,5 +111,11 @@ TABLES = (
         "tables.policies",
         ("release_policies",),
         "Noise, delay and a wrong model: success of the policy by state and the best margin.",
+    ),
+    Table(
+        "release_dampers",
+        "tables.policies",
+        ("release_dampers",),
+        "The best clearance for migration by state, and for suppression, at each mass ratio.",
     ),
 )

@@ -1,0 +1,33 @@
+"""The best clearance for migration and for suppression, at each mass ratio."""
+
+import numpy as np
+
+
+def best_clearances(one):
+    """Return the best clearances for two purposes.
+
+    For migration: with the largest share of trials that reach the goal by release by state, of
+    equal ones with the smallest median of the cycles. For suppression: with the smallest quiet
+    motion.
+
+    Parameters
+    ----------
+    one : xarray.Dataset
+        Of the stage `release_dampers`, for one frequency and restitution.
+
+    Returns
+    -------
+    dict of numpy.ndarray, shape (mass ratios,)
+        Keyed by "migration" and "suppression"; NaN where no clearance reaches the goal, or where
+        there is no quiet motion.
+    """
+    state = one.sel(policy="state", bound="share").transpose("mass_ratio", "clearance", ...)
+    success, cycles = state["damper_success"].values, state["damper_cycles"].values
+    quiet = one["damper_quiet"].transpose("mass_ratio", "clearance").values
+    order = np.lexsort((cycles, -success), axis=-1)[:, 0]
+    smallest = np.argmin(np.where(np.isfinite(quiet), quiet, np.inf), axis=1)
+    clearance = one["clearance"].values
+    return {
+        "migration": np.where(success.max(axis=1) > 0, clearance[order], np.nan),
+        "suppression": np.where(np.isfinite(quiet).any(axis=1), clearance[smallest], np.nan),
+    }

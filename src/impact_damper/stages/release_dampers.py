@@ -1,0 +1,160 @@
+"""Dampers compared for migration and for suppression: maps over mass, gap and restitution."""
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, is_settled
+from impact_damper.data.shares import BOUNDS, wilson
+from impact_damper.migration.policies import SETTLED, STATE, Policy, run_trials
+from impact_damper.motions import ensemble
+from impact_damper.motions.start_states import random_starts
+from impact_damper.stages.migration import PAPER_CYCLES
+from impact_damper.stages.release_trials import free_case, quantile
+from impact_damper.system.bounds import RUNS_RANGE, SEED_RANGE, check_count
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, describe
+from impact_damper.system.settling import check_settling
+
+# Forcing periods without a state in the goal's basin after which the policy by state tries again.
+PATIENCE = 5.0
+POLICIES = {"settled": Policy(SETTLED), "state": Policy(STATE, PATIENCE)}
+# A motion is quiet below this share of the displacement of the free resonance motion.
+QUIET = 0.5
+
+
+def release_dampers(
+    oscillator,
+    frequencies,
+    mass_ratios,
+    clearances,
+    restitutions,
+    *,
+    cut,
+    trials=40,
+    starts=12,
+    cells=64,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """Compare dampers by success and time of migration, and by the motions that they leave.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    frequencies : sequence of float
+        Forcing frequencies at which both free motions of period 1 exist.
+    mass_ratios, clearances, restitutions : sequence of float
+        Of the dampers of the map; all combinations.
+    cut : dict
+        `mass_ratio`, `clearance` and a list `restitutions` of the dampers of the cut.
+    trials : int
+        Trials of each policy.
+    starts : int
+        Random starts of motions with the damper on.
+    cells : int
+        Cells on each axis of the coarse grid of a release set.
+    seed : int
+    settling : Settling, optional
+    workers : int
+        Threads; the result does not depend on it.
+    progress : str, optional
+        Unused; jobs hand it to every stage.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each damper and policy (the paper's, and release by state) success within 350 forcing
+        periods and the median of the forcing periods until the goal; for each damper max |Z1| of
+        the quiet motion and the largest max |Z1| with the damper on.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range, or the free oscillator has not both motions at a frequency.
+    """
+    settling = check_settling(settling)
+    check_count("trials", trials, **RUNS_RANGE)
+    check_count("starts", starts, **RUNS_RANGE)
+    check_count("seed", seed, **SEED_RANGE)
+    map_shape = len(frequencies), len(restitutions), len(mass_ratios), len(clearances)
+    mapped = [
+        Damper(mass_ratio, clearance, restitution)
+        for restitution in restitutions
+        for mass_ratio in mass_ratios
+        for clearance in clearances
+    ]
+    along = [Damper(cut["mass_ratio"], cut["clearance"], e) for e in cut["restitutions"]]
+    found = {"damper": [], "cut": []}
+    resonance = []
+    for frequency in frequencies:
+        free = free_case(oscillator, frequency, cells, settling, workers)
+        resonance.append(free.size)
+        judge = _Judge(free, oscillator, frequency, trials, starts, seed)
+        found["damper"].append(judge.dampers(mapped))
+        found["cut"].append(judge.dampers(along))
+    data = {"resonance_displacement": resonance}
+    shapes = {"damper": map_shape, "cut": (len(frequencies), len(along))}
+    for part, rows in found.items():
+        for name in rows[0]:
+            values = np.array([row[name] for row in rows])
+            data[f"{part}_{name}"] = values.reshape(*shapes[part], *values.shape[2:])
+    made = describe(oscillator, settling) | {"trials": trials, "starts": starts, "seed": seed}
+    made |= {"cut_mass_ratio": cut["mass_ratio"], "cut_clearance": cut["clearance"]}
+    coordinates = {
+        "frequency": frequencies,
+        "restitution": restitutions,
+        "mass_ratio": mass_ratios,
+        "clearance": clearances,
+        "cut_restitution": cut["restitutions"],
+        "policy": list(POLICIES),
+        "bound": BOUNDS,
+    }
+    return dataset(data, coordinates, made | {"cells": cells}, "Dampers for migration")
+
+
+class _Judge:
+    """Judges dampers at one frequency."""
+
+    def __init__(self, free, oscillator, frequency, trials, starts, seed):
+        self.free, self.oscillator, self.frequency = free, oscillator, frequency
+        self.trials, self.starts, self.seed = trials, starts, seed
+
+    def dampers(self, dampers):
+        """Return arrays of success, cycles, quiet and largest displacement, one row a damper."""
+        rows = [self._migration(damper) for damper in dampers]
+        sizes = self._displacements(dampers)
+        return {
+            "success": np.array([success for success, _ in rows]),
+            "cycles": np.array([cycles for _, cycles in rows]),
+            "quiet": sizes[0],
+            "largest": sizes[1],
+        }
+
+    def _migration(self, damper):
+        """Return success and median of the cycles of each policy with bounds, shape (2, 3)."""
+        on, limit = pack(self.oscillator, damper, self.frequency), float(PAPER_CYCLES)
+        outcomes = [
+            run_trials(on, self.free, policy, self.trials, limit, self.seed)
+            for policy in POLICIES.values()
+        ]
+        return (
+            [wilson(np.sum(each.reached), self.trials) for each in outcomes],
+            [quantile(each.cycles, 0.5) for each in outcomes],
+        )
+
+    def _displacements(self, dampers):
+        """Return the quiet and the largest displacement with each damper; NaN if not found."""
+        free = self.free
+        parameters = [pack(self.oscillator, damper, self.frequency) for damper in dampers]
+        given = self.frequency, self.starts, self.seed, free.settling
+        states = [random_starts(self.oscillator, damper, *given)[0] for damper in dampers]
+        found = ensemble.settle(
+            np.repeat(parameters, self.starts, axis=0),
+            np.concatenate(states),
+            free.settling,
+            workers=free.workers,
+        ).reshape(len(dampers), self.starts)
+        size = found["maximum_displacement"]
+        quiet = np.where(is_settled(found) & (size < QUIET * free.size), size, np.inf).min(axis=1)
+        return np.where(np.isfinite(quiet), quiet, np.nan), size.max(axis=1)

@@ -1,0 +1,84 @@
+"""Dampers compared for migration and suppression."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.testing import assert_array_equal
+
+from impact_damper.data.best_dampers import best_clearances
+from impact_damper.migration.policies import STATE, Policy, run_trials
+from impact_damper.stages.optimum import clearance_sweep
+from impact_damper.stages.release_dampers import PATIENCE, release_dampers
+from impact_damper.stages.release_trials import free_case
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.system.settling import Settling
+from impact_damper.tables.policies import release_dampers as table
+
+CUBIC = Oscillator(0.215)
+CUT = {"mass_ratio": 0.12, "clearance": 2.0, "restitutions": [0.9, 1.0]}
+
+
+@pytest.fixture(scope="module")
+def data():
+    grid = [0.12, 0.3], [1.0, 2.0], [1.0]
+    return release_dampers(CUBIC, [2.0], *grid, cut=CUT, trials=6, starts=4, cells=16)
+
+
+def test_a_damper_on_map_and_cut_has_the_same_numbers(data):
+    on_map = data.isel(frequency=0).sel(mass_ratio=0.12, clearance=2, restitution=1)
+    on_cut = data.isel(frequency=0).sel(cut_restitution=1)
+    for name in ("success", "cycles", "quiet", "largest"):
+        assert_array_equal(on_map[f"damper_{name}"], on_cut[f"cut_{name}"])
+
+
+def test_success_is_that_of_trials_with_the_damper(data):
+    free = free_case(CUBIC, 2.0, 16, Settling(), 1)
+    on = pack(CUBIC, Damper(0.3, 1.0), 2.0)
+    outcome = run_trials(on, free, Policy(STATE, PATIENCE), 6, 350.0, 1995)
+    found = data.isel(frequency=0).sel(mass_ratio=0.3, clearance=1, restitution=1, policy="state")
+    assert found.damper_success.sel(bound="share") == np.mean(outcome.reached)
+
+
+def test_the_quiet_displacement_is_that_of_the_orbit(data):
+    """Against the orbit of Newton's method, followed over the clearance."""
+    sweep = clearance_sweep(CUBIC, {"mass_ratio": 0.12}, 2.0, [1.9, 2.0], starts=4)
+    found = data.isel(frequency=0).sel(mass_ratio=0.12, clearance=2, restitution=1)
+    assert float(found.damper_quiet) == pytest.approx(float(sweep.quiet_displacement[1]), rel=1e-6)
+    assert np.all((data.damper_quiet <= data.damper_largest) | data.damper_quiet.isnull())
+
+
+def made_up(state, quiet):
+    """Return one mass ratio and three clearances; cycles are known where all trials arrive."""
+    cycles = np.array([[np.inf, 30.0, 20.0], [np.inf, 40.0, 50.0]])
+    dims = ("policy", "mass_ratio", "clearance", "bound")
+    bounds = [0.0, -1.0, 1.0]
+    success = np.array([state, [0.0, 0.0, 0.0]])
+    return xr.Dataset(
+        {
+            "damper_success": (dims, np.repeat(success[:, None, :, None], 3, -1)),
+            "damper_cycles": (dims, cycles[:, None, :, None] + bounds),
+            "damper_quiet": (("mass_ratio", "clearance"), [quiet]),
+            "resonance_displacement": 2.0,
+        },
+        {
+            "policy": ["state", "settled"],
+            "mass_ratio": [0.1],
+            "clearance": [1.0, 2.0, 3.0],
+            "bound": ["share", "lower", "upper"],
+            "frequency": 1.7,
+            "restitution": 1.0,
+        },
+    )
+
+
+def test_best_clearances():
+    best = best_clearances(made_up([0, 1, 1], [0.3, 0.1, np.nan]))
+    assert (best["migration"], best["suppression"]) == (3, 2)
+    best = best_clearances(made_up([0, 0, 0], [np.nan] * 3))
+    assert np.isnan([*best.values()]).all()
+    one = made_up([0, 1, 1], [0.3, 0.1, np.nan]).expand_dims(["frequency", "restitution"])
+    one["resonance_displacement"] = ("frequency", [2.0])
+    (row,) = table({"release_dampers": {"paper": one}}).to_dict("records")
+    assert row["same"] == "no" and row["quiet"] == pytest.approx(0.05)
+    assert row["median cycles"] == 20 and row["median cycles, suppression"] == 30

@@ -1,0 +1,15 @@
+"""Dampers for migration and for suppression: mass, gap and restitution as knobs (section 5)."""
+
+from impact_damper.workflow.job import Job
+from impact_damper.stages.release_dampers import release_dampers
+
+job = Job(snakemake)
+job.save(
+    release_dampers(
+        job.oscillator,
+        **job["dampers"],
+        **job["numbers"],
+        settling=job.settling,
+        **job.running,
+    )
+)
