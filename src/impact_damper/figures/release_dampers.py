@@ -19,7 +19,7 @@ from impact_damper.figures.style import (
 CAPTION = """
 (a) to (f): median of the cycles until the goal, and max |Z1| of the quiet motion over the free
 resonance. Hatched: above 350 cycles, or no quiet motion. Circle: best gap for suppression; cross:
-for migration by state. (g) and (h): the damper of figure 13 with other e.
+for migration by state. (g), (h): the damper of figure 13 at other e.
 """
 CYCLES, DISPLACEMENTS = LogNorm(8, 350), LogNorm(0.02, 0.5)
 # Words and ticks of the colour bars.
