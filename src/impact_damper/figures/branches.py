@@ -74,13 +74,7 @@ def draw_branches(*, branches):
                 role = ROLES["free_stable" if stable else "free_unstable"]
                 look = {} if stable else {"linestyle": ":", "label": None}
                 axes.plot(value, size, **role | {"linewidth": 0.7} | look)
-        for label, color, chosen in PERIODS:
-            for value, size, stable in runs(data, chosen):
-                look = {"label": label, "zorder": 2.2} if stable else {"linestyle": ":"}
-                axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.5, **look)
-        axes.plot([], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
-        mark_events(axes, data)
-        mark_open_ends(axes, data)
+        draw_orbits(axes, data)
         axes.set(
             xlabel="Forcing frequency, $\\Omega$",
             ylabel=axis_label(data["orbit_displacement"]),
@@ -88,6 +82,24 @@ def draw_branches(*, branches):
         axes.set_ylim(bottom=0)
     legend(drawn, 3)
     return drawn
+
+
+def draw_orbits(axes, data):
+    """Draw every branch of a dataset, its events, and the ends beyond which it was not followed.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    data : xarray.Dataset
+        Of the stage branches, or of `orbit_branch`.
+    """
+    for label, color, chosen in PERIODS:
+        for value, size, stable in runs(data, chosen):
+            look = {"label": label, "zorder": 2.2} if stable else {"linestyle": ":"}
+            axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.5, **look)
+    axes.plot([], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
+    mark_events(axes, data)
+    mark_open_ends(axes, data)
 
 
 def runs(data, chosen):

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from impact_damper.orbits import between
 from impact_damper.orbits.continuation import Point
 from impact_damper.system.packed import FREQUENCY
 
@@ -132,12 +133,11 @@ def bifurcations_between(point_at, start, end, first, last):
     return sorted(located, key=lambda pair: abs(pair[0] - first)), lost
 
 
-def events_between(problem, start, end, length):
+def events_between(start, end, length):
     """Locate all events on a step, as far as the sequence of contacts changes little.
 
     Parameters
     ----------
-    problem : Problem
     start, end : Point
         Points at both ends of the step.
     length : float
@@ -152,7 +152,7 @@ def events_between(problem, start, end, length):
     """
 
     def point_at(distance):
-        point = problem.step(start, distance)
+        point = between.at_distance(start, end, distance)
         if point is None:
             raise ArithmeticError
         return point

@@ -6,13 +6,13 @@ from functools import cached_property
 
 import numpy as np
 
+from impact_damper.orbits import between
 from impact_damper.orbits.bifurcations import Event, bifurcations_between, events_between
 from impact_damper.orbits.continuation import (
     FIRST_STEP,
-    LONGEST_STEP,
-    LONGEST_UNSTABLE_STEP,
+    LONGEST,
+    LONGEST_UNSTABLE,
     SHORTEST_STEP,
-    STRAIGHT,
     Point,
     Problem,
 )
@@ -27,8 +27,13 @@ SAME = 1e-5
 NEARBY = 0.02
 # If contacts slower than this disappear, the branch has come to a motion without contacts.
 WEAK = 0.02
-# Growth of steps, and the step below which a grazing is looked for within so many steps.
-GROWTH = 1.5
+# The tangents at both ends of a step differ by at most this angle, and its chord from their mean by
+# at most this share of its length: it would if the step led to another branch close by.
+TURNED, SKEW = 0.35, 0.02
+# A step is followed by one that turns less than the most by this factor, and that is at most so
+# much longer, or shorter if the step failed.
+AIM, GROWTH, SHRINKAGE = 0.8, 1.5, 0.3
+# The step below which a grazing is looked for within so many steps.
 CLOSE_STEP, REACH = 2e-3, 8.0
 # A step that meets another branch is halved down to this until the place is seen.
 CLEAR_STEP = 1e-4
@@ -139,52 +144,62 @@ def _reversed(event):
 def _walk(problem, first, span, most) -> Branch:
     """Follow a branch from a point along its tangent; the start has the end reason ""."""
     points, events, lost, end = [first], [], 0, ""
+    if (first.value - span[0]) * (first.value - span[1]) >= 0:
+        outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
+        end = "range_ends" if outward else ""
     if not problem.holds_still(first):
         points[0] = first = problem.recut(first)
-    length = FIRST_STEP
+    length, tried = FIRST_STEP, None
     while not end and len(points) < most:
         point = points[-1]
-        ahead = _next(point, span, length)
+        ahead, factor = _next(point, span, length)
         changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
         pieces = []
-        if changes or (ahead is None and length < CLOSE_STEP and problem.damped):
+        close = ahead is None and length < CLOSE_STEP and problem.damped
+        if (changes or close) and tried is not point:
+            tried = point
             pieces = _through_grazing(point, max(length, SHORTEST_STEP * 1e3) * REACH)
         if not pieces:
             if ahead is None or (changes and length > CLOSE_STEP):
-                length /= 2
+                length *= factor if ahead is None else 0.5
                 if length < SHORTEST_STEP:
                     end = _loss(point)
                 continue
             along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
-            pieces = [(point, ahead, *events_between(point.problem, point, ahead, along))]
+            pieces = [(point, ahead, *events_between(point, ahead, along))]
             if length > CLEAR_STEP and _passes_unseen(*pieces[0][:3]):
                 length /= 2
                 continue
         for start, ahead, located, missed in pieces:
             lost += missed
+            again = _passes(start, ahead, first) if len(points) > 2 else None
             if _deviation(start.orbit) @ _deviation(ahead.orbit) < 0:
                 end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
                 located, met = _up_to_fold(located, end)
                 lost += not met and not missed
+            elif again is not None:
+                end = "closed"
+                located = [event for event in located if _is_between(start, event.point, again)]
+            elif ahead.value in span or np.clip(ahead.value, *span) != ahead.value:
+                end = "range_ends"
             for event in located:
                 events.append((len(points), event))
                 if event.point is not ahead:
                     points.append(event.point)
+            if end in ("", "range_ends", "closed"):
+                points.append(first if end == "closed" else ahead)
             if end:
                 break
-            points.append(ahead)
-            end = _end_at(start, ahead, first, span, len(points))
-            if end:
-                break
-        if end == "closed":
-            points[-1] = first
-        elif not end:
+        if not end:
             last, ahead = pieces[-1][:2]
             coarse = not (problem.symmetric or ahead.orbit.stable)
-            longest = LONGEST_UNSTABLE_STEP if coarse else LONGEST_STEP
-            length = min(GROWTH * ahead.problem.length(ahead.x - last.x), longest)
+            longest = ahead.problem.length(ahead.x) * (LONGEST_UNSTABLE if coarse else LONGEST)
+            length = min(factor * ahead.problem.length(ahead.x - last.x), longest)
             if not ahead.problem.holds_still(ahead):
                 points[-1] = ahead.problem.recut(ahead)
+            elif len(pieces) == 1:
+                bend = (ahead.tangent - last.tangent) / ahead.problem.length(ahead.x - last.x)
+                points[-1] = ahead._replace(bend=bend)
     return Branch(problem.family, points, events, ("", end or "point_limit"), lost)
 
 
@@ -217,15 +232,6 @@ def _through_grazing(point, reach):
     return pieces
 
 
-def _end_at(point, ahead, first, span, count):
-    """Return why a branch ends at the point `ahead`, its `count`-th one, or "" if it goes on."""
-    if ahead.value in span or np.clip(ahead.value, *span) != ahead.value:
-        return "range_ends"
-    if count > 3 and _passes(point, ahead, first):
-        return "closed"
-    return ""
-
-
 def _deviation(orbit: Orbit):
     """Return the difference, shape (4,), of an orbit from one of more symmetry.
 
@@ -251,14 +257,27 @@ def _up_to_fold(events, kind):
 
 
 def _next(point, span, length):
-    """Return the next point, at the end of the range if the step would leave it, or None."""
+    """Return the next point and the factor by which the length of the step after it may change.
+
+    The point lies at the end of the range if the step would leave it. It is None if Newton's
+    method fails, if the branch turns by too much, or if the point lies on another branch.
+    """
     problem = point.problem
     ahead = problem.step(point, length)
     if ahead is not None and np.clip(ahead.value, *span) != ahead.value:
-        ahead = problem.at_value(point, float(np.clip(ahead.value, *span)))
-    if ahead is None or (problem.metric * ahead.tangent) @ point.tangent < STRAIGHT:
-        return None
-    return ahead
+        ahead = between.at_value(point, ahead, float(np.clip(ahead.value, *span)))
+    if ahead is None:
+        return None, 0.5
+    chord = ahead.x - point.x
+    mean = (point.tangent + ahead.tangent) / 2
+    straight = problem.length(mean)
+    turned = 2 * np.arccos(min(straight, 1.0)) / TURNED
+    chord /= problem.length(chord) or 1.0
+    skew = problem.length(chord - mean / straight) / SKEW
+    ease = AIM / max(turned, skew**0.5, AIM / GROWTH)
+    if max(turned, skew) > 1:
+        return None, max(min(ease, AIM), SHRINKAGE)
+    return ahead, ease
 
 
 def _loss(last):
@@ -270,8 +289,18 @@ def _loss(last):
 
 
 def _passes(point, ahead, first):
-    """Return whether the first point of a branch lies on the step between two others."""
-    if (point.value - first.value) * (ahead.value - first.value) > 0:
-        return False
-    again = point.problem.at_value(point, first.value)
-    return again is not None and first.orbit.is_same(again.orbit, SAME)
+    """Return the place on the step between two points at which the branch began, or None.
+
+    The parameter changes there in the same direction as at the beginning.
+    """
+    forward = (ahead.value - point.value) * first.tangent[-1] > 0
+    if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
+        return None
+    again = between.at_value(point, ahead, first.value)
+    return again if again is not None and first.orbit.is_same(again.orbit, SAME) else None
+
+
+def _is_between(start, point, ahead):
+    """Return whether a point of a step lies before another one."""
+    row = start.problem.metric * start.tangent
+    return bool(row @ (point.x - start.x) < row @ (ahead.x - start.x))

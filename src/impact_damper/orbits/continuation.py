@@ -31,11 +31,10 @@ SINGULAR = 1e-8
 # An orbit with a smaller asymmetry is symmetric.
 SYMMETRIC = 1e-6
 # Steps, in branch length.
-FIRST_STEP, LONGEST_STEP, SHORTEST_STEP = 0.01, 0.04, 1e-9
-LONGEST_UNSTABLE_STEP = 0.12
-FARTHEST_GUESS = 2 * LONGEST_STEP
-# Least cosine between the tangents at both ends of a step.
-STRAIGHT = 0.98
+FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
+# The longest steps on symmetric or stable orbits, and on others, as shares of the unknowns' size.
+LONGEST, LONGEST_UNSTABLE = 0.02, 0.06
+FARTHEST_GUESS = 0.08
 # A correction by more than this share of the step may have led to another branch.
 ASIDE = 0.2
 # An orbit is cut again if a contact comes closer to a section than this, in radians, or if a
@@ -58,6 +57,8 @@ class Point(NamedTuple):
         Unit tangent of the branch, in the metric of the problem.
     problem : Problem
         The equations that the unknowns solve.
+    bend : numpy.ndarray, shape (m n + 1,), or float
+        Estimate of the derivative of the tangent by the length, for the guess of the next point.
     """
 
     value: float
@@ -65,6 +66,7 @@ class Point(NamedTuple):
     x: np.ndarray
     tangent: np.ndarray
     problem: "Problem"
+    bend: np.ndarray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -201,6 +203,8 @@ class Problem:
                 change = _solved(matrix, -np.append(defect, 0.0))
             except (np.linalg.LinAlgError, ValueError):
                 return None
+            if not border[:-1].any():
+                change[-1] = 0.0  # the parameter is given, to the last digit
             size = np.max(np.abs(change))
             if not size < LARGEST:
                 return None
@@ -216,10 +220,14 @@ class Problem:
 
     def step(self, point, length):
         """Return the point a step along the branch from a point, or None."""
-        x = point.x + length * point.tangent
-        ahead = self.correct(x, point.tangent)
+        bent = length**2 / 2 * point.bend
+        return self.near(point.x + length * point.tangent + bent, point.tangent, length)
+
+    def near(self, x, border, length):
+        """Return the point that Newton's method finds close to a guess, relative to a length."""
+        found = self.correct(x, border)
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
-        return None if ahead is None or self.length(ahead.x - x) > aside else ahead
+        return None if found is None or self.length(found.x - x) > aside else found
 
     def at_value(self, point, value):
         """Return the point at a value of the parameter close to that of a point, or None.

@@ -222,12 +222,14 @@ def through_grazing(point, reach):
     direction = int(np.sign(turn.gradient @ point.tangent))
     targets = _targets(turn.height, sharp, direction)
     points, heights, turns = [point], [turn.height], [turn]
-    grazing = None
+    grazing, one = None, 2 if point.problem.symmetric else 1
+    fewest = len(point.orbit.sequence) - one * (direction != sharp)
     for target in targets:
         found = at_height(
             point.problem, guess(points[-1], turns[-1], target), turns[-1], target, direction
         )
-        if found is None:
+        contacts = fewest + one * (sharp * target > 0)
+        if found is None or len(found[0].orbit.sequence) != contacts:
             break
         points.append(found[0])
         heights.append(target)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from impact_damper.data.datasets import flag, has_damper, parameters_of
-from impact_damper.figures.branches import PERIODS, mark_events, mark_open_ends, runs
+from impact_damper.figures.branches import draw_orbits, runs
 from impact_damper.figures.harmonic_balance import draw_band, draw_free
 from impact_damper.figures.response import response_panel
 from impact_damper.figures.shares import shares_panel
@@ -160,12 +160,7 @@ def branch(data, *, ax=None):
     with looks(ax):
         (axes,) = axes_for(ax)
         for each in given:
-            for label, color, chosen in PERIODS:
-                for value, size, stable in runs(each, chosen):
-                    look = {"label": label} if stable else {"linestyle": ":"}
-                    axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.8, **look)
-            mark_events(axes, each)
-            mark_open_ends(axes, each)
+            draw_orbits(axes, each)
         axes.set(
             xlabel=_followed_label(given[0]), ylabel=axis_label(given[0]["orbit_displacement"])
         )

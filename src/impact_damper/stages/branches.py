@@ -25,9 +25,9 @@ from impact_damper.system.families import LINEAR, family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import describe
 
-# `complete_branches` leaves a branch after so many orbits in one direction, over the period:
-# branches of long periods wind on through all of the chaotic motion, without a stable orbit.
-MOST_POINTS = 1500
+# `complete_branches` leaves a branch after so many orbits in one direction. Those of long periods
+# wind through the chaotic motion for thousands of unstable orbits before they end.
+MOST_POINTS = 2500
 
 
 def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None):
@@ -210,8 +210,7 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
             if not orbit.converged or orbit.repeats_sooner():
                 lost += 1
             elif not any(branch.holds(orbit, frequency) for branch in branches):
-                most = MOST_POINTS // period
-                branches.append(follow_branch(family, orbit, frequency, frequencies, most))
+                branches.append(follow_branch(family, orbit, frequency, frequencies, MOST_POINTS))
                 bar.set_postfix(branches=len(branches))
     if progress is not None:
         tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)

@@ -101,7 +101,9 @@ TABLES = (
         "orbits",
         "tables.responses",
         ("branches",),
-        "Branches of periodic orbits: range, stable parts, and events at both ends.",
+        "Branches of periodic orbits: range, stable parts, and events at both ends. Point limit: "
+        "left after 2500 orbits in one direction, among chaotic motions. Lost: Newton's method "
+        "finds no next orbit, where several contacts appear at almost the same frequency.",
     ),
     Table(
         "bifurcations",
