@@ -347,7 +347,7 @@ def test_words():
     evidence = {"sharp": 1.23456, "full": math.nan, "note": math.nan}
     row = made_up(evidence).judge({})
     assert row["criterion"] == (
-        "Decided by: the sharp number at most 1. Full agreement: the full number from 0 to 2."
+        "Required: the sharp number, at most 1. For full agreement: the full number, from 0 to 2."
     )
     assert row["evidence"] == "the sharp number: 1.235; the full number: none; the note: none"
     assert row["finding"] == "The number is 1.23456."

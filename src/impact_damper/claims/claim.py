@@ -126,9 +126,9 @@ class Claim:
     def criterion(self) -> str:
         """The requirements as text, first the decisive ones."""
         parts = []
-        for lead, decisive in (("Decided by", True), ("Full agreement", False)):
+        for lead, decisive in (("Required", True), ("For full agreement", False)):
             required = [
-                f"{measure.description} {measure.requirement}"
+                f"{measure.description}, {measure.requirement}"
                 for measure in self.measures
                 if measure.requirement and measure.decisive == decisive
             ]

@@ -100,8 +100,7 @@ CLAIMS = (
         measures=(
             Measure(
                 "two",
-                "least share of the band in which such orbits exist, all with two contacts a "
-                "period",
+                "least share of the band in which such orbits exist, all with two contacts a cycle",
                 least=1,
                 decisive=True,
             ),

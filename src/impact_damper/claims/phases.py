@@ -80,7 +80,7 @@ CLAIMS = (
             ),
             Measure(
                 "turn",
-                "W/Wp at which Z1 and Z2 are a quarter period apart, exact orbits",
+                "W/Wp at which Z1 and Z2 are a quarter of a cycle apart, exact orbits",
                 least=0.95,
                 most=1.05,
             ),
@@ -90,7 +90,7 @@ CLAIMS = (
                 "largest distance of the phase of Z1 to x2 from antiphase at the highest W",
             ),
             Measure(
-                "loose_turn", "W/Wp at which Z1 and x2 are a quarter period apart, exact orbits"
+                "loose_turn", "W/Wp at which Z1 and x2 are a quarter of a cycle apart, exact orbits"
             ),
         ),
         evidence=phases,

@@ -139,7 +139,7 @@ def attractor_words(data):
     """Return period, size and share of each attractor in words."""
     units = f" {data['attractor_displacement'].attrs['units']}".removesuffix(" 1")
     return [
-        f"period {period:d}, max |$Z_1$| {size:.3g}{units}: {share:.0%}"
+        f"period {period:d}, max |$Z_1$| {size:.3g}{units}: {share_words(share)}"
         for period, size, share in zip(
             data["attractor_period"].values,
             data["attractor_displacement"].values,
@@ -147,3 +147,8 @@ def attractor_words(data):
             strict=True,
         )
     ]
+
+
+def share_words(share):
+    """Return a share in per cent, which is 0 only if it is."""
+    return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"
