@@ -24,8 +24,8 @@ def largest(machine, values, mass, hertz, start):
     """Largest displacement (m) in the last ten of PERIODS periods, by the equations in SI units."""
     stiffness, damping, cubic = values
     c, angular = machine.viscous_damping, 2 * np.pi * hertz
-    force, unbalance = machine.forcing(hertz)
-    amplitude = force + unbalance * angular**2
+    force, unbalance, shaker = machine.forcing(hertz)
+    amplitude = force + unbalance * angular**2 + shaker / angular**2
 
     def rate(t, y):
         x, v, u, w = y
