@@ -151,7 +151,7 @@ def simulate(
     ----------
     oscillator : Oscillator
     damper : Damper or None
-        None switches the damper off.
+        None: without the damper.
     frequency : float
         Forcing frequency W, dimensionless.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
@@ -164,13 +164,13 @@ def simulate(
         Time of the first state, dimensionless; the forcing is cos(W T). By default that of the
         phase which the state carries, 0 if it carries none.
     tolerance : float
-        Local error allowed.
+        Error allowed in each step of the integrator, dimensionless.
 
     Returns
     -------
     xarray.Dataset
-        With the dimension `time` the state; with the dimension `contact` the log of contacts:
-        wall, beginning, end, and Z2' at both (NaN for an end after the last sample). With a
+        Over `time` the state. Over `contact` the contacts: wall (1 or -1, the side of Z2),
+        beginning, end, and Z2' at both (NaN for an end after the last sample). With a
         softening spring also `escape_time`, from which on the state is NaN, since the motion has
         gone over a barrier of the spring and reaches infinity in a finite time; NaN if it has not.
 

@@ -33,9 +33,10 @@ def steady_motion(
     Returns
     -------
     xarray.Dataset
-        Scalars: outcome, period (in forcing periods), contacts per forcing period, largest
-        |Z1|, asymmetry, phases, dominant Floquet multiplier, Lyapunov exponent, the two frequencies
-        of a quasi-periodic motion; and `state`, a state of the motion at W T = pi/2. The state
+        Scalars: outcome (see `decode`), period (in forcing periods), contacts per forcing period,
+        largest |Z1|, asymmetry (0 if half a period later the motion is its mirror image), phases
+        of its first harmonic, largest Floquet multiplier, Lyapunov exponent, the two frequencies of
+        a quasi-periodic motion; and `state`, a state of the motion at W T = pi/2. The state
         carries this phase as a coordinate, so that `simulate` and this function go on from there:
         in a sweep hand it on from one frequency to the next.
 

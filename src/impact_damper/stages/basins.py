@@ -46,9 +46,9 @@ def basins(
 ):
     """Find the motion that each state of a plane leads to.
 
-    Without a damper a motion is run until it lies in a neighbourhood of an attracting orbit for
-    which it is proven that all its motions tend to the orbit (`attraction.attractors`). With a
-    damper each motion is run until it has settled.
+    Without a damper a motion is run until it enters a neighbourhood of a stable orbit from which,
+    as is proven for each, all motions tend to the orbit. With a damper each motion is run until it
+    has settled.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def basins(
     frequency : float
         Forcing frequency W, dimensionless.
     displacement, velocity : float, optional
-        Half widths of the plane of Z1 and Z1', dimensionless; without them WIDTH times the largest
+        Half widths of the plane of Z1 and Z1', dimensionless; without them 1.5 times the largest
         displacement and speed of the motions without a damper.
     cells : int
         States on each axis.
@@ -76,11 +76,11 @@ def basins(
     Returns
     -------
     xarray.Dataset
-        For each state of the grid the label of the attractor that it leads to, or a negative number
-        with the reason why there is none; for each attractor its period, size, phase, points at
-        this phase, and share of the states. Without a damper also the unstable orbits that Newton's
-        method finds from a grid of states, of the periods of the attractors, and their stable
-        manifolds, which are the boundaries of the basins.
+        For each state of the grid the number of the attractor, the motion that it leads to, or a
+        negative number with the reason why there is none; for each attractor its period, size,
+        phase, points at this phase, and share of the states. Without a damper also the unstable
+        orbits that Newton's method finds from a grid of states, of the periods of the attractors,
+        and their stable manifolds, which are the boundaries of the basins.
 
     Raises
     ------

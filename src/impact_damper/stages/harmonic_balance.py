@@ -20,7 +20,11 @@ from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 
 def optimum_clearance(oscillator, mass_ratio) -> float:
-    """Clearance d0 = f/(rm Wp^2) of rule (19), for which a = 0 solves (13) at the peak.
+    """Return the clearance of rule (19) of the paper, d0 = f/(rm Wp^2).
+
+    f is the amplitude of the force at the frequency Wp of the peak without the damper. With this
+    clearance and rigid walls harmonic balance has a solution in which the machine does not move at
+    the peak. The clearance of the smallest motion is larger: `clearance_sweep` finds it.
 
     Parameters
     ----------

@@ -45,18 +45,38 @@ def design_damper(
     Parameters
     ----------
     machine : Machine
-    mass, band, restitution, contact_stiffness, frequencies, candidates, starts
-        As of `design.task.Task`, in SI units. Two restitutions are the ends of a range in which it
-        is free: a coarse comparison of gaps at each of five values chooses it.
+    mass : float or str
+        Loose mass, kg, at most the mass of the machine. This and all other physical values are
+        numbers in the SI unit, texts with units such as "0.6 kg", or quantities of pint.
+    band : sequence of 2 floats or str
+        Least and greatest forcing frequency, Hz; the resonance of the machine lies between them.
+    restitution : float or tuple of 2 floats
+        Coefficient of restitution, 0.05 to 1. Two values are the ends of a range in which it is
+        free: a coarse comparison of gaps at each of five values chooses it.
+    contact_stiffness : float or str, optional
+        Stiffness of the contact, N/m.
     contact : HertzContact, optional
         Radius and materials of the contact, for its pressure. If no contact stiffness is given, it
         also determines the stiffness: that of an impact at the speed with which the loose mass
         crosses the gap of the flight rule in half a forcing period.
+    frequencies : int
+        Number of frequencies over the band; the resonances in it are added.
+    candidates : int
+        Number of gaps that are compared closely.
+    starts : int
+        Random initial states of machine and loose mass at each gap and frequency.
     tolerances : dict, optional
         Largest relative deviations of gap, restitution, contact_stiffness, stiffness, damping and
-        force; by default 20 % of the gap.
-    displacement_limit, share, seed, settling
-        As of `design.task.Task`.
+        force, such as {"gap": "10 %"}; by default 20 % of the gap.
+    displacement_limit : float or str, optional
+        Largest displacement of the machine in a motion that is called quiet, m. Without it the
+        design chooses one, between the smallest motion and that without the damper.
+    share : float
+        Share of the starts that must end quiet, claimed at 95 % confidence.
+    seed : int
+        Of the random starts.
+    settling : Settling, optional
+        How long motions are run, and how accurately.
     workers : int
         Threads; the result does not depend on it.
     progress : bool, optional
@@ -67,8 +87,9 @@ def design_damper(
     Returns
     -------
     xarray.Dataset
-        In mm, Hz, N and other units that each variable names (`data.variables.designs`). The
-        attribute `conclusion`, a list as JSON, says in words what to build and how sure it is.
+        In mm, Hz, N and other units that each variable names in its attribute `units`; `design_gap`
+        is the gap to build, `design_choice` and `promise` (see `decode`) how sure it is. The
+        attribute `conclusion`, a list as JSON, says the same in words. `plot.design` draws it.
 
     Raises
     ------

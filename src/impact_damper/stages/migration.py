@@ -69,7 +69,10 @@ def migrate(
     switchings=100,
     settling=None,
 ):
-    """Run the controller of figure 17 once, from the resonance branch.
+    """Switch the damper on and off until the oscillator is on its small motion without it.
+
+    One run of the controller of figure 17 of the paper, from the resonance branch: the damper is on
+    until the motion has settled, then off until the free motion has settled, again and again.
 
     Parameters
     ----------

@@ -48,27 +48,28 @@ def clearance_sweep(
     ----------
     oscillator : Oscillator
     damper : dict
-        Arguments of `Damper` without the clearance.
+        Arguments of `Damper` without the clearance. For a machine a `MachineDamper`, of which the
+        gap is not used.
     frequency : float
         Forcing frequency W, dimensionless.
     clearances : sequence of float
         Increasing clearances d0, dimensionless.
     starts, radius, seed, settling, workers, progress
-        As in `response.frequency_response`, for each clearance.
+        As in `frequency_response`, for each clearance.
 
     Returns
     -------
     xarray.Dataset
         For each (clearance, motion) a motion found, as in a frequency response. For each
         `clearance` max |Z1| of the quiet motion, the largest max |Z1| of all motions that starts
-        reach, and |a| of the stable solution of (7) with the smallest |a|. Scalars: the optimum and
-        the kind of minimum, both for the quiet motion and for (7); the clearances of rules (18) and
-        (19), the latter NaN if the free response has no peak; at the optimum rm W^2 d0/f, with the
-        forcing amplitude f, and the shares of its excess over 1 that two corrections of (18)
-        explain: pi^2/8, the first harmonic for a loose mass in straight flight, and
-        `optimum_clearance.straight_flight_ratio`. For each `edge` an end of the range of clearance
-        in which max |Z1| is within 10 % of its minimum. The attribute `optimum` says in words what
-        the optimum is, or that there is no quiet motion.
+        reach, and the amplitude |a| of the smallest stable solution of the harmonic balance (7).
+        Scalars: the optimum and the kind of minimum, both for the quiet motion and for (7); the
+        clearances of rules (18) and (19), the latter NaN if the free response has no peak; at the
+        optimum rm W^2 d0/f, with the forcing amplitude f, and the shares of its excess over 1 that
+        two corrections of (18) explain: pi^2/8, the first harmonic for a loose mass in straight
+        flight, and straight flight between walls of this stiffness. For each `edge` an end of the
+        range of clearance in which max |Z1| is within 10 % of its minimum. The attribute `optimum`
+        says in words what the optimum is, or that there is no quiet motion.
 
     Raises
     ------

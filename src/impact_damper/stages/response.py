@@ -38,25 +38,28 @@ def frequency_response(
 ):
     """Find all motions at each frequency, from many starts and from neighbouring frequencies.
 
-    Each motion found is followed to the other frequencies at which it exists (section 3).
+    Each motion found is followed to the other frequencies at which it exists.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper or None
+        None: without the damper.
     frequencies : sequence of float
-        Increasing forcing frequencies, dimensionless.
+        Increasing forcing frequencies W, dimensionless.
     starts : int
-        Random starts at each frequency.
+        Random initial states at each frequency.
     radius : float, optional
-        Random starts are uniform in a ball of this radius, within the gap (`random_states`); 2 in
-        the paper (section 3, iii). Without it the search is as wide as the free motions: the random
-        starts are scaled by the free motions, and further starts are placed on them
-        (`motions.start_states`).
+        The random states are uniform in a ball of this radius around rest, with the loose mass in
+        its gap; 2 in section 3 of the paper. Without it the search is as wide as the motions
+        without the damper: the random states are scaled by these motions, and further starts are
+        placed on them.
     seed : int
+        Of the random states.
     settling : Settling, optional
+        How long motions are run, and how accurately.
     life_runs : int
-        Runs by which it is found out how long each chaotic motion lasts.
+        Runs of each chaotic motion by which it is found out how long it lasts; 0 for none.
     life_periods : int
         Forcing periods of these runs.
     workers : int
@@ -67,13 +70,14 @@ def frequency_response(
     Returns
     -------
     xarray.Dataset
-        For each (frequency, motion) a distinct motion with outcome, period, contacts, extremum of
-        |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, number of the random
-        starts that lead to it, 95 % interval of their share, and mean life if it is chaotic;
-        motions of one branch are the same motion at different frequencies; for each (frequency,
-        start) outcome and length of a run; for each `end` the end of a branch; for each `frequency`
-        how large the starts and the free motions are; and an upper bound on the share of starts
-        that lead to a motion which no random start reached.
+        For each (frequency, motion) a motion: `outcome` (see `decode`), period, contacts, largest
+        |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, `share`, the number of
+        random starts that lead to it, the 95 % interval of the share they are, and mean life if it
+        is chaotic. Motions of one branch are the same motion at different frequencies; frequencies
+        with fewer motions than others are filled up with the outcome `absent`. For each (frequency, start)
+        outcome and length of a run; for each `end` the end of a branch; for each `frequency` how
+        large the starts and the motions without the damper are. `missed_share` bounds the share of
+        starts that lead to a motion which no random start reached, at 95 % confidence.
 
     Raises
     ------
@@ -83,7 +87,7 @@ def frequency_response(
     Warns
     -----
     UserWarning
-        If a free motion is larger or faster than the radius.
+        If a motion without the damper is larger or faster than the radius.
 
     Examples
     --------

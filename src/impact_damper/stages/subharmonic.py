@@ -64,13 +64,13 @@ def subharmonic_suppression(
         the range of the free subharmonic and a tenth of its width beyond each end; without a free
         subharmonic, at the given frequencies.
     starts : int
-        Number of starts at each frequency. All are random, as in `response.frequency_response`,
+        Number of starts at each frequency. All are random, as in `frequency_response`,
         except at frequencies at which the free subharmonic exists. There one half of the starts has
         the primary mass on the free subharmonic and switches the damper on at a random time. The
         loose mass then has a random place, and a random velocity or, in every second of these
         starts, the velocity of the primary mass.
     radius, seed, settling, workers, progress
-        As in `response.frequency_response`.
+        As in `frequency_response`.
 
     Returns
     -------

@@ -20,9 +20,10 @@ EDGES = ["lower", "upper"]
 
 
 def suppression_band(oscillator, damper):
-    """Frequency range around the peak in which one quiet motion replaces the resonance branch.
+    """Find the frequencies around the peak at which one quiet motion replaces the resonance branch.
 
-    A frequency belongs to the band if (7) has exactly one stable solution there, and its
+    By harmonic balance, equation (7) of the paper, whose solutions have the amplitude |a|. A
+    frequency belongs to the band if (7) has exactly one stable solution there, and its
     |a| is below the amplitude of the free resonance branch. The band is the connected
     range of such frequencies that holds the peak frequency Wp. The free resonance branch
     is that of `free_oscillator.resonance`: with a hardening spring it ends at the upper fold,

@@ -25,8 +25,8 @@ class Settling:
     tolerance : float
         Local error allowed in a step of the integrator, dimensionless.
     patience : int
-        Forcing periods after which a motion is stopped if it is certainly chaotic, or if the loose
-        mass hardly moves and has touched no wall during these periods.
+        Forcing periods after which a motion is stopped if it is chaotic beyond doubt, or if the
+        loose mass hardly moves and has touched no wall during these periods.
     limit : int
         Forcing periods after which every motion is stopped, as chaotic if that is certain, or as
         drifting if its loose mass has touched no wall for `patience` periods.
@@ -34,7 +34,7 @@ class Settling:
         Further forcing periods for which a motion that has not settled is run to measure it.
     further : int
         Most forcing periods for which a motion that is undecided at `limit` is run on, to find out
-        whether it is quasi-periodic, periodic with a long period, or chaotic (`motions.undecided`).
+        whether it is quasi-periodic, periodic with a long period, or chaotic.
         A motion still undecided then is unresolved.
 
     Raises
