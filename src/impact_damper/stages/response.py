@@ -74,10 +74,10 @@ def frequency_response(
         |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, `share`, the number of
         random starts that lead to it, the 95 % interval of the share they are, and mean life if it
         is chaotic. Motions of one branch are the same motion at different frequencies; frequencies
-        with fewer motions than others are filled up with the outcome `absent`. For each (frequency, start)
-        outcome and length of a run; for each `end` the end of a branch; for each `frequency` how
-        large the starts and the motions without the damper are. `missed_share` bounds the share of
-        starts that lead to a motion which no random start reached, at 95 % confidence.
+        with fewer motions than others are filled up with the outcome `absent`. For each (frequency,
+        start) outcome and length of a run; for each `end` the end of a branch; for each `frequency`
+        how large the starts and the motions without the damper are. `missed_share` bounds the share
+        of starts that lead to a motion which no random start reached, at 95 % confidence.
 
     Raises
     ------
