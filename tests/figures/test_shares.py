@@ -1,6 +1,7 @@
 """Shares of starts are stacked by motion, with their intervals."""
 
 import numpy as np
+import xarray as xr
 from helpers.made_up import matched_sweep
 
 from impact_damper.figures.shares import draw_shares
@@ -17,6 +18,20 @@ def test_shares_are_stacked_with_intervals():
     ends = [segment for lines in axes.collections for segment in lines.get_segments()]
     np.testing.assert_allclose(ends, [[[1, 0.25], [1, 0.75]], [[1.5, 0.45], [1.5, 0.95]]])
     assert "at most 30 %" in axes.get_title(loc="right")
+
+
+def test_chaos_of_which_a_run_ended_is_a_transient():
+    data = matched_sweep()
+    ends = xr.zeros_like(data["outcome"]).assign_attrs({})
+    ends[2, 0] = 3
+    axes = draw_shares(response=[data.assign(life_ends=ends)]).axes[0]
+    assert [each.get_label() for each in axes.patches] == [
+        "period 1",
+        "chaotic transient",
+        "chaotic",
+    ]
+    np.testing.assert_allclose(axes.patches[1].get_data().values, [0.5, 0.9, 1])
+    np.testing.assert_allclose(axes.patches[2].get_data().baseline, [0.5, 0.9, 1])
 
 
 def test_a_motion_keeps_its_colour():

@@ -1,5 +1,7 @@
 """Shares of random starts that lead to each motion (figure kinds `shares`, `clearance_shares`)."""
 
+from collections import Counter
+
 import numpy as np
 from matplotlib.colors import to_rgb
 
@@ -24,10 +26,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Share of random starts that lead to each motion, a column for each value. A motion keeps its colour:
-it is followed by Newton's method or, if it has not settled, matched by kind and size. Further
-motions of a kind are paler. Bars: 95 % intervals (Wilson) of the motion whose upper edge they
-cross. Above each panel: bound on the share of a motion that no start reached.
+Share of random starts that lead to each motion. A motion keeps its colour: it is followed by
+Newton's method or, if it has not settled, matched by kind and size. Further motions of a kind are
+paler. Chaos is a transient where a run of it ended. Bars: 95 % intervals (Wilson) of the motion
+whose upper edge they cross. Titles: bound on a motion not seen.
 """
 
 # Kinds of motions from below: label, colour and hatching.
@@ -38,6 +40,7 @@ LOOKS = {
     "other periods": (VERMILION, "xxxx"),
     "quasi-periodic": (SKY, "||||"),
     "no contact": (GREY, ""),
+    "chaotic transient": (ORANGE, "++++"),
     "chaotic": (ORANGE, "...."),
     "others": (BLACK, ""),
 }
@@ -128,8 +131,7 @@ def shares_panel(axes, data):
         white = PALER[min(rank, len(PALER) - 1)]
         face = [white + (1 - white) * part for part in to_rgb(colour)]
         look = {"fill": True, "facecolor": face, "hatch": hatch, **EDGE}
-        label = {} if rank else {"label": kind}
-        axes.stairs(below + share, edges, baseline=below, **look, **label)
+        axes.stairs(below + share, edges, baseline=below, label=kind, **look)
         row, column = np.nonzero(chosen & (below + share < 1)[:, None])
         ends = [
             below[row] + data[name].values[row, column] for name in ("share_lower", "share_upper")
@@ -159,13 +161,26 @@ def ranked_motions(data):
     -------
     list of (str, int, array of bool)
         Of each motion its kind; its rank among those of its kind, from 0 for most starts; and its
-        places in the tables of the sweep.
+        places in the tables of the sweep. A chaotic motion that is a transient at some values comes
+        twice, with the same rank.
     """
-    kinds = {kind: [] for kind in LOOKS}
+    found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
-            kinds[_kind(each)].append(each.places)
-    return [(kind, *ranked) for kind, found in kinds.items() for ranked in enumerate(found)]
+            kind = _kind(each)
+            for name, places in _parts(data, kind, each.places).items():
+                if data["share"].values[places].any():
+                    found[name].append((ranks[kind], places))
+            ranks[kind] += 1
+    return [(kind, *ranked) for kind, motions in found.items() for ranked in motions]
+
+
+def _parts(data, kind, places):
+    """Return the places of a motion by kind: chaos is a transient where one of its runs ended."""
+    if kind != "chaotic" or "life_ends" not in data:
+        return {kind: places}
+    ended = data["life_ends"].values > 0
+    return {"chaotic transient": places & ended, kind: places & ~ended}
 
 
 def _kind(motion):
