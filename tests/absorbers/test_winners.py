@@ -24,8 +24,10 @@ def largest(machine, values, mass, hertz, start):
     """Largest displacement (m) in the last ten of PERIODS periods, by the equations in SI units."""
     stiffness, damping, cubic = values
     c, angular = machine.viscous_damping, 2 * np.pi * hertz
-    force, unbalance, shaker = machine.forcing(hertz)
-    amplitude = force + unbalance * angular**2 + shaker / angular**2
+    amplitude = machine.force
+    if machine.base_displacement is not None:
+        through = np.hypot(machine.linear_stiffness, c * angular)
+        amplitude = machine.base_displacement * through
 
     def rate(t, y):
         x, v, u, w = y
