@@ -9,7 +9,7 @@ import numpy as np
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.findings import balance as balance_findings
-from impact_damper.claims.suppression import suppression_band
+from impact_damper.claims.suppression import high_motions, suppression_band
 
 
 def growth(widths):
@@ -41,7 +41,7 @@ def widening(datasets):
 
 def accuracy(datasets):
     """Measures of claim 16: harmonic balance gives the band's amplitude and width accurately."""
-    widths, shares, ratios, harmonics = [], [], [], []
+    widths, shares, ratios, harmonics, violent = [], [], [], [], []
     for name in extract.ELASTIC:
         design = extract.get(datasets, "harmonic_balance", name)
         branches, free = exact_orbits.of_curve(datasets, name)
@@ -54,6 +54,9 @@ def accuracy(datasets):
         size, first = orbits["size"].to_numpy(), np.abs(orbits.amplitude.to_numpy())
         shares.append(float(np.max(np.abs(size - estimate.values)) / design.peak_amplitude))
         ratios.append(size.mean() / float(estimate.mean()))
+        response = extract.within(extract.get(datasets, "response", name), lower, upper)
+        high = high_motions(response, free)
+        violent.append(float(extract.share_of_starts(response, high).max()))
         harmonics.append(first.mean() / float(estimate.mean()))
     return {
         "typical": np.median(widths),
@@ -61,6 +64,7 @@ def accuracy(datasets):
         "share": np.max(shares),
         "ratio": np.max(ratios),
         "harmonic": np.max(harmonics),
+        "violent": max(violent),
     }
 
 
@@ -175,6 +179,11 @@ CLAIMS = (
             Measure(
                 "harmonic",
                 "largest ratio of the mean first harmonic of the orbit to mean |a| in the band",
+            ),
+            Measure(
+                "violent",
+                "largest share of random starts, at one W of the band by harmonic balance, that "
+                "lead to a violent motion",
             ),
         ),
         evidence=accuracy,

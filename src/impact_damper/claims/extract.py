@@ -65,6 +65,12 @@ def touching(response):
     return steady & (response.contacts > 0)
 
 
+def share_of_starts(response, motions):
+    """Share of the random starts at each frequency that lead to the motions of a mask."""
+    total = response.share.sum("motion")
+    return (response.share.where(motions, 0).sum("motion") / total.where(total > 0)).fillna(0)
+
+
 def spacing(data):
     """Step of an even grid of frequencies."""
     return float(data.frequency[1] - data.frequency[0])

@@ -9,6 +9,7 @@ import numpy as np
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.findings import migration as migration_findings
+from impact_damper.claims.policies import by_policy
 from impact_damper.data.datasets import damper_of, flag, oscillator_of
 
 
@@ -101,7 +102,7 @@ def release_phase(datasets):
         numbers[f"{kind}_goal"] = extreme_share(case, kind, "non_resonance", max)
         numbers[f"{kind}_subharmonic"] = extreme_share(case, kind, "subharmonic", max)
         numbers[f"{kind}_resonance"] = extreme_share(case, kind, "resonance", max)
-    return numbers
+    return numbers | by_policy(datasets, case)
 
 
 def total_cycles(datasets):
@@ -123,33 +124,7 @@ def total_cycles(datasets):
         "median": max(float(run.total_time.median()) for run in runs),
         "longest": max(float(run.total_time.max()) for run in runs),
         "damper": max(float(run.damper_time.median()) for run in runs),
-    } | by_state(datasets, runs[int(np.argmin(within))])
-
-
-def by_state(datasets, case):
-    """Measures of claim 14: success of releases by state, with the damper of a case at its W.
-
-    NaN without the policies of migration for this damper and frequency.
-    """
-    numbers = {"by_state": np.nan, "by_state_cycles": np.nan, "through": np.nan}
-    damper, frequency = damper_of(case), extract.parameter(case, "frequency")
-    for data in datasets.get("release_policies", {}).values():
-        same = [
-            index
-            for index in range(data.sizes["case"])
-            if float(data.case_mass_ratio[index]) == damper.mass_ratio
-            and float(data.case_clearance[index]) == damper.clearance
-            and float(data.case_restitution[index]) == damper.restitution
-        ]
-        if oscillator_of(data) == oscillator_of(case) and same and frequency in data.frequency:
-            here = data.isel(case=same[0]).sel(frequency=frequency, bound="share")
-            one = here.sel(policy="state")
-            numbers = {
-                "by_state": float(one.policy_success),
-                "by_state_cycles": float(one.policy_cycles.sel(quantile=0.5)),
-                "through": float(here.realised_share),
-            }
-    return numbers
+    } | by_policy(datasets, runs[int(np.argmin(within))])
 
 
 def early_release(datasets):
@@ -166,7 +141,7 @@ def early_release(datasets):
         "reached": float(case.reached_share.sel(bound="share")),
         "switchings": float(case.switchings.median()),
         "cycles": float(case.total_time.median()),
-    }
+    } | by_policy(datasets, case)
 
 
 CLAIMS = (
@@ -257,6 +232,12 @@ CLAIMS = (
                 "lowest scanned W at which releases of the unsettled motion lead to both",
             ),
             Measure("unsettled_last", "highest scanned W of this kind"),
+            Measure(
+                "by_hold",
+                "share of runs to the non-resonance branch within 350 cycles, released after a "
+                "fixed number of cycles, the best one",
+            ),
+            Measure("by_phase", "the same share, released at the best phase"),
         ),
         evidence=release_phase,
         finding=migration_findings.release_phase,
@@ -298,8 +279,15 @@ CLAIMS = (
                 "share of runs at the worst W that arrive within 350 cycles if the damper is let "
                 "go of as soon as the state lies in the basin of the goal",
             ),
+            Measure("by_state_least", "lower end of the 95 % interval of this share"),
+            Measure("by_state_most", "upper end of this interval"),
             Measure("by_state_cycles", "median number of cycles of these runs"),
             Measure("through", "share of states before settling at the worst W in this basin"),
+            Measure(
+                "by_clairvoyant", "this share for a controller that knows the state and the future"
+            ),
+            Measure("by_clairvoyant_least", "lower end of the 95 % interval of this share"),
+            Measure("by_clairvoyant_cycles", "median number of cycles of these runs"),
         ),
         evidence=total_cycles,
         finding=migration_findings.total_cycles,
@@ -323,6 +311,16 @@ CLAIMS = (
             Measure("reached", "share of runs that arrive in the end", least=1),
             Measure("switchings", "median number of switchings"),
             Measure("cycles", "median number of cycles"),
+            Measure(
+                "by_hold",
+                "share of runs that arrive within 350 cycles, released early after a fixed number "
+                "of cycles, the best one",
+            ),
+            Measure(
+                "by_state",
+                "the same share, released as soon as the state lies in the basin of the goal",
+            ),
+            Measure("by_state_cycles", "median number of cycles of these runs"),
         ),
         evidence=early_release,
         finding=migration_findings.early_release,

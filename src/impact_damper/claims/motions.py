@@ -35,6 +35,7 @@ def quiet_contacts(datasets):
 def high_and_chaotic(datasets):
     """Measures of claim 6: the high-amplitude motion has more than two impacts, or is chaotic."""
     contacts, fewest, orbits, twins, widest, total, lives = [], [], [], [], [], [], []
+    starts = []
     for name in extract.ELASTIC:
         response = extract.get(datasets, "response", name)
         branches, free = exact_orbits.of_curve(datasets, name)
@@ -50,6 +51,9 @@ def high_and_chaotic(datasets):
         chaotic = chaotic_high(response, free).values
         widest.append(extract.longest_run(chaotic) * extract.spacing(response))
         lives.append(_lasting(response, free))
+        violent = high_motions(response, free)
+        chaos = violent & extract.is_outcome(response, "chaotic")
+        starts.append(extract.share_of_starts(response, chaos).max())
         total.append(np.sum(chaotic) * extract.spacing(response))
     contacts, orbits, twins = np.concatenate(contacts), pd.concat(orbits), pd.concat(twins)
     if len(contacts) == 0 or not orbits.a.notna().any():
@@ -62,6 +66,7 @@ def high_and_chaotic(datasets):
         "twin": twins.difference.median(),
         "widest": max(widest),
         "total": max(total),
+        "starts": max(starts),
         "lasting": np.mean(lives) if (lives := np.concatenate(lives)).size else np.nan,
     }
 
@@ -159,6 +164,10 @@ CLAIMS = (
             ),
             Measure(
                 "total", "total width in W with a chaotic violent motion, largest value of a damper"
+            ),
+            Measure(
+                "starts",
+                "largest share of random starts at one W that lead to violent chaos",
             ),
             Measure(
                 "lasting",
