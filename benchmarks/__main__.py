@@ -10,6 +10,7 @@ from benchmarks import (
     costs,
     design,
     machine,
+    orbits,
     overhead,
     ratios,
     scaling,
@@ -86,10 +87,11 @@ def time_designs(write, amount):
 
 
 def settle(write, amount):
-    """Starts settled a second, and states of a basin labelled a second."""
+    """Starts settled, states of a basin labelled, and orbits found a second."""
     with one_core():
         write("settled", settled.table(amount["settled"], amount["few"]))
         write("basins", basins.table(50 * amount["settled"], amount["few"]))
+        write("orbits", orbits.table(amount["settled"] // 20, amount["few"]))
 
 
 PARTS = {

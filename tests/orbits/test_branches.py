@@ -113,7 +113,7 @@ def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
     assert_allclose(
         min(point.value for point in quiet.points if point.orbit.stable),
         min(found.point.value for _, found in quiet.events if found.kind == "fold"),
-        atol=1e-3,  # between two points
+        atol=1e-5,
     )
     large = max(quiet.points, key=lambda point: point.orbit.record["maximum_displacement"])
     assert not large.orbit.stable

@@ -34,6 +34,9 @@ EVENTS = {
     "grazing": (None, "P", SKY),
     "merging": (None, "P", SKY),
 }
+# An inset at the upper right, in shares of the axes: its place, the part it shows, and the number
+# of events in that part from which on it is drawn.
+INSET, MAGNIFIED, CROWD = (0.76, 0.52, 0.225, 0.45), (0.15, 0.2), 4
 # Sizes of markers of events next to stable orbits, and of others.
 LARGE, SMALL = 3.6, 1.2
 OPEN_ENDS = ("lost", "point_limit")
@@ -75,13 +78,31 @@ def draw_branches(*, branches):
                 look = {} if stable else {"linestyle": ":", "label": None}
                 axes.plot(value, size, **role | {"linewidth": 0.7} | look)
         draw_orbits(axes, data)
+        axes.set_ylim(bottom=0)
+        _magnify(axes, data)
         axes.set(
             xlabel="Forcing frequency, $\\Omega$",
             ylabel=axis_label(data["orbit_displacement"]),
         )
-        axes.set_ylim(bottom=0)
     legend(drawn, 3)
     return drawn
+
+
+def _magnify(axes, data):
+    """Draw the part with most events beside stable orbits again, in an inset."""
+    beside = _next_to_stable(data)
+    places = np.stack([data["event_value"].values, data["event_displacement"].values])[:, beside]
+    limits = np.array([axes.get_xlim(), axes.get_ylim()])
+    half = np.diff(limits) * np.array(MAGNIFIED)[:, None] / 2
+    near = np.all(np.abs(places[:, :, None] - places[:, None]) <= half[..., None], axis=0)
+    if near.sum(axis=0).max(initial=0) < CROWD:
+        return
+    middle = places[:, near[np.argmax(near.sum(axis=0))]].mean(axis=1)[:, None]
+    inset = axes.inset_axes(INSET)
+    draw_orbits(inset, data)
+    (left, right), (bottom, top) = middle + half * [-1, 1]
+    inset.set(xlim=(left, right), ylim=(bottom, top))
+    axes.indicate_inset_zoom(inset)
 
 
 def draw_orbits(axes, data):

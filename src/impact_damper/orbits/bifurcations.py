@@ -124,6 +124,12 @@ def bifurcations_between(point_at, start, end, first, last):
 
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
+            if start.orbit.stable != end.orbit.stable and not point.orbit.stable:
+                # of both sides of the bifurcation the stable one
+                aside = place + np.copysign(
+                    2 * tolerance, (first if start.orbit.stable else last) - place
+                )
+                point = point_at(aside) if (aside - first) * (aside - last) < 0 else point
         except (ArithmeticError, ValueError):
             lost += 1
             continue

@@ -25,9 +25,9 @@ from impact_damper.system.families import LINEAR, family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import describe
 
-# `complete_branches` leaves a branch after so many orbits in one direction. Those of long periods
-# wind through the chaotic motion for thousands of unstable orbits before they end.
-MOST_POINTS = 2500
+# `complete_branches` leaves a branch after so many orbits in one direction; one of a period beyond
+# LONG after so many over the period, since it winds through chaos for thousands of orbits.
+MOST_POINTS, MOST_PERIODS, LONG = 2500, 6000, 8
 
 
 def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None):
@@ -210,7 +210,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
             if not orbit.converged or orbit.repeats_sooner():
                 lost += 1
             elif not any(branch.holds(orbit, frequency) for branch in branches):
-                branches.append(follow_branch(family, orbit, frequency, frequencies, MOST_POINTS))
+                most = MOST_POINTS if period <= LONG else MOST_PERIODS // period
+                branches.append(follow_branch(family, orbit, frequency, frequencies, most))
                 bar.set_postfix(branches=len(branches))
     if progress is not None:
         tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)

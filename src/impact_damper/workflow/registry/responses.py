@@ -102,7 +102,8 @@ TABLES = (
         "tables.responses",
         ("branches",),
         "Branches of periodic orbits: range, stable parts, and events at both ends. Point limit: "
-        "left after 2500 orbits in one direction, among chaotic motions. Lost: Newton's method "
+        "left after 2500 orbits in one direction, or 6000/n for periods n above 8, among chaotic "
+        "motions. Lost: Newton's method "
         "finds no next orbit, where several contacts appear at almost the same frequency.",
     ),
     Table(

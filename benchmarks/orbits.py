@@ -1,0 +1,55 @@
+"""Orbits found a second by one thread, by single and by multiple shooting."""
+
+import numpy as np
+import pandas as pd
+
+from benchmarks.timing import interleaved, spread
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.system.packed import pack
+from impact_damper.system.parameters import Damper, Oscillator
+
+DAMPER, FREQUENCY, SPAN = Damper(0.12, 2.0), 2.0, (0.3, 2.6)
+# A state near the quiet motion, and the disturbance from which each orbit is found again.
+QUIET, DISTURBED = (0.006, 0.187, 0.002, -2.408), 1e-8
+
+
+def family(frequency):
+    """Return the packed parameters of the damper of figure 5 (a)."""
+    return pack(Oscillator(0.215), DAMPER, frequency)
+
+
+def mild_and_strong(count):
+    """Return about `count` orbits of the branch of the quiet motion by each kind of shooting."""
+    branch = follow_branch(family, find_orbit(family(FREQUENCY), QUIET), FREQUENCY, SPAN)
+    orbits = {"single": [], "multiple": []}
+    for point in branch.points:
+        orbits["single" if point.orbit.chain is None else "multiple"].append(point.orbit)
+    return {name: found[:: max(1, len(found) // count)] for name, found in orbits.items()}
+
+
+def table(count, rounds):
+    """Return orbits found a second from disturbed states, with Newton's maps for each of them."""
+    orbits = mild_and_strong(count)
+
+    def find(name):
+        return [
+            find_orbit(each.p, each.state + DISTURBED, each.periods, each.phase)
+            for each in orbits[name]
+        ]
+
+    found = {name: find(name) for name in orbits}
+    lines = []
+    for name, seconds in interleaved({n: lambda n=n: find(n) for n in orbits}, rounds).items():
+        median, lower, upper = spread(len(orbits[name]) / seconds)
+        multipliers = [abs(each.multipliers[0]) for each in orbits[name]]
+        lines.append(
+            {"shooting": name, "orbits": len(orbits[name]), "orbits_a_second": median}
+            | {"lower_quartile": lower, "upper_quartile": upper}
+            | {
+                "largest_multiplier": max(multipliers),
+                "maps_each": np.mean([each.maps for each in found[name]]),
+                "converged": np.mean([each.converged for each in found[name]]),
+            }
+        )
+    return pd.DataFrame(lines)
