@@ -9,7 +9,7 @@ from helpers.sampling import sample
 from numpy.polynomial import Polynomial
 
 from impact_damper.motions.envelopes import AT_ONCE, envelope
-from impact_damper.motions.records import extremum
+from impact_damper.motions.extrema import extremum
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Oscillator
 

@@ -15,7 +15,7 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import acceleration
 from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, step, workspace
-from impact_damper.motions.records import extremum
+from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO
 

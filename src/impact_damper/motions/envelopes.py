@@ -10,7 +10,7 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import X, side_of, step, workspace
-from impact_damper.motions.records import extremum
+from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import strobe_time
 
 # Windows in one call of the kernel, a few milliseconds, since Ctrl-C waits for a kernel to end.

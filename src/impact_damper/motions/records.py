@@ -11,6 +11,7 @@ from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
+from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
@@ -18,8 +19,6 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 PHASELESS = 1e-9
 # Samples per forcing period from which harmonics are computed.
 SAMPLES = 64
-# Pieces of an interval in each of which a polynomial turns at most once, in `extremum`.
-PIECES = 8
 # Steps of a trace in one call of its kernel, a fraction of a second.
 STEPS_AT_ONCE = 50_000
 # Argument `stop` of runs that no other thread can stop.
@@ -58,50 +57,6 @@ MOTION = np.dtype(
         ("harmonic_relative", "c16"),
     ]
 )
-
-
-@kernel
-def extremum(c, order, length, start):
-    """Return the largest |polynomial| over [0, length], or `start` if that is larger.
-
-    A polynomial exceeds the larger of its two ends by at most length^2/8 times a bound on its
-    second derivative; most calls end there. Otherwise the interval is divided into pieces, and
-    where a piece turns, Newton's method finds the place.
-    """
-    low, fall = polynomial(c, order, 0.0)
-    high, _ = polynomial(c, order, length)
-    excess, power = 0.0, length
-    for k in range(2, order + 1):
-        power *= length
-        excess += 0.125 * k * (k - 1) * abs(c[k]) * power
-    best = max(start, max(abs(low), abs(high)))
-    if max(abs(low), abs(high)) + excess <= best:
-        return best
-    for piece in range(1, PIECES + 1):
-        t = length * piece / PIECES
-        value, slope = polynomial(c, order, t)
-        best = max(best, abs(value))
-        # it moved outward at the beginning of the piece, or began at the origin, and moves inward
-        if slope * fall < 0.0 and value * slope < 0.0:
-            best = max(best, abs(turning_value(c, order, t - length / PIECES, t, fall, slope)))
-        fall = slope
-    return best
-
-
-@kernel_only
-def turning_value(c, order, begin, end, first, last):
-    """Return a polynomial where its slope, `first` at begin and `last` at end, is zero."""
-    t = begin + (end - begin) * first / (first - last)
-    for _ in range(4):
-        _, slope = polynomial(c, order, t)
-        bend = 0.0
-        for k in range(order, 1, -1):
-            bend = bend * t + k * (k - 1) * c[k]
-        if bend == 0.0:
-            break
-        t = min(max(t - slope / bend, begin), end)
-    value, _ = polynomial(c, order, t)
-    return value
 
 
 @kernel_only

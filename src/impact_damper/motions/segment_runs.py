@@ -12,7 +12,7 @@ from impact_damper.kernel.single import (
     step,
     workspace,
 )
-from impact_damper.motions import records
+from impact_damper.motions.extrema import extremum
 
 
 @kernel
@@ -23,7 +23,7 @@ def largest_displacement(p, y, t, end, tolerance):
     while t < end:
         order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
         length, side = step(p, y, none, side, t, end - t, tolerance, work)
-        largest = records.extremum(work[X:], order, length, largest)
+        largest = extremum(work[X:], order, length, largest)
         t = end if length >= end - t else t + length
     return largest
 
