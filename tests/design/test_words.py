@@ -90,11 +90,11 @@ def test_distances_to_the_cliff_and_to_the_end_of_stability_are_apart():
     [
         (
             [[0.01, 0.005, 0.02]] * 2,
-            "become so, on average, after another 100 periods at 8 mm, 100 periods at 9 mm.",
+            "become so, on average, after another 100 cycles at 8 mm, 100 cycles at 9 mm.",
         ),
         (
             [[np.nan] * 3, [0.001, 0, 0.004]],
-            "do not become quiet at 9 mm: none did within 3000 periods; this chaos",
+            "do not become quiet at 9 mm: none did within 3000 cycles; this chaos",
         ),
     ],
 )

@@ -95,7 +95,7 @@ def test_numbers_are_those_of_the_dataset():
 
 def test_times_margins_and_derivatives_are_on_the_page():
     found = numbers()
-    what = "periods until a start is on a periodic quiet motion, there: median / 95 %, at the "
+    what = "cycles until a start is on a periodic quiet motion, there: median / 95 %, at the "
     assert found[f"{what}slowest frequency"] == "80 / 120"
     what = "largest multiplier of the quiet orbit at the gap to build, at 30 Hz (stable below 1)"
     assert found[what] == "0.9"

@@ -177,27 +177,27 @@ def _lives(data):
         data["life_gap"].values, data["life_rate"].values, strict=True
     ):
         if low > 0:
-            passing.append(f"{_rounded(1 / rate)} periods at {gap:.4g} mm")
+            passing.append(f"{_rounded(1 / rate)} cycles at {gap:.4g} mm")
         elif np.isfinite(rate):
             lasting.append((f"{gap:.4g}", high))
     found = []
     if passing:
         found.append(
-            f"Across the cliff, motions that are not quiet after {LEAD} forcing periods become so, "
+            f"Across the cliff, motions that are not quiet after {LEAD} cycles become so, "
             f"on average, after another {', '.join(passing)}."
         )
     if lasting:
         gaps, rates = zip(*lasting, strict=True)
         found.append(
             f"{'Not so' if passing else 'Beyond the cliff, motions do not become quiet'} at "
-            f"{', '.join(gaps)} mm: none did within {LONGEST} periods; this chaos lasts for good, "
-            f"or more than {_rounded(1 / max(rates))} periods on average."
+            f"{', '.join(gaps)} mm: none did within {LONGEST} cycles; this chaos lasts for good, "
+            f"or more than {_rounded(1 / max(rates))} cycles on average."
         )
     return " ".join(found)
 
 
 def _rounded(count):
-    """Return a number of periods with two digits."""
+    """Return a number of cycles with two digits."""
     return f"{float(f'{count:.2g}'):.0f}"
 
 

@@ -27,10 +27,10 @@ MEANING = (
     "{share}."
 )
 TIME = (
-    "A share depends on how long one waits. Comparisons ran motions for at most {hurried} forcing "
-    "periods ({seconds}), and those that were not quiet then, but would make a candidate fail, for "
-    "at most {limit}, as all others; a motion that is chaotic for certain was stopped after "
-    "{early} and {patience} periods."
+    "A share depends on how long one waits. Comparisons ran motions for at most {hurried} cycles "
+    "of the forcing ({seconds}), and those that were not quiet then, but would make a candidate "
+    "fail, for at most {limit}, as all others; a motion that is chaotic for certain was stopped "
+    "after {early} and {patience} cycles."
 )
 DEPENDENCE = (
     "What the quiet orbit at {frequency} depends on: its change if one value grows by 1 %, by "
@@ -100,7 +100,7 @@ def _shares(data, asked):
         "start_quiet_share, start_quiet_interval",
     )
     yield (
-        "periods until a start is on a periodic quiet motion, there: median / 95 %, at the slowest "
+        "cycles until a start is on a periodic quiet motion, there: median / 95 %, at the slowest "
         "frequency",
         _times(data, row),
         "quiet_time_median, quiet_time_late",
