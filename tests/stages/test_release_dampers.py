@@ -13,6 +13,7 @@ from impact_damper.stages.release_trials import free_case
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.system.settling import Settling
+from impact_damper.tables.policies import release_answers
 from impact_damper.tables.policies import release_dampers as table
 
 CUBIC = Oscillator(0.215)
@@ -82,3 +83,8 @@ def test_best_clearances():
     (row,) = table({"release_dampers": {"paper": one}}).to_dict("records")
     assert row["same"] == "no" and row["quiet"] == pytest.approx(0.05)
     assert row["median cycles"] == 20 and row["median cycles, suppression"] == 30
+    (row,) = release_answers({"release_dampers": {"paper": one}}).to_dict("records")
+    assert (
+        row["for migration"] == "rm = 0.1, d0 = 3" and row["answer"] == "no; the latter is slower"
+    )
+    assert row["for suppression"] == "rm = 0.1, d0 = 2" and row["quiet, suppression"] == 0.05

@@ -48,6 +48,17 @@ SHOWN = {
         "median cycles, suppression": "median time there by state [cycles]",
         "same": "as good for migration",
     },
+    "release_answers": {
+        "W": DAMPER["W"],
+        "e": DAMPER["e"],
+        "for migration": "best damper for migration by state",
+        "median cycles": "its median time [cycles]",
+        "quiet": "its quiet displacement over the free resonance",
+        "for suppression": "best damper for suppression",
+        "median cycles, suppression": "its median time by state [cycles]",
+        "quiet, suppression": "its quiet displacement over the resonance",
+        "answer": "is the best for migration the best for suppression",
+    },
 }
 POLICIES = {
     "settled": "random phase once settled",
@@ -171,6 +182,40 @@ def release_dampers(datasets) -> pd.DataFrame:
                     found = np.isfinite(quiet.sel(bound="share"))
                     row |= {"same": _yes(len({*gaps.values()}) == 1 or (overlap and found))}
                 rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def release_answers(datasets) -> pd.DataFrame:
+    """For each frequency and restitution the best damper of the map for each purpose, in words."""
+    rows = []
+    for data in datasets.get("release_dampers", {}).values():
+        for frequency, restitution in np.ndindex(
+            data.sizes["frequency"], data.sizes["restitution"]
+        ):
+            one = data.isel(frequency=frequency, restitution=restitution)
+            state = one.sel(policy="state").stack(damper=("mass_ratio", "clearance"))
+            quiet = state.damper_quiet / state.resonance_displacement
+            row = {"W": float(one.frequency), "e": float(one.restitution)}
+            success, cycles = (
+                state[f"damper_{name}"].sel(bound="share").values for name in ("success", "cycles")
+            )
+            best = int(np.lexsort((cycles, -success))[0])
+            if np.isfinite(cycles[best]) and np.isfinite(quiet).any():
+                quietest = int(np.nanargmin(quiet.values))
+                for words, k in (("", best), (", suppression", quietest)):
+                    row |= {f"median cycles{words}": cycles[k], f"quiet{words}": float(quiet[k])}
+                for purpose, k in (("migration", best), ("suppression", quietest)):
+                    rm, d0 = state.damper.values[k]
+                    row |= {f"for {purpose}": f"rm = {rm:g}, d0 = {d0:g}"}
+                ends = state.damper_cycles
+                apart = float(ends.sel(bound="lower")[quietest]) > float(
+                    ends.sel(bound="upper")[best]
+                )
+                slower = "no; the latter is slower" if apart else "no, but as fast within the error"
+                row |= {"answer": "yes" if best == quietest else slower}
+            else:
+                row |= {"answer": "no damper reaches the goal in half of the runs, or is quiet"}
+            rows.append(row)
     return pd.DataFrame(rows)
 
 

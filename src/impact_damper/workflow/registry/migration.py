@@ -118,4 +118,10 @@ TABLES = (
         ("release_dampers",),
         "The best clearance for migration by state, and for suppression, at each mass ratio.",
     ),
+    Table(
+        "release_answers",
+        "tables.policies",
+        ("release_dampers",),
+        "The best damper for migration by state, and whether it is the best for suppression.",
+    ),
 )
