@@ -131,8 +131,10 @@ def _sureness(data):
         f"{_percent(share[0, 1])} to {_percent(share[0, 2])})"
     )
     if corners:
+        worst = share[1:, 0].min()
+        least = "all" if worst == 1 else f"at least {_percent(worst)}"
         text += (
-            f", and at least {_percent(share[1:, 0].min())} in each of {corners} further checks "
+            f", and {least} in each of {corners} further checks "
             "with all values off by their whole tolerance, up or down; in the worst of these "
             f"motions the machine {_moves(sizes.max())}"
         )

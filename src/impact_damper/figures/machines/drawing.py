@@ -19,7 +19,7 @@ from impact_damper.figures.schematic_parts import (
 from impact_damper.figures.style import BLACK, GREY, PALE_SKY, VERMILION, WHITE, style
 
 CAPTION = """
-The machine and its damper, to scale if both masses are cubes of steel (7850 kg/m^3). The loose mass
+The machine and its damper, to scale if both masses are cubes of steel (7850 kg/m³). The loose mass
 slides or rolls freely; its gap is drawn whole on one side, and is the full play from wall to wall.
 """
 # kg/m^3; inches: the wall, the machine's left side, width and height of the largest drawing of it,
