@@ -124,6 +124,9 @@ def test_no_policy_beats_the_clairvoyant_bound(free, damper):
         assert np.median(outcome.cycles) >= np.median(bound.cycles)
     some = clairvoyant(on, free, 40, 350.0, 6, examined=10)
     assert_array_equal(some.cycles, bound.cycles[:10])
+    threads = clairvoyant(on, free._replace(workers=2), 40, 350.0, 6)
+    for first, second in zip(bound, threads, strict=True):
+        assert_array_equal(first, second)
 
 
 def test_a_huge_margin_never_releases(free):

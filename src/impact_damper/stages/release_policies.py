@@ -139,10 +139,11 @@ def release_policies(
         for i, damper in enumerate(dampers):
             on = pack(oscillator, damper, frequency)
             policies, outcomes = compared(on, free, trials, seed)
-            for k, (policy, outcome) in enumerate(zip(policies, outcomes, strict=True)):
+            for k, outcome in enumerate(outcomes):
                 for name, values in summary(outcome).items():
                     data[name][i, j, k] = values
-                if policy.hold:
+            for k, policy in enumerate(policies):
+                if policy.kind != SETTLED:
                     data["policy_hold"][i, j, k] = policy.hold
                 if policy.kind == PHASE:
                     data["policy_phase"][i, j, k] = 2 * math.pi * policy.phase / PHASES
@@ -171,13 +172,13 @@ def release_policies(
 
 
 def compared(on, free, trials, seed):
-    """Return the policies in the order of POLICIES, and the outcomes of their trials."""
+    """Return the policies, and the outcomes of their trials and of the bound, as in POLICIES."""
     limit = float(PAPER_CYCLES)
     policies = [Policy(SETTLED), *chosen_policies(on, free, trials, limit, [seed, 1])]
     outcomes = [run_trials(on, free, policy, trials, limit, [seed, 0]) for policy in policies]
     examined = math.ceil(trials / CLAIRVOYANT)
     outcomes.append(clairvoyant(on, free, trials, limit, [seed, 0], examined))
-    return [*policies, Policy(None)], outcomes
+    return policies, outcomes
 
 
 def prediction(on, free, count, seed):
