@@ -2,9 +2,12 @@
 
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from IPython import get_ipython
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = ("Snakefile", "requirements.lock", "config", "profiles", "workflow")
@@ -21,4 +24,17 @@ def enter_clone():
         copy(ROOT / part, Path(folder.name) / part)
     os.chdir(folder.name)
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    get_ipython().register_magic_function(bash, "cell")
     return folder
+
+
+def bash(line, cell):
+    """Run the cell in a shell and print its output in one piece.
+
+    IPython's own `%%bash` prints pieces, between which the pages would break lines.
+    """
+    ran = subprocess.run(["bash", "-c", cell], capture_output=True, text=True)
+    print(ran.stdout, end="")
+    if ran.returncode:
+        print(ran.stderr, file=sys.stderr)
+        ran.check_returncode()
