@@ -18,6 +18,7 @@ from impact_damper.motions.simulate import COMPONENTS, carried_phase, check_stat
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit
+from impact_damper.orbits.switching import LEAVING, other_branch
 from impact_damper.stages.branch_datasets import branches_dataset, orbit_variables
 from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown
 from impact_damper.system.checks import check_span
@@ -28,6 +29,9 @@ from impact_damper.system.parameters import describe
 # `complete_branches` leaves a branch after so many orbits in one direction; one of a period beyond
 # LONG after so many over the period, since it winds through chaos for thousands of orbits.
 MOST_POINTS, MOST_PERIODS, LONG = 2500, 6000, 8
+# Longest period of branches to which it switches at a bifurcation; doublings follow one another
+# without end.
+LONGEST_SWITCHED = 4
 
 
 def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None):
@@ -160,6 +164,9 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
     """Follow, while the frequency varies, every branch of orbits on which a settled motion lies.
 
+    Where a stable orbit loses its symmetry or doubles its period, the branch that leaves there is
+    followed too, up to period 4.
+
     Parameters
     ----------
     oscillator : Oscillator
@@ -176,7 +183,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     -------
     xarray.Dataset
         As from `orbit_branch`, for all branches; `seeds`, the number of settled motions, and
-        `seeds_lost`, the number of those motions from which Newton's method found no orbit. Mirror
+        `seeds_lost`, the number of those motions from which Newton's method found no orbit;
+        likewise `switches` and `switches_lost` for bifurcations where another branch leaves. Mirror
         images count as one branch. Motions without contacts are left out if there is a damper,
         because they are those of the free oscillator.
 
@@ -201,6 +209,10 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     def family(value):
         return pack(oscillator, damper, value)
 
+    def follow(orbit, value):
+        most = MOST_POINTS if orbit.periods <= LONG else MOST_PERIODS // orbit.periods
+        return follow_branch(family, orbit, value, frequencies, most)
+
     family(frequencies[0])
     branches, lost = [], 0
     seeds = sorted(_seeds(motions, damper), key=lambda seed: seed[:3])
@@ -210,15 +222,44 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
             if not orbit.converged or orbit.repeats_sooner():
                 lost += 1
             elif not any(branch.holds(orbit, frequency) for branch in branches):
-                most = MOST_POINTS if period <= LONG else MOST_PERIODS // period
-                branches.append(follow_branch(family, orbit, frequency, frequencies, most))
+                branches.append(follow(orbit, frequency))
                 bar.set_postfix(branches=len(branches))
+    switches, unswitched = _follow_others(branches, follow)
     if progress is not None:
         tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
     parameters = describe(oscillator, damper) | {"parameter": "frequency"}
     data = branches_dataset(branches, float, parameters, "Branches of periodic orbits")
     counts = {"seeds": len(seeds), "seeds_lost": lost}
+    counts |= {"switches": switches, "switches_lost": unswitched}
     return data.assign(dataset(counts, {}, parameters, data.attrs["title"]).variables)
+
+
+def _follow_others(branches, follow):
+    """Follow the branches that leave where a stable orbit loses its symmetry or doubles its period.
+
+    The new branches are appended to the list, and likewise left at their events.
+
+    Returns
+    -------
+    sought, lost : int
+        Number of such events, and of those at which no orbit of the other branch was found.
+    """
+    sought = lost = 0
+    for branch in branches:
+        for place, event in branch.events:
+            periods = event.point.orbit.periods * (2 if event.kind == "period_doubling" else 1)
+            beside = branch.points[max(place - 1, 0) : place + 2]
+            if event.kind not in LEAVING or periods > LONGEST_SWITCHED or len(beside) < 3:
+                continue
+            if not any(point.orbit.stable for point in beside):
+                continue
+            sought += 1
+            other = other_branch(event)
+            if other is None:
+                lost += 1
+            elif not any(each.holds(other.orbit, other.value) for each in branches):
+                branches.append(follow(other.orbit, other.value))
+    return sought, lost
 
 
 def _summary(branches, seeds, lost):

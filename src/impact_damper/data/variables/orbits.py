@@ -119,6 +119,14 @@ VARIABLES = {
     "seeds_lost": Variable(
         (), "number of motions from which Newton's method converged to no orbit"
     ),
+    "switches": Variable(
+        (),
+        "number of losses of symmetry and period doublings beside stable orbits at which the "
+        "branch that leaves there was looked for, up to period 4",
+    ),
+    "switches_lost": Variable(
+        (), "number of those bifurcations at which no orbit of the other branch was found"
+    ),
     # events
     "event_branch": Variable(("event",), "branch on which an event lies"),
     "event_place": Variable(("event",), "index along the branch of the orbit at an event"),
