@@ -17,6 +17,7 @@ from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.simulate import COMPONENTS, carried_phase, check_state
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE
+from impact_damper.orbits.random_search import COUNT, stable_orbits
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import LEAVING, other_branch
 from impact_damper.stages.branch_datasets import branches_dataset, orbit_variables
@@ -164,8 +165,8 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
     """Follow, while the frequency varies, every branch of orbits on which a settled motion lies.
 
-    Where a stable orbit loses its symmetry or doubles its period, the branch that leaves there is
-    followed too, up to period 4.
+    Stable orbits on none of them are looked for from random states. Where a stable orbit loses its
+    symmetry or doubles its period, the branch that leaves there is followed too, up to period 4.
 
     Parameters
     ----------
@@ -184,7 +185,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     xarray.Dataset
         As from `orbit_branch`, for all branches; `seeds`, the number of settled motions, and
         `seeds_lost`, the number of those motions from which Newton's method found no orbit;
-        likewise `switches` and `switches_lost` for bifurcations where another branch leaves. Mirror
+        likewise `switches` and `switches_lost` for bifurcations where another branch leaves;
+        `searches` from random states, those that found a stable orbit, and new branches. Mirror
         images count as one branch. Motions without contacts are left out if there is a damper,
         because they are those of the free oscillator.
 
@@ -224,13 +226,20 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
             elif not any(branch.holds(orbit, frequency) for branch in branches):
                 branches.append(follow(orbit, frequency))
                 bar.set_postfix(branches=len(branches))
+    settled = len(branches)
+    stable = list(stable_orbits(family, damper, frequencies))
+    for value, orbit in stable:
+        if not any(branch.holds(orbit, value) for branch in branches):
+            branches.append(follow(orbit, value))
+    searches = {"searches": COUNT, "searches_stable": len(stable)}
+    searches["searches_new"] = len(branches) - settled
     switches, unswitched = _follow_others(branches, follow)
     if progress is not None:
         tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
     parameters = describe(oscillator, damper) | {"parameter": "frequency"}
     data = branches_dataset(branches, float, parameters, "Branches of periodic orbits")
     counts = {"seeds": len(seeds), "seeds_lost": lost}
-    counts |= {"switches": switches, "switches_lost": unswitched}
+    counts |= searches | {"switches": switches, "switches_lost": unswitched}
     return data.assign(dataset(counts, {}, parameters, data.attrs["title"]).variables)
 
 

@@ -119,6 +119,13 @@ VARIABLES = {
     "seeds_lost": Variable(
         (), "number of motions from which Newton's method converged to no orbit"
     ),
+    "searches": Variable(
+        (), "number of searches by Newton's method, from random states, for orbits of period 1 to 3"
+    ),
+    "searches_stable": Variable((), "number of those searches that found a stable orbit"),
+    "searches_new": Variable(
+        (), "number of branches followed from those orbits, because no other one held them"
+    ),
     "switches": Variable(
         (),
         "number of losses of symmetry and period doublings beside stable orbits at which the "
