@@ -2,18 +2,30 @@
 
 import doctest
 import inspect
+from operator import attrgetter
 
+import matplotlib
 import pytest
+from matplotlib import pyplot
 
 import impact_damper
+from impact_damper import plot
+
+PLOTS = [f"plot.{name}" for name in plot.__all__]
 
 
-@pytest.mark.parametrize("name", [*impact_damper.__all__])
+@pytest.fixture(autouse=True)
+def closed_figures():
+    """Close the figures of an example, drawn without a display."""
+    matplotlib.use("Agg")
+    yield
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("name", [*impact_damper.__all__, *PLOTS])
 def test_example_of_docstring(name):
     """The example runs in a namespace with the name alone."""
-    public = getattr(impact_damper, name)
-    if inspect.ismodule(public):
-        pytest.skip("its functions have their own")
+    public = attrgetter(name)(impact_damper)
     text = inspect.getdoc(public)
     test = doctest.DocTestParser().get_doctest(text, {name: public}, name, None, None)
     assert test.examples, "no example"

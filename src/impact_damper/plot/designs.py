@@ -24,6 +24,14 @@ def sweep(data, *, ax=None):
     ------
     TypeError
         If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> found = idm.clearance_sweep(
+    ...     idm.Oscillator(0.215), {"mass_ratio": 0.12}, 2.0, [2.2, 2.3, 2.4], starts=4
+    ... )
+    >>> axes = idm.plot.sweep(found)
     """
     given = datasets_in(data, lambda each: "quiet_displacement" in each, "clearance_sweep")
     if len(given) > len(CURVES):
@@ -52,6 +60,15 @@ def design(data, *, ax=None):
     ------
     TypeError
         If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
+    >>> found = idm.design_damper(
+    ...     machine, mass=1.2, band=(20.4, 20.7), restitution=0.6, contact_stiffness=2e7
+    ... )  # doctest: +SKIP
+    >>> axes = idm.plot.design(found)  # doctest: +SKIP
     """
     found = dataset_in(data, lambda each: "design_gap" in each, "design_damper")
     with looks(ax):

@@ -35,6 +35,12 @@ def orbit(data, *, ax=None):
     ------
     TypeError
         If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> motion = idm.simulate(idm.Oscillator(0.215), idm.Damper(0.12, 2.0), 2.0, (1, 0.5, 0, 0))
+    >>> axes = idm.plot.orbit(motion)
     """
     words = "simulate, steady_motion or periodic_orbit"
     found = dataset_in(data, _is_motion, words)
@@ -93,6 +99,11 @@ def basins(data, *, ax=None):
     ------
     TypeError
         If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> axes = idm.plot.basins(idm.basins(idm.Oscillator(0.215), None, 1.85, cells=40))
     """
     found = dataset_in(data, lambda each: "basin_label" in each, "basins")
     with looks(ax):
@@ -118,6 +129,12 @@ def migration(data, *, ax=None):
     ------
     TypeError
         If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> run = idm.migrate(idm.Oscillator(0.215), idm.Damper(0.12, 2.0), 1.95, seed=1)
+    >>> axes = idm.plot.migration(run)
     """
     run = dataset_in(data, lambda each: {"on_time", "displacement"} <= each.keys(), "migrate")
     with looks(ax):

@@ -153,6 +153,14 @@ def branch(data, *, ax=None):
     ------
     TypeError
         If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, start = idm.Oscillator(0.215), (0.006, 0.187, 0.002, -2.408)
+    >>> damper = idm.Damper(0.12, 2.0)
+    >>> found = idm.orbit_branch(oscillator, damper, 2.0, start, span=(1.9, 2.1))
+    >>> axes = idm.plot.branch(found)
     """
     given = datasets_in(
         data, lambda each: "event_kind" in each, "orbit_branch or complete_branches"
@@ -197,6 +205,12 @@ def shares(data, *, ax=None):
     ------
     TypeError
         If something else is given.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> bare = idm.frequency_response(idm.Oscillator(0.215), None, [1.9, 2.0], starts=8)
+    >>> axes = idm.plot.shares(bare)
     """
     words = "frequency_response, subharmonic_suppression or clearance_sweep"
     found = dataset_in(data, lambda each: "run_outcome" in each, words)
