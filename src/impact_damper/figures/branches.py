@@ -22,8 +22,8 @@ from impact_damper.figures.style import (
 CAPTION = """
 Largest displacement against forcing frequency of the exact periodic orbits, continued from every
 settled motion found. Grey and black: without the damper. Markers: bifurcations and changes of
-contact, small ones between unstable orbits. Plus signs: a contact appears, or two merge. Crosses: a
-branch was not followed further.
+contact, small ones between unstable orbits of period 1. Plus signs: a contact appears, or two
+merge. Crosses: a branch was not followed further.
 """
 
 EVENTS = {
@@ -117,7 +117,7 @@ def draw_orbits(axes, data):
     for label, color, chosen in PERIODS:
         for value, size, stable in runs(data, chosen):
             look = {"label": label, "zorder": 2.2} if stable else {"linestyle": ":"}
-            axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.5, **look)
+            axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.35, **look)
     axes.plot([], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
     mark_events(axes, data)
     mark_open_ends(axes, data)
@@ -186,13 +186,14 @@ def mark_open_ends(axes, data):
 
 
 def mark_events(axes, data):
-    """Mark every located event, with a large marker if an orbit beside it is stable."""
+    """Mark events of period 1 and, with large markers, all those beside stable orbits."""
     beside = _next_to_stable(data)
+    plain = data["branch_period"].values[data["event_branch"].values] == 1
     kinds = data["event_kind"].values
     for name, (label, marker, color) in EVENTS.items():
         chosen = kinds == flag("event_kind", name)
         for large in (True, False):
-            at = chosen & (beside == large)
+            at = chosen & (beside == large) & (plain | large)
             if at.any():
                 axes.plot(
                     data["event_value"].values[at],
