@@ -6,9 +6,10 @@ import xarray as xr
 from numpy.testing import assert_array_equal
 
 from impact_damper.data.best_dampers import best_clearances
-from impact_damper.migration.policies import STATE, Policy, run_trials
+from impact_damper.migration.choice import best_policy
+from impact_damper.migration.policies import run_trials
 from impact_damper.stages.optimum import clearance_sweep
-from impact_damper.stages.release_dampers import PATIENCE, release_dampers
+from impact_damper.stages.release_dampers import WAITS, release_dampers
 from impact_damper.stages.release_trials import free_case
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
@@ -36,7 +37,8 @@ def test_a_damper_on_map_and_cut_has_the_same_numbers(data):
 def test_success_is_that_of_trials_with_the_damper(data):
     free = free_case(CUBIC, 2.0, 16, Settling(), 1)
     on = pack(CUBIC, Damper(0.3, 1.0), 2.0)
-    outcome = run_trials(on, free, Policy(STATE, PATIENCE), 6, 350.0, 1995)
+    policy = best_policy(on, free, WAITS, 6, 350.0, [1995, 1])
+    outcome = run_trials(on, free, policy, 6, 350.0, 1995)
     found = data.isel(frequency=0).sel(mass_ratio=0.3, clearance=1, restitution=1, policy="state")
     assert found.damper_success.sel(bound="share") == np.mean(outcome.reached)
 

@@ -29,12 +29,19 @@ def chosen_policies(on, free, trials, limit, seed):
     waits = [Policy(STATE, each.hold) for each in holds[:2]] + [Policy(STATE, HOLDS[-1])]
     waits.append(Policy(STATE, math.inf))
 
+    kinds = holds, phases, waits
+    return [best_policy(on, free, each, trials, limit, [*seed, 1]) for each in kinds]
+
+
+def best_policy(on, free, candidates, trials, limit, seed):
+    """Return the policy with the fewest cycles in trials; arguments of `run_trials`."""
+
     def quality(policy):
-        outcome = run_trials(on, free, policy, trials, limit, [*seed, 1])
+        outcome = run_trials(on, free, policy, trials, limit, seed)
         # the mean of cycles, at most the limit, tells successes and times at once
         return np.mean(np.minimum(outcome.cycles, limit))
 
-    return [min(candidates, key=quality) for candidates in (holds, phases, waits)]
+    return min(candidates, key=quality)
 
 
 def expected_cycles(on, free, trials, seed):

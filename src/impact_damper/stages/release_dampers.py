@@ -1,9 +1,12 @@
 """Dampers compared for migration and for suppression: maps over mass, gap and restitution."""
 
+import math
+
 import numpy as np
 
 from impact_damper.data.datasets import dataset, is_settled
 from impact_damper.data.shares import BOUNDS, wilson
+from impact_damper.migration.choice import best_policy
 from impact_damper.migration.policies import SETTLED, STATE, Policy, run_trials
 from impact_damper.motions import ensemble
 from impact_damper.motions.start_states import random_starts
@@ -14,9 +17,10 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import check_settling
 
-# Forcing periods without a state in the goal's basin after which the policy by state tries again.
-PATIENCE = 5.0
-POLICIES = {"settled": Policy(SETTLED), "state": Policy(STATE, PATIENCE)}
+# Of the policy by state, forcing periods without a state in the goal's basin after which it tries
+# again: soon, or never, so that it may wait for the quiet motion. The better one is judged.
+WAITS = [Policy(STATE, 5.0), Policy(STATE, math.inf)]
+POLICIES = ["settled", "state"]
 # A motion is quiet below this share of the displacement of the free resonance motion.
 QUIET = 0.5
 
@@ -107,7 +111,7 @@ def release_dampers(
         "mass_ratio": mass_ratios,
         "clearance": clearances,
         "cut_restitution": cut["restitutions"],
-        "policy": list(POLICIES),
+        "policy": POLICIES,
         "bound": BOUNDS,
     }
     return dataset(data, coordinates, made | {"cells": cells}, "Dampers for migration")
@@ -134,9 +138,10 @@ class _Judge:
     def _migration(self, damper):
         """Return success and median of the cycles of each policy with bounds, shape (2, 3)."""
         on, limit = pack(self.oscillator, damper, self.frequency), float(PAPER_CYCLES)
+        chosen = best_policy(on, self.free, WAITS, self.trials, limit, [self.seed, 1])
         outcomes = [
             run_trials(on, self.free, policy, self.trials, limit, self.seed)
-            for policy in POLICIES.values()
+            for policy in (Policy(SETTLED), chosen)
         ]
         return (
             [wilson(np.sum(each.reached), self.trials) for each in outcomes],
