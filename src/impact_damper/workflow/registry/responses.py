@@ -106,7 +106,8 @@ TABLES = (
         "random states, or leave another branch where a stable orbit loses its symmetry or doubles "
         "its period, up to period 4. Point limit: left after 2500 orbits in one direction, or "
         "6000/n for periods n above 8, among chaotic motions. Lost: Newton's method finds no next "
-        "orbit, where several contacts appear at almost the same frequency.",
+        "orbit, where several contacts appear at almost the same frequency. The column `not "
+        "located` of the CSV counts events that were seen between two orbits but not found.",
     ),
     Table(
         "bifurcations",
