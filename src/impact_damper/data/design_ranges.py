@@ -1,4 +1,4 @@
-"""Ranges of a design in words, whose ends may be where the search ended."""
+"""Text for the ranges that a design found; an end can be the end of the search."""
 
 import numpy as np
 
@@ -6,14 +6,14 @@ from impact_damper.data.datasets import flag
 
 
 def quiet_gaps(data) -> str:
-    """Return the ends of the quiet gaps (mm) around the gap to build, as `known_range`."""
+    """Return the text of `known_range` for the quiet gaps (mm) around the gap to build."""
     return known_range(
         data["cliff_gap"].values, data["cliff_status"].values == flag("cliff_status", "range_ends")
     )
 
 
 def stable_range(data, parameter) -> str:
-    """Return where the quiet orbit is stable, as `known_range`; "" without an orbit.
+    """Return the text of `known_range` for the stable quiet orbit; "" if there is none.
 
     Parameters
     ----------
@@ -28,9 +28,10 @@ def stable_range(data, parameter) -> str:
 
 
 def known_range(ends, is_open) -> str:
-    """Return two numbers in words, from `low` to `high`.
+    """Return the text of a range.
 
-    Where the search ended before the range did, at an open end, the number is a bound only.
+    An end is open if the search stopped before the range ended; the range then extends at least to
+    the number, and "or less" or "or more" follows it.
     """
     low, high = (f"{end:.4g}" for end in ends)
     return f"{low}{' or less' * bool(is_open[0])} to {high}{' or more' * bool(is_open[1])}"

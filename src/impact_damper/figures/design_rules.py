@@ -19,7 +19,7 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Above: clearance with the smallest largest displacement of the exact quiet motion (points; crosses:
+Above: clearance at which the exact quiet motion has the smallest max |Z1| (points; crosses:
 unstable, not observed) and of straight flights between the walls with corrections (lines). Below:
 share of all optima that each rule predicts within a given error; the explicit formula is for
 elastic contact.

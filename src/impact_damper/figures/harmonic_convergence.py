@@ -24,7 +24,7 @@ CAPTION = """
 Error of harmonic balance with harmonics 1, 3, ... N against the exact orbit: (a) largest
 displacement; (b) root mean square of the harmonics kept; (c) Floquet multiplier by Hill's method.
 (d) Result of Newton's method started from the single-term solution. Dashed grey: decrease predicted
-from the smoothness of the force, drawn three times too high.
+from the smoothness of the force, multiplied by 3 to be seen.
 """
 
 PANELS = {

@@ -20,8 +20,8 @@ from impact_damper.rivals.methods import METHODS
 CAPTION = """
 Shading: share of random free flights whose contact a method does not notice, because no step ends
 beyond the wall; depth is how far the flight would pass it. Solid line: median error of the method's
-motion. Dashed: depth at which equal steps would miss half. Dots: a contact reported but not made.
-Crosses: failed runs.
+motion. Dashed: depth at which constant steps would miss half. Dots: a contact reported but not
+made. Crosses: failed runs.
 """
 
 COLUMNS = 4

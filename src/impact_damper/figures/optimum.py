@@ -22,7 +22,7 @@ from impact_damper.figures.style import (
 CAPTION = """
 Largest displacement of the quiet motion against clearance (points), and its first harmonic by (7)
 (lines; with inelastic contact a guide to the eye). Stars: smallest displacement on the exact orbit;
-bars: at most 10 % larger. Larger motions that coexist are not drawn.
+bars: range in which it is at most 10 % larger. Larger motions that coexist are not drawn.
 """
 
 BALANCE = "lines: $|a|$ by equations (7)"

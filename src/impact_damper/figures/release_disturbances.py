@@ -14,10 +14,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Against the margin inside the basin, over the size of the resonance motion. Above: share of trials
-that reach the non-resonance motion within 350 cycles. Below: median of the cycles. Noise is
-relative to the resonance motion; h and the force are those assumed. Dotted, with grey area: what a
-controller could reach that knows state and future.
+Horizontal: margin inside the basin, as a fraction of the size of the resonance motion. Above: share
+of trials that reach the non-resonance motion within 350 cycles. Below: median of the cycles. Noise
+is relative to the resonance motion; h and the force are those assumed. Dotted, with grey area: what
+a controller could reach that knows state and future.
 """
 
 # Disturbances that are drawn, and their words; the table has all.

@@ -10,8 +10,8 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, lette
 
 CAPTION = """
 Largest displacement against forcing frequency of all motions found, by random starts and by
-following. Lines join the settled motions of a branch; free motions and dotted ones are exact
-orbits. Chaos is a transient if one of its runs ended. Harmonic balance gives the first harmonic.
+following. Lines join the settled motions of a branch; dotted lines and motions without damper are
+exact orbits. Chaos is a transient if it ended in a run. Harmonic balance gives the first harmonic.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}

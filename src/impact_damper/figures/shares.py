@@ -28,8 +28,8 @@ from impact_damper.figures.style import (
 CAPTION = """
 Share of random starts that lead to each motion. A motion keeps its colour: it is followed by
 Newton's method or, if it has not settled, matched by kind and size. Further motions of a kind are
-paler. Chaos is a transient where a run of it ended. Bars: 95 % intervals (Wilson) of the motion
-whose upper edge they cross. Titles: bound on a motion not seen.
+paler. Chaos is a transient where it ended in a run. Each bar is the 95 % interval (Wilson)
+of the area whose upper edge it crosses. Titles: bound on a motion not seen.
 """
 
 # Kinds of motions from below: label, colour and hatching.

@@ -49,12 +49,12 @@ def quiet_and_high(
 def band_width(linear, linear_rule, mass, existing, restitution, reduction, **others):
     """Return the finding on claim 4."""
     return (
-        f"By harmonic balance the width of the band is multiplied by at least {number(linear)} "
-        "from each omega_l to the next larger one with the clearances of the captions, by "
-        f"{number(linear_rule)} with those of (19), and by {number(mass)} from each rm to the "
-        "next larger one. In the motions that exist it is multiplied by at least "
-        f"{number(existing)} from each rm to the next, and by {number(restitution)} from e = 1 to "
-        f"0.75. Over omega_l the reduction at Wp varies by {number(reduction, 2)}."
+        f"By harmonic balance each step to a larger omega_l multiplies the width of the band by at "
+        f"least {number(linear)} with the clearances of the captions and by {number(linear_rule)} "
+        f"with those of (19); each step to a larger rm multiplies it by at least {number(mass)}. "
+        f"In the simulated motions each step in rm multiplies it by at least {number(existing)}, "
+        f"and the step from e = 1 to 0.75 by {number(restitution)}. The relative reduction of "
+        f"the amplitude at Wp varies over omega_l by {number(reduction, 2)}."
     )
 
 
@@ -62,11 +62,11 @@ def phases(below, above, turn_balance, turn, loose_below, loose_above, **others)
     """Return the finding on claim 7."""
     return (
         f"The first harmonics of Z1 and Z2 are within {number(below, 2)} rad of antiphase below "
-        f"Wp, and within {number(above, 2)} rad of phase at the highest W; the change comes at "
-        f"{number(turn)} Wp, by harmonic balance at {number(turn_balance)} Wp. Z1 and the "
+        f"Wp, and within {number(above, 2)} rad of being in phase at the highest W; the change "
+        f"comes at {number(turn)} Wp, by harmonic balance at {number(turn_balance)} Wp. Z1 and the "
         "displacement x2 of the loose mass do the opposite: they are within "
-        f"{number(loose_below, 2)} rad of phase below Wp, and within {number(loose_above, 2)} rad "
-        "of antiphase at the highest W."
+        f"{number(loose_below, 2)} rad of being in phase below Wp, and within "
+        f"{number(loose_above, 2)} rad of antiphase at the highest W."
     )
 
 
@@ -85,6 +85,6 @@ def amplitude_by_mass(whole, steps, balance, **others):
     """Return the finding on claim 17."""
     return (
         f"In the bands the mean of max |Z1| at the largest rm is {percent(whole)} of the mean at "
-        "the smallest. The step from one rm to the next larger one leaves at most "
-        f"{percent(steps)} of it, by harmonic balance at most {percent(balance)}."
+        f"the smallest. At each step to a larger rm it falls to at most {percent(steps)} of its "
+        f"previous value, by harmonic balance to at most {percent(balance)}."
     )

@@ -5,11 +5,10 @@ from impact_damper.figures.machines.looks import STAR, decades, limit_line, plot
 from impact_damper.figures.style import BLUE, GREY, ORANGE, figure, legend, style
 
 CAPTION = """
-Every point is the damper and its machine with all values off by some part of their tolerances:
-samples spread over all tolerances, with their corners, where every value is off by its whole
-tolerance; and the corners again from starts that the design had not seen. Across: share of the
-starts over the band that end quiet, with its 95 % interval. Up: the largest displacement of any of
-them.
+Each point is one damper and machine with all values off within their tolerances: samples spread
+over the tolerances; corners, where every value is off by its whole tolerance; and the corners again
+with starts that the design had not seen. Horizontal: share of the starts over the band that end
+quiet, with its 95 % interval. Vertical: the largest displacement of any of them.
 """
 SAMPLES = {"color": BLUE, "marker": "o", "markersize": 3.2, "label": "sample of the tolerances"}
 CORNERS = {"color": ORANGE, "marker": "s", "markersize": 3.2, "label": "corner, unseen starts"}
