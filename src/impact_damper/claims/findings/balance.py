@@ -10,7 +10,7 @@ def small_motion(vanishing, stable, size, orbits, orbit_size, designs, dampers, 
         f"{part_of(stable, 'designs by (19)', designs)} have a stable small solution of (7), with "
         f"at most {percent(size)} of the amplitude of the free resonance, and "
         f"{part_of(orbits, 'dampers of figures 5 and 8', dampers)} have a stable small orbit, "
-        f"with at most {percent(orbit_size)}."
+        f"with at most {percent(orbit_size)}; of these dampers omega_l is 0."
     )
 
 
@@ -19,8 +19,8 @@ def rigid_against_elastic(alike, error, orbits, **others):
     return (
         "Equations (14) and (7) have the same number of solutions at "
         f"{part_of(alike, 'frequencies')}, and their larger solutions differ by at most "
-        f"{percent(error)}. An exact orbit within 10 % exists for {percent(orbits)} of the larger "
-        "solutions of (7)."
+        f"{percent(error)}. On the branches of exact orbits computed there is an orbit whose "
+        f"amplitude differs by at most 10 % for {percent(orbits)} of the larger solutions of (7)."
     )
 
 

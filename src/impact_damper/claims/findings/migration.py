@@ -30,6 +30,7 @@ def release_phase(
     quiet_subharmonic,
     quiet_first,
     quiet_last,
+    quiet_there,
     by_hold,
     by_phase,
     **others,
@@ -40,13 +41,15 @@ def release_phase(
     if not math.isnan(quiet_first):
         decides = (
             " Of the frequencies scanned, the phase of release decides between the two from W = "
-            f"{number(quiet_first, 4)} to {number(quiet_last, 4)}."
+            f"{number(quiet_first, 4)} to {number(quiet_last, 4)}; there at most "
+            f"{percent(quiet_there)} of the phases lead to the non-resonance branch."
         )
     early = ""
     if not math.isnan(by_phase):
         early = (
-            f" Early releases depend on the phase: {percent(by_phase)} of the runs reach the "
-            f"non-resonance branch by the best phase, {percent(by_hold)} at any phase."
+            f" Early releases that are repeated lead {percent(by_phase)} of the runs to the "
+            "non-resonance branch within 350 cycles at the best fixed phase, and "
+            f"{percent(by_hold)} after the best fixed number of cycles."
         )
     return (
         f"Without the damper the period-3 motion exists from W = {number(lower, 5)} to "
@@ -68,9 +71,9 @@ def total_cycles(
             f"controller that knows the future in {percent(by_clairvoyant)}"
         )
     return (
-        f"At W = {number(worst)}, the least favourable frequency, release at a random phase "
-        "reaches the non-resonance branch within 350 cycles in "
-        f"{part_of(within, 'runs', runs)}{rescued}."
+        f"At W = {number(worst)}, the least favourable frequency, release at a random phase, "
+        "after the damped motion has settled or the longest hold, reaches the non-resonance "
+        f"branch within 350 cycles in {part_of(within, 'runs', runs)}{rescued}."
     )
 
 

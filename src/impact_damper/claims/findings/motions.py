@@ -88,8 +88,9 @@ def contact_model(high, low, realised, duration, **others):
     return (
         f"Walls that cannot pull would return up to {percent(high)} more than e for the e of the "
         f"figures, and {percent(low)} more for e = 0.3. In the quiet motions of figure 10 "
-        f"contacts return e to {percent(realised)}. The contact at e = 0.3, whose length is the "
-        f"paper's reason, is {only}{number(duration)} times as long as at e = 1."
+        f"the ratio of speeds at a contact differs from e by {percent(realised)}. The contact at "
+        f"e = 0.3, whose length is the paper's reason, is {only}{number(duration)} times "
+        "as long as at e = 1."
     )
 
 

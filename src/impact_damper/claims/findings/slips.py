@@ -7,8 +7,8 @@ def penetration(power, corrected, printed, **others):
     """Return the finding on S1."""
     return (
         f"B grows as the power {number(power)} of eps. The printed expression, with the power "
-        f"1/2, is {number(printed)} times B; the expansion of (6e), with the power 3/2, agrees "
-        f"with B to {percent(abs(corrected - 1))}."
+        f"1/2, is {number(printed)} times B in the median of the solutions computed; the "
+        f"expansion of (6e), with the power 3/2, agrees with B to {percent(abs(corrected - 1))}."
     )
 
 
