@@ -112,12 +112,12 @@ def motions(frequency, columns):
         "period": 0,
         "contacts": np.nan,
         "maximum_displacement": np.nan,
-        "share": 0,
+        "motion_starts": 0,
     }
     usual = {
         "outcome": flag("outcome", "settled"),
         "period": 1,
-        "share": 1,
+        "motion_starts": 1,
     }
     data = {}
     for name, absent in fill.items():
@@ -208,14 +208,14 @@ def response(name, damping=0.215, restitution=1.0):
 def matched_sweep():
     """Return a response with a quiet motion, chaos at other places, and one that none reached."""
     quiet, chaos, absent = (flag("outcome", name) for name in ("settled", "chaotic", "absent"))
-    share = np.array([[5, 5, 0], [1, 9, 0], [10, 0, 0]])
+    starts = np.array([[5, 5, 0], [1, 9, 0], [10, 0, 0]])
     data = {
         "outcome": [[quiet, chaos, quiet], [chaos, quiet, absent], [chaos, absent, absent]],
         "period": [[1, 0, 3], [0, 1, 0], [0, 0, 0]],
         "branch": [[7, 2, 4], [2, 7, -1], [2, -1, -1]],
-        "share": share,
-        "share_lower": share / 20,
-        "share_upper": 0.5 + share / 20,
+        "motion_starts": starts,
+        "share_lower": starts / 20,
+        "share_upper": 0.5 + starts / 20,
         "run_outcome": np.ones((3, 10)),
         "missed_share": 0.3,
     }

@@ -163,7 +163,7 @@ def _motions():
     return {
         "maximum_displacement": sizes,
         "outcome": np.tile(outcomes, (5, 1)),
-        "share": np.tile([40, 33], (5, 1)),
+        "motion_starts": np.tile([40, 33], (5, 1)),
         "missed_share": 0.04,
     }
 

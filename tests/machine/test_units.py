@@ -71,7 +71,7 @@ def test_dimensions_are_those_of_the_unit(quantity):
     expected = {"[length]": each.length, "[time]": each.time, "[mass]": each.mass}
     assert dict(found) == {name: power for name, power in expected.items() if power}
     if each.shown:
-        assert (1 * REGISTRY.Unit(each.unit)).to(each.shown).magnitude == each.share
+        assert (1 * REGISTRY.Unit(each.unit)).to(each.shown).magnitude == each.factor
 
 
 @pytest.mark.parametrize(

@@ -63,7 +63,7 @@ def test_chaos_of_one_damper_is_one_motion():
     """Its loose mass rests for many periods between bursts; the exponents agree too."""
     found = frequency_response(PAPER, Damper(0.12, 2.0), [2.6], starts=60, radius=2.0, seed=1)
     chaos = found.outcome.values[0] == flag("outcome", "chaotic")
-    assert chaos.sum() == 1 and int(found.share.values[0][chaos][0]) > 20
+    assert chaos.sum() == 1 and int(found.motion_starts.values[0][chaos][0]) > 20
 
 
 def test_settled_motions_are_followed_instead():

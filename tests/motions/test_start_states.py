@@ -45,7 +45,7 @@ def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_mis
     assert narrow.free_speed > 2
     assert wide.start_displacement > wide.free_displacement > 4
     assert wide.missed_share == 3 / 96
-    assert "radius" not in wide.attrs and wide.share.sum() == 96
+    assert "radius" not in wide.attrs and wide.motion_starts.sum() == 96
 
 
 @pytest.mark.parametrize("name, frequency", [("softening", 0.85), ("linear", 1.3), ("shaken", 1.0)])
@@ -129,4 +129,4 @@ def test_placed_starts_are_told_from_random_ones():
     data = frequency_response(PAPER, DESIGN, [1.8], starts=1, settling=Settling(patience=100))
     origins = data.origin.values
     assert flag("origin", "placed_start") in origins
-    assert data.share.sum() == 1
+    assert data.motion_starts.sum() == 1

@@ -100,25 +100,25 @@ def test_motions_change_at_an_end(free):
 
 
 def test_shares_and_runs(free):
-    dims, share = free["share"]
+    dims, starts = free["motion_starts"]
     assert dims == ("frequency", "motion")
-    assert np.array_equal(share.sum(axis=1), np.full(len(FREQUENCIES), 12))
+    assert np.array_equal(starts.sum(axis=1), np.full(len(FREQUENCIES), 12))
     assert free["run_outcome"][1].shape == free["run_length"][1].shape == (len(FREQUENCIES), 12)
     column = free["run_motion"][1]
     assert np.array_equal(
         np.take_along_axis(free["outcome"][1], column, axis=1), free["run_outcome"][1]
     )
-    counted = [np.bincount(row, minlength=share.shape[1]) for row in column]
-    assert np.array_equal(share, counted)
+    counted = [np.bincount(row, minlength=starts.shape[1]) for row in column]
+    assert np.array_equal(starts, counted)
 
 
 def test_shares_have_wilson_intervals(free):
     present = free["outcome"][1] != flag("outcome", "absent")
     for name in ("share_lower", "share_upper"):
         assert np.array_equal(np.isfinite(free[name][1]), present)
-    for count in np.unique(free["share"][1][present]):
+    for count in np.unique(free["motion_starts"][1][present]):
         expected = stats.binomtest(int(count), 12).proportion_ci(method="wilson")
-        chosen = present & (free["share"][1] == count)
+        chosen = present & (free["motion_starts"][1] == count)
         assert_allclose(free["share_lower"][1][chosen], expected.low, atol=1e-12)
         assert_allclose(free["share_upper"][1][chosen], expected.high, atol=1e-12)
 
@@ -132,7 +132,7 @@ def test_following_finds_what_random_starts_miss():
     top = np.nanmax(data["maximum_displacement"][1], axis=1)
     assert np.all(np.diff(top) > 0) and top[-1] > 2.3
     assert data["origin"][1][-1, 0] == flag("origin", "followed")
-    assert data["share"][1][-1, 0] == 0
+    assert data["motion_starts"][1][-1, 0] == 0
 
 
 def test_mirrored_motion_is_the_same():
@@ -148,7 +148,7 @@ def test_mirrored_motion_is_the_same():
     assert np.max(np.abs(records["state"][0] - records["state"][1])) > 1
     catalogue = Catalogue(p, iter(range(9)))
     assert [catalogue.add(record, "random_start") for record in records] == [0, 0]
-    assert catalogue.shares == [2]
+    assert catalogue.starts == [2]
 
 
 def test_sweep_of_the_clearance():

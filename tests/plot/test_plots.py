@@ -144,7 +144,7 @@ def test_shares_add_up(results):
     np.testing.assert_allclose(below, 1)
     response = results["response"]
     quiet = (response.period == 1) & (response.outcome == flag("outcome", "settled"))
-    share = response.share.where(quiet, 0).sum("motion") / response.sizes["start"]
+    share = response.motion_starts.where(quiet, 0).sum("motion") / response.sizes["start"]
     assert axes.patches[0].get_label() == "period 1"
     np.testing.assert_allclose(axes.patches[0].get_data().values, share)
 

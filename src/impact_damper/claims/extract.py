@@ -67,8 +67,8 @@ def touching(response):
 
 def share_of_starts(response, motions):
     """Share of the random starts at each frequency that lead to the motions of a mask."""
-    total = response.share.sum("motion")
-    return (response.share.where(motions, 0).sum("motion") / total.where(total > 0)).fillna(0)
+    total = response.motion_starts.sum("motion")
+    return (response.motion_starts.where(motions, 0).sum("motion") / total.where(total > 0)).fillna(0)
 
 
 def spacing(data):

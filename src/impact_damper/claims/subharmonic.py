@@ -44,7 +44,7 @@ def reappearance(datasets):
 def expected(curve):
     """Mean max |Z1| of random starts at each frequency; a start without subharmonic counts as 0."""
     third = extract.is_outcome(curve, "settled") & (curve.period % 3 == 0)
-    share = curve.share / curve.share.sum("motion")
+    share = curve.motion_starts / curve.motion_starts.sum("motion")
     return (share * curve.maximum_displacement).where(third, 0.0).sum("motion")
 
 

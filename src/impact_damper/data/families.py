@@ -43,12 +43,12 @@ def families(data) -> list:
     -------
     list of Family
     """
-    branch, share = data["branch"].values, data["share"].values
+    branch, starts = data["branch"].values, data["motion_starts"].values
     found = []
     for number in np.unique(branch[branch >= 0]):
         places = branch == number
         row, column = np.argwhere(places)[0]
         outcome = NAMES[int(data["outcome"][row, column])]
         period = int(data["period"][row, column])
-        found.append(Family(outcome, period, places, int(share[places].sum())))
+        found.append(Family(outcome, period, places, int(starts[places].sum())))
     return sorted(found, key=lambda each: -each.starts)

@@ -47,11 +47,11 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     """
     sizes = response["maximum_displacement"].values
     quiet = are_quiet(sizes, response["outcome"].values, limit)
-    counts = np.where(quiet, response["share"].values, 0).sum(axis=1)
+    counts = np.where(quiet, response["motion_starts"].values, 0).sum(axis=1)
     total = response.sizes["start"]
     placed = response["origin"].values == flag("origin", "placed_start")
     alone = touches_no_wall(response)
-    by_chance = response["share"].values > 0
+    by_chance = response["motion_starts"].values > 0
     reached = by_chance | (placed & ~alone)
     untouched = np.where(placed & alone & ~by_chance, sizes, -np.inf).max(axis=1)
     columns = np.argmax(np.where(reached, sizes, -np.inf), axis=1)
@@ -94,7 +94,7 @@ def _measured(task, case, size, state, periods, contact):
     peaks = np.abs(course).reshape(periods, SAMPLES).max(axis=1)
     costs = measured_costs(p, state.copy(), begin, periods)
     shown = {
-        name: task.scales.to_si(costs[cost], quantity) * QUANTITIES[quantity].share
+        name: task.scales.to_si(costs[cost], quantity) * QUANTITIES[quantity].factor
         for name, (cost, quantity) in COSTS.items()
     }
     speed = shown["impact_speed_by_frequency"]

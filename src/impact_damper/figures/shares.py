@@ -126,7 +126,7 @@ def shares_panel(axes, data):
     edges = _edges(places)
     below = np.zeros(len(places))
     for kind, rank, chosen in ranked_motions(data):
-        share = np.where(chosen, data["share"].values, 0).sum(axis=1) / starts
+        share = np.where(chosen, data["motion_starts"].values, 0).sum(axis=1) / starts
         colour, hatch = LOOKS[kind]
         white = PALER[min(rank, len(PALER) - 1)]
         face = [white + (1 - white) * part for part in to_rgb(colour)]
@@ -169,7 +169,7 @@ def ranked_motions(data):
         if each.starts:
             kind = _kind(each)
             for name, places in _parts(data, kind, each.places).items():
-                if data["share"].values[places].any():
+                if data["motion_starts"].values[places].any():
                     found[name].append((ranks[kind], places))
             ranks[kind] += 1
     return [(kind, *ranked) for kind, motions in found.items() for ranked in motions]

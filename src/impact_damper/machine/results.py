@@ -90,7 +90,7 @@ def _each(data, convert, scales):
         if quantity == "state":
             unit = np.array([scales.unit(each) for each in STATE])
         elif quantity in QUANTITIES and quantity != "number":
-            unit = scales.unit(quantity) * QUANTITIES[quantity].share
+            unit = scales.unit(quantity) * QUANTITIES[quantity].factor
         else:
             continue
         found[name] = each.copy(data=convert(each.values, unit))

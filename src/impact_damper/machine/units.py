@@ -25,7 +25,7 @@ class Quantity(NamedTuple):
         Exponents of the dimensions.
     shown : str
         Unit in datasets, if not `unit`.
-    share : float
+    factor : float
         Value of 1 `unit` in the unit of datasets, such as 1000 for m in mm.
     """
 
@@ -34,7 +34,7 @@ class Quantity(NamedTuple):
     time: int = 0
     mass: int = 0
     shown: str = ""
-    share: float = 1.0
+    factor: float = 1.0
 
     @property
     def label(self) -> str:
@@ -46,8 +46,8 @@ class Quantity(NamedTuple):
 QUANTITIES = {
     "number": Quantity(""),
     "mass": Quantity("kg", mass=1),
-    "displacement": Quantity("m", length=1, shown="mm", share=1e3),
-    "clearance": Quantity("m", length=1, shown="mm", share=1e3),
+    "displacement": Quantity("m", length=1, shown="mm", factor=1e3),
+    "clearance": Quantity("m", length=1, shown="mm", factor=1e3),
     "time": Quantity("s", time=1),
     "frequency": Quantity("Hz", time=-1),
     "rate": Quantity("1/s", time=-1),

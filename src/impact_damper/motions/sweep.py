@@ -50,14 +50,14 @@ class Catalogue:
     origins : list of int
         Flags of `origin`: how each motion was first reached, from a random start, from a placed
         one, or by following only.
-    shares : list of int
+    starts : list of int
         Numbers of random starts that lead to the motions.
     """
 
     def __init__(self, p, numbering):
         self.p = p
         self.numbering = numbering
-        self.records, self.numbers, self.origins, self.shares = [], [], [], []
+        self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
         """Return the index of a motion or of its mirror image, or None."""
@@ -83,10 +83,10 @@ class Catalogue:
             self.records.append(record)
             self.numbers.append(next(self.numbering))
             self.origins.append(flag("origin", origin))
-            self.shares.append(0)
+            self.starts.append(0)
         elif record["maximum_displacement"] > self.records[i]["maximum_displacement"] + SAME:
             self.records[i] = record
-        self.shares[i] += origin == "random_start"
+        self.starts[i] += origin == "random_start"
         return i
 
     def order(self):
@@ -201,19 +201,19 @@ def _tables(catalogues, branches, dimension, starts):
         records[name] = np.nan
     extra = {
         "branch": np.full(records.shape, -1),
-        "share": np.zeros(records.shape, int),
+        "motion_starts": np.zeros(records.shape, int),
         "origin": np.full(records.shape, flag("origin", "absent")),
     }
     for row, catalogue in enumerate(catalogues):
         for column, k in enumerate(catalogue.order()):
             records[row, column] = catalogue.records[k]
             extra["branch"][row, column] = branches[catalogue.numbers[k]]
-            extra["share"][row, column] = catalogue.shares[k]
+            extra["motion_starts"][row, column] = catalogue.starts[k]
             extra["origin"][row, column] = catalogue.origins[k]
     interval = np.full((2, *records.shape), np.nan)
     found = records["outcome"] != flag("outcome", "absent")
     if starts:
-        interval[:, found] = wilson_intervals(extra["share"][found], starts).T
+        interval[:, found] = wilson_intervals(extra["motion_starts"][found], starts).T
     extra |= {"share_lower": interval[0], "share_upper": interval[1]}
     data = tabulate(records) | extra
     dims = (dimension, "motion")
@@ -305,4 +305,4 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 
 def reached(data):
     """Return which motions of a `sweep` are reached from a random or a placed start."""
-    return (data["share"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))
+    return (data["motion_starts"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))

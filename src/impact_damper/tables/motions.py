@@ -144,7 +144,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
                 | {
                     "W": float(motion.frequency),
                     "max |Z1|": float(motion.maximum_displacement),
-                    "starts": int(motion.share),
+                    "starts": int(motion.motion_starts),
                     "closed curves": round(float(motion.frequency) / first),
                     "first frequency": f"{first:.10f}",
                     "second frequency": f"{second:.10f}",
@@ -175,7 +175,7 @@ def chaos(datasets) -> pd.DataFrame:
                 | {
                     "W": float(motion.frequency),
                     "max |Z1|": float(motion.maximum_displacement),
-                    "starts": int(motion.share),
+                    "starts": int(motion.motion_starts),
                     "Lyapunov exponent": float(motion.lyapunov_exponent),
                     "runs that end": ends,
                     "of": extract.parameter(data, "life_runs"),
@@ -193,7 +193,7 @@ def shares(datasets) -> pd.DataFrame:
     for stage in MATCHED:
         for name, data in extract.damped(datasets, stage).items():
             dimension = data.run_outcome.dims[0]
-            values, share = data[dimension].values, data.share.values / data.sizes["start"]
+            values, share = data[dimension].values, data.motion_starts.values / data.sizes["start"]
             for motion in families(data):
                 row, column = np.nonzero(motion.places)
                 most = np.argmax(share[motion.places])

@@ -107,7 +107,9 @@ VARIABLES = {
         ("frequency", "motion"),
         "number of the branch that a motion lies on, by which it is known over the sweep",
     ),
-    "share": Variable(("frequency", "motion"), "number of random starts that lead to the motion"),
+    "motion_starts": Variable(
+        ("frequency", "motion"), "number of random starts that lead to the motion"
+    ),
     "share_lower": Variable(
         ("frequency", "motion"),
         "share of random starts that lead to the motion, lower end of its 95 % interval",

@@ -67,7 +67,7 @@ def response_panel(axes, data):
     size = data["maximum_displacement"].values
     settled = is_settled(data)
     shown = np.isfinite(size) & (data["outcome"].values != flag("outcome", "absent"))
-    shown &= data["share"].values > 0
+    shown &= data["motion_starts"].values > 0
     for chosen, role in ((shown & settled, SETTLED), (shown & ~settled, OTHERS)):
         row, column = chosen.nonzero()
         plot_if_any(axes, data["frequency"].values[row], size[row, column], **role)
