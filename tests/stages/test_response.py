@@ -27,7 +27,9 @@ def test_response_holds_what_random_starts_come_to(response):
     assert response.sizes["frequency"] == 3 and response.sizes["start"] == 24
     assert np.all(response.motion_starts.sum("motion") == 24)
     settled = (response.run_outcome == flag("outcome", "settled")).sum("start")
-    counted = response.motion_starts.where(response.outcome == flag("outcome", "settled"), 0).sum("motion")
+    counted = response.motion_starts.where(response.outcome == flag("outcome", "settled"), 0).sum(
+        "motion"
+    )
     assert np.array_equal(settled, counted)
     followed = response.origin == flag("origin", "followed")
     assert np.all(response.motion_starts.where(followed, 0) == 0)

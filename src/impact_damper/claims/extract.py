@@ -68,7 +68,9 @@ def touching(response):
 def share_of_starts(response, motions):
     """Share of the random starts at each frequency that lead to the motions of a mask."""
     total = response.motion_starts.sum("motion")
-    return (response.motion_starts.where(motions, 0).sum("motion") / total.where(total > 0)).fillna(0)
+    return (response.motion_starts.where(motions, 0).sum("motion") / total.where(total > 0)).fillna(
+        0
+    )
 
 
 def spacing(data):

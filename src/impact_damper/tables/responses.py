@@ -114,7 +114,10 @@ def _existing_band(datasets, name):
     inside = frequency[(frequency > band.lower + band.resolution) & (frequency <= band.upper)]
     chaotic = chaotic_high(response, free).values
     high = high_motions(response, free) & extract.is_outcome(response, "chaotic")
-    share = response.motion_starts.where(high, 0).sum("motion").values[chaotic] / response.sizes["start"]
+    share = (
+        response.motion_starts.where(high, 0).sum("motion").values[chaotic]
+        / response.sizes["start"]
+    )
     return {
         "lower edge, motions": band.lower,
         "lower edge at most": band.lower + band.resolution,
