@@ -1,1 +1,1 @@
-"""Figures, a module for each kind. A figure draws datasets or a schematic and computes nothing."""
+"""Figures, one module for each kind. A figure only draws: all numbers come from datasets."""

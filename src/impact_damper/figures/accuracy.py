@@ -1,7 +1,7 @@
 """Error against counted work, for each method on each test case (figure kind `accuracy`).
 
-A test case, called scene in the code, is one motion with its parameters, first state and length. A
-method is an integrator, or a model that solves for a periodic orbit directly.
+A test case, called scene in the code, is one motion with its parameters, initial state and length.
+A method is an integrator, or a model that solves for a periodic orbit directly.
 """
 
 from itertools import cycle
@@ -25,10 +25,10 @@ from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode
 from impact_damper.rivals.words import method_in_words
 
 CAPTION = """
-Error against work in floating-point operations. A line joins the tolerances of an integrator, or
-the numbers of harmonics of a balance. Open: wrong number of contacts, or in chaos an error within
-the run's standard error. Plus: the run failed. Dashed: required accuracy. Reference: an independent
-program in 80-bit arithmetic, for chaos a longer run.
+Error against work in floating-point operations. A line joins runs with different tolerances or, for
+harmonic balance, with different numbers of harmonics. Open marker: wrong number of contacts; for
+chaos, an error within the standard error of the run. Plus: the run failed. Dashed: required
+accuracy. Reference: a program in 80-bit arithmetic; for chaos, a longer run.
 """
 
 # Colour, marker and line of models that solve for an orbit directly.
@@ -55,7 +55,7 @@ QUANTITIES = {
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
 FINEST = 1e-16
-DOUBTFUL = "open: wrong contacts; chaos: within\nthe standard error of the run"
+DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 
 @style()
@@ -125,7 +125,7 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Return errors and standard errors on a chaotic test case; shade the reference's error."""
+    """Shade the error of the reference; return errors and standard errors of a chaotic case."""
     truth = float(data["reference_average"].sel(statistic=quantity))
     average = data["average"].sel(statistic=quantity).values
     doubt = float(data["reference_average_error"].sel(statistic=quantity)) / truth
@@ -135,7 +135,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the complete runs of one method; those with wrong contacts look different."""
+    """Draw the complete runs of one method; runs with wrong contacts have open markers."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

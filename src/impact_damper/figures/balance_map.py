@@ -1,4 +1,4 @@
-"""Maps of where harmonic balance agrees with the exact motions (figure kind `balance_map`)."""
+"""Maps that compare harmonic balance with the exact motions (figure kind `balance_map`)."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -26,9 +26,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-(a) The small solution of (7), stable by the slow flow (17) or not, against the exact orbit with two
-symmetric contacts; dots: a start there leads to chaos. (b) The large stable solution against the
-motion to which a start there leads. Near: within 20 % of its amplitude.
+(a) Smallest solution of (7): its stability by the slow flow (17) against the stability of the exact
+quiet orbit. Dots: a start at the solution leads to chaos. (b) Largest stable solution of (7)
+against the motion to which a start there leads. Near: within 20 % of the amplitude.
 """
 
 PARAMETERS = {
@@ -52,13 +52,13 @@ QUIET = {
 }
 VIOLENT = {
     "stable_near": ("predicted, and found near it", BLUE, ""),
-    "stable_far": ("predicted, found further off", GREEN, "----"),
+    "stable_far": ("predicted, found farther away", GREEN, "----"),
     "stable_chaotic": ("predicted, but chaotic", ORANGE, ""),
-    "stable_low": ("predicted, but decays to a small motion", PALE_SKY, "...."),
+    "stable_low": ("predicted, but becomes small", PALE_SKY, "...."),
     "stable_no_contact": ("predicted, but without contact", SKY, "||||"),
     "none_settled": ("not predicted, but settles", PURPLE, ""),
     "none_chaotic": ("not predicted, but chaotic", VERMILION, "////"),
-    "none_low": ("not predicted; decays to a small motion", WHITE, ""),
+    "none_low": ("not predicted; becomes small", WHITE, ""),
     "none_no_contact": ("not predicted; moves without contact", GREY, "||||"),
     "not_run": ("not predicted, no free resonance either", PALE, ""),
     "unresolved": ("unresolved", WHITE, "xxxxxx"),
@@ -103,7 +103,7 @@ def draw_balance_map(*, balance_map):
         ("left", "right"),
         strict=True,
     ):
-        # Blank entries, so that both legends begin at one height.
+        # Blank entries, so that both legends begin at the same height.
         blank = [Line2D([], [], linestyle="none")] * (longest - len(labels))
         place = f"outside lower {side}"
         drawn.legend(handles + blank, labels + [""] * len(blank), title=words, loc=place)
@@ -137,7 +137,7 @@ def _draw_edge(axes, verdict):
 
 
 def _draw_ends(axes, data):
-    """Draw the ends of the exact quiet orbits within the map, and their ends for rigid walls."""
+    """Draw where exact quiet orbits end, for walls of finite stiffness and for rigid walls."""
     inside = data["quiet_end_event"] != flag("quiet_end_event", "map_ends")
     for end in data["quiet_end"].where(inside).values.T:
         axes.plot(end, data["map_value"], color=BLACK, linewidth=1.6)
@@ -149,7 +149,7 @@ def _draw_ends(axes, data):
 
 
 def _draw_chaos(axes, data):
-    """Dot the cells in which a start at the quiet solution of the balance leads to chaos."""
+    """Dot the cells in which a start at the quiet solution of (7) leads to chaos."""
     kinds = [flag("quiet_run_motion", name) for name in ("low_chaotic", "high_chaotic")]
     row, column = np.nonzero(np.isin(data["quiet_run_motion"], kinds))
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]

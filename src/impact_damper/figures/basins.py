@@ -23,14 +23,14 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Each state of the primary mass, at the phase named, has the colour of the motion it leads to
-(circles; shares in the legends). Without a damper crosses are unstable orbits, black lines their
-stable manifolds, computed apart. With the damper the loose mass starts at rest at five places; the
-shade is the share that leads to the smallest motion.
+Each state of the primary mass has the colour of the motion to which it leads (circle); percentages
+are shares of the states. Without a damper: crosses are unstable orbits, black lines their stable
+manifolds, computed independently. With the damper the loose mass starts at rest at five places; the
+shade is the share of these that lead to the smallest motion.
 """
 
-# Colours of attractors by rising max |Z1|, with the largest in the last one; of chaos, and of
-# states that lead to no attractor or to several.
+# Colours of attractors in the order of rising max |Z1|; the largest attractor has the last colour.
+# Then the colours of chaos, and of states that lead to no attractor or to several.
 COLOURS = (SKY, VERMILION, PURPLE, "#F7E7A6")
 CHAOS, NONE = ORANGE, PALE
 POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": BLACK, "markersize": 4.5}
@@ -113,7 +113,7 @@ def draw_plane(axes, data):
 
 
 def fill(axes, data, values, **look):
-    """Colour the states of a plane by values; return what is drawn."""
+    """Colour the states of a plane by values, and return the image."""
     plane = data["basin_displacement"], data["basin_velocity"]
     return axes.pcolormesh(*plane, values, rasterized=True, shading="nearest", **look)
 
@@ -127,7 +127,7 @@ def draw_shares(axes, data):
 
 
 def system_words(data):
-    """Return frequency, mass ratio and clearance in words; of a machine the frequency only."""
+    """Return frequency, mass ratio and clearance as text; for a machine only the frequency."""
     frequency = data["frequency"]
     if frequency.attrs["units"] != "1":
         return f"{float(frequency):.4g} {frequency.attrs['units']}"
@@ -136,7 +136,7 @@ def system_words(data):
 
 
 def attractor_words(data):
-    """Return period, size and share of each attractor in words."""
+    """Return period, size and share of each attractor as text."""
     units = f" {data['attractor_displacement'].attrs['units']}".removesuffix(" 1")
     return [
         f"period {period:d}, max |$Z_1$| {size:.3g}{units}: {share_words(share)}"
@@ -150,5 +150,5 @@ def attractor_words(data):
 
 
 def share_words(share):
-    """Return a share in per cent, which is 0 only if it is."""
+    """Return a share in per cent; "< 1 %" for a positive share that rounds to 0."""
     return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"

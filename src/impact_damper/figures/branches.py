@@ -20,10 +20,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Largest displacement against forcing frequency of the exact periodic orbits, continued from every
-settled motion found. Grey and black: without the damper. Markers: bifurcations and changes of
-contact, small ones between unstable orbits of period 1. Plus signs: a contact appears, or two
-merge. Crosses: a branch was not followed further.
+Largest displacement of the exact periodic orbits against forcing frequency. The branches are
+continued from every settled motion found. Grey and black: without the damper. Markers: bifurcations
+and changes of contact, large ones beside a stable orbit, small ones between unstable orbits of
+period 1. Plus: a contact appears, or two merge. Cross: a branch was not followed further.
 """
 
 EVENTS = {
@@ -34,8 +34,8 @@ EVENTS = {
     "grazing": (None, "P", SKY),
     "merging": (None, "P", SKY),
 }
-# An inset at the upper right, in shares of the axes: its place, the part it shows, and the number
-# of events in that part from which on it is drawn.
+# An inset at the upper right: its place and the size of the part that it shows, as fractions of the
+# axes. It is drawn if that part has at least CROWD events.
 INSET, MAGNIFIED, CROWD = (0.76, 0.52, 0.225, 0.45), (0.15, 0.2), 4
 # Sizes of markers of events next to stable orbits, and of others.
 LARGE, SMALL = 3.6, 1.2
@@ -89,7 +89,7 @@ def draw_branches(*, branches):
 
 
 def _magnify(axes, data):
-    """Draw the part with most events beside stable orbits again, in an inset."""
+    """Draw an inset that magnifies the part with most events beside stable orbits."""
     beside = _next_to_stable(data)
     places = np.stack([data["event_value"].values, data["event_displacement"].values])[:, beside]
     limits = np.array([axes.get_xlim(), axes.get_ylim()])
@@ -145,7 +145,7 @@ def runs(data, chosen):
 
 
 def runs_of(branches, number, value, size, stability):
-    """Yield the same as `runs`, for the given branches and from arrays in place of a dataset.
+    """Yield the parts of branches as `runs` does, from arrays instead of a dataset.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def runs_of(branches, number, value, size, stability):
         at = np.flatnonzero(number == branch)
         edges = [0, *(np.flatnonzero(np.diff(stable[at])) + 1), len(at)]
         for first, last in zip(edges, edges[1:], strict=False):
-            # includes the first orbit of the next part, so that no gap is drawn between them
+            # includes the first orbit of the next part, so that the lines of both parts join
             part = at[first : last + 1]
             yield value[part], size[part], bool(stable[at[first]])
 
@@ -175,7 +175,7 @@ def draw_free_orbits(axes, data):
 
 
 def mark_open_ends(axes, data):
-    """Mark with a cross every end beyond which a branch continues but was not followed."""
+    """Mark with a cross each end beyond which a branch continues but was not followed."""
     chosen = [flag("branch_end", name) for name in OPEN_ENDS]
     number = data["orbit_branch"].values
     for branch, ends in enumerate(data["branch_end"].values):
@@ -208,7 +208,7 @@ def mark_events(axes, data):
 
 
 def _next_to_stable(data):
-    """Return for each event whether one of the three orbits at it and beside it is stable."""
+    """Return for each event whether the orbit at the event or one of its neighbours is stable."""
     number, branch = data["orbit_branch"].values, data["event_branch"].values
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     place = np.searchsorted(number, branch) + data["event_place"].values

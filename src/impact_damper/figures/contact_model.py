@@ -1,6 +1,6 @@
 """Accuracy of the contact model against restitution and load (figure kind `contact_model`).
 
-The load on a contact is the acceleration by all other forces; CAPTION defines it.
+The load on a contact is the acceleration that all forces except the contact force cause.
 """
 
 import numpy as np
@@ -22,10 +22,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Error of the restitution that a contact realises, against the intended e and the load g: the
-acceleration that presses the primary mass against the wall, over natural frequency and approach
-speed. Left: contact ends at zero penetration (appendix B); right: at zero force. Markers: contacts
-in simulated motions.
+Error of the restitution of a contact against the intended restitution e and the load g: the
+acceleration that presses the primary mass against the wall, over natural frequency and speed of
+approach. Left: contact ends at zero penetration (appendix B); right: at zero force. Markers:
+contacts in simulated motions.
 """
 
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}

@@ -19,10 +19,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Above: clearance at which the exact quiet motion has the smallest max |Z1| (points; crosses:
-unstable, not observed) and of straight flights between the walls with corrections (lines). Below:
-share of all optima that each rule predicts within a given error; the explicit formula is for
-elastic contact.
+Above: clearance at which max |Z1| of the exact quiet orbit is smallest. Points: stable orbits;
+crosses: unstable ones; lines: straight flight between the walls, with corrections. Below: share of
+all optima that each rule predicts within a given error. The explicit formula is for elastic
+contact.
 """
 
 SWEPT = {
@@ -122,7 +122,7 @@ def draw_sweep(axes, data, name):
 
 
 def draw_errors(axes, datasets):
-    """Draw, against the error, the share of the optima that each rule predicts within it."""
+    """Draw the share of optima that each rule predicts within an error, against this error."""
     for rule, words in RULES.items():
         errors = np.concatenate(
             [

@@ -5,8 +5,8 @@ from impact_damper.figures.style import axis_label, figure, legend, letter_panel
 
 CAPTION = """
 Largest displacement of the periodic orbits without a damper against forcing frequency, on every
-branch on which a settled motion was found. Triangles: period of three cycles. Short
-vertical lines: other periods.
+branch with a settled motion. Triangles: period of three cycles. Short vertical lines: other
+periods.
 """
 
 

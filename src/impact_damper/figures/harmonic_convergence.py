@@ -1,7 +1,7 @@
 """Errors of harmonic balance and of Hill's method against the number of harmonics.
 
-Figure kind `harmonic_convergence`. A cold start begins Newton's method from the single-term
-solution instead of the solution with fewer harmonics.
+Figure kind `harmonic_convergence`. In a cold start Newton's method begins from the solution with
+one harmonic, otherwise from the solution with the next lower number of harmonics.
 """
 
 import numpy as np
@@ -22,9 +22,9 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Error of harmonic balance with harmonics 1, 3, ... N against the exact orbit: (a) largest
-displacement; (b) root mean square of the harmonics kept; (c) Floquet multiplier by Hill's method.
-(d) Result of Newton's method started from the single-term solution. Dashed grey: decrease predicted
-from the smoothness of the force, multiplied by 3 to be seen.
+displacement; (b) root mean square of the harmonics of Z1 up to N; (c) Floquet multiplier by Hill's
+method. (d) Result of Newton's method started from one harmonic. Dashed grey: decrease predicted
+from the smoothness of the force, times 3.
 """
 
 PANELS = {
@@ -69,7 +69,7 @@ def draw_harmonic_convergence(*, harmonic_convergence):
 
 
 def draw_errors(axes, harmonics, measure):
-    """Draw the errors of one measure, the predicted decay above them, and failures at the top."""
+    """Draw the errors of one measure, the predicted decrease, and failures at the upper edge."""
     status = "hill_status" if measure == "multiplier" else "series_status"
     for index, data in enumerate(harmonics):
         at = data.sel(error_measure=measure)
@@ -85,7 +85,10 @@ def draw_errors(axes, harmonics, measure):
 
 
 def guide(data, at):
-    """Return the line of the predicted decay, three times the geometric mean of the errors."""
+    """Return the line of the predicted decrease, through three times the mean of the errors.
+
+    The mean is the geometric one.
+    """
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():

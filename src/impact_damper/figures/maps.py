@@ -33,7 +33,7 @@ def span(centres):
 
 
 def hatch(axes, x, y, where, **look):
-    """Hatch the cells of a mask, as a single path: one path per cell would be slow."""
+    """Hatch the cells of a mask, drawn as a single path because one path per cell is slow."""
     x, y = (np.linspace(*span(centres), len(centres) + 1) for centres in (x, y))
     cells = [
         Path.unit_rectangle().transformed(
@@ -46,7 +46,7 @@ def hatch(axes, x, y, where, **look):
 
 
 def contours(axes, x, y, values, level, line):
-    """Draw the contour lines of one level, if the values cross the level."""
+    """Draw the contour lines of one level, if any value exceeds the level and another does not."""
     if np.nanmin(values) < level < np.nanmax(values):
         axes.contour(x, y, values, [level], colors=BLACK, linewidths=0.8, linestyles=line)
 

@@ -1,4 +1,4 @@
-"""Which integrators find the right motion at which tolerance (figure kind `method_verdicts`).
+"""Tolerances at which integrators find the right motion (figure kind `method_verdicts`).
 
 Each verdict is on one test case, called scene in the code: a start near a periodic orbit.
 """
@@ -28,17 +28,17 @@ from impact_damper.rivals.words import CASES
 
 CAPTION = """
 Whether an integrator, started near a periodic orbit, ends on the motion that Floquet multipliers
-say is right; the table of verdicts lists the test cases. White: not run. Fixed steps, and methods
+prove right; the table of verdicts lists the test cases. White: not run. Fixed steps, and methods
 marked kink, do not locate contacts.
 """
 
 ROLES = {
     "not_run": (WHITE, "not run"),
     "right": (PALE_SKY, "right"),
-    "not_settled": (ORANGE, "does not settle"),
+    "not_settled": (ORANGE, "motion does not settle"),
     "wrong_period": (PURPLE, "wrong period"),
     "wrong_branch": (VERMILION, "wrong branch"),
-    "stays_wrongly": (BLUE, "stays where it must leave"),
+    "stays_wrongly": (BLUE, "stays on an unstable orbit"),
     "failed": (BLACK, "fails"),
 }
 

@@ -14,14 +14,14 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Displacement against time, (a) in a whole run, if long by its envelope, and (b) around its last
-release. Shaded: damper on; the loose mass, of which the paper says nothing, starts at random. Drawn
-is the first run that arrives with the median number of switchings, otherwise the first.
+Displacement against time, (a) in the whole run, if long by its envelope, and (b) around the last
+release. Shaded: damper on, with the loose mass at first at a random place. Drawn is the first run
+that reaches the goal with the median number of switchings; if none does, the first run.
 """
 
-# Forcing periods of a run from which on the envelope is drawn.
+# Number of cycles above which the envelope of a run is drawn instead of its course.
 LONG = 100
-AROUND = -15, 25  # forcing periods drawn before and after the last release
+AROUND = -15, 25  # cycles from the last release at which panel (b) begins and ends
 
 
 @style({"axes.titley": None})  # keeps the letters clear of the upper axis

@@ -18,10 +18,10 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
-Shading: share of random free flights whose contact a method does not notice, because no step ends
-beyond the wall; depth is how far the flight would pass it. Solid line: median error of the method's
-motion. Dashed: depth at which constant steps would miss half. Dots: a contact reported but not
-made. Crosses: failed runs.
+Colour: share of random flights of the loose mass whose contact a method does not notice, because no
+step ends beyond the wall. Depth: distance by which the flight passes the wall. Solid line: median
+error of the method's motion. Dashed: depth at which constant steps would miss half of the contacts.
+Dots: a contact is reported where none occurs. Crosses: failed runs.
 """
 
 COLUMNS = 4
@@ -61,15 +61,15 @@ def draw_missed_contacts(*, missed_contacts):
     bar = drawn.colorbar(image, cax=place, orientation="horizontal")
     bar.set_label("Share of contacts missed")
     first = panels[0]
-    first.plot([], [], color=BLACK, linestyle="--", label="half missed by equal steps")
-    first.plot([], [], ".", color=SKY, label="contact reported but not made")
+    first.plot([], [], color=BLACK, linestyle="--", label="half missed by constant steps")
+    first.plot([], [], ".", color=SKY, label="contact reported, none occurs")
     letter_panels(panels[:count])
     legend(drawn, 3)
     return drawn
 
 
 def _panel(axes, data, name):
-    """Draw one method, and return the image of the share missed."""
+    """Draw the panel of one method, and return the image of the shares of missed contacts."""
     of, depths, fixed = data.sel(integrator=name), data["depth"].values, METHODS[name].fixed
     y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
     image = axes.pcolormesh(

@@ -16,8 +16,8 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Velocity against displacement of the primary mass during one period of the motion. Thick: contact
-with a wall. A contact is short: it reverses the velocity at nearly constant displacement, so that
-the motion differs strongly from the single harmonic of equations (7).
+with a wall. A contact is short and reverses the velocity at nearly constant displacement, so the
+motion differs strongly from the single harmonic of equations (7).
 """
 
 WALLS = {
@@ -59,7 +59,7 @@ def phase_panel(axes, traced):
 
 
 def time_panel(axes, traced):
-    """Draw both displacements against time, that of the loose mass thick in contact."""
+    """Draw Z1 and Z2 against time; the line of Z2 is thick during contacts."""
     axes.plot(traced["time"], traced["displacement"], color=BLACK, label="primary mass, $Z_1$")
     relative = traced["relative_displacement"]
     if len(traced["contact_wall"]):
@@ -77,7 +77,10 @@ def time_panel(axes, traced):
 
 
 def in_contact(traced, wall):
-    """Return which times lie in a contact with a wall; one without an end lasts to the last."""
+    """Return which times lie in a contact with a wall.
+
+    A contact whose end is not recorded lasts to the last time.
+    """
     time = traced["time"].values[:, None]
     chosen = traced["contact_wall"].values == wall
     begin = traced["contact_begin"].values[chosen]

@@ -1,7 +1,7 @@
 """Lines that join the motions of a response which belong to one branch.
 
-Joining is needed because the datasets list the motions at each frequency by size, so that a motion
-may stand at another place at the next frequency.
+The datasets list the motions at each frequency by size, so one motion may have different places in
+the lists of neighbouring frequencies.
 """
 
 import numpy as np

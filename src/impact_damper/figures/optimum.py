@@ -20,9 +20,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Largest displacement of the quiet motion against clearance (points), and its first harmonic by (7)
-(lines; with inelastic contact a guide to the eye). Stars: smallest displacement on the exact orbit;
-bars: range in which it is at most 10 % larger. Larger motions that coexist are not drawn.
+Largest displacement of the quiet motion against clearance (points), and amplitude of its first
+harmonic by (7) (lines; with inelastic contact lines only join the points). Star: smallest
+displacement of the exact orbit. Bar: range of clearances in which the displacement is at most 10 %
+larger. Larger motions that coexist are not drawn.
 """
 
 BALANCE = "lines: $|a|$ by equations (7)"
@@ -51,10 +52,10 @@ def draw_optimum(*, optimum):
 
 
 def sweeps_panel(axes, sweeps):
-    """Draw the quiet displacement of sweeps against clearance: points, lines of (7), optima."""
+    """Draw the displacement of the quiet motion against clearance: points, lines of (7), optima."""
     elastic = [np.isfinite(sweep["analytical_optimum"].item()) for sweep in sweeps]
     star = ROLES["optimum"] | {"markeredgewidth": 0.5, "markersize": 7.5}
-    # Keys of the legend: each curve with its line, the others in grey as they hold for all.
+    # Legend: each curve with its own line; entries that hold for all curves are grey.
     for index, words in enumerate(titles(sweeps)):
         axes.plot([], [], **points(index) | curve(index), label=words)
     if any(elastic):
@@ -79,7 +80,10 @@ def sweeps_panel(axes, sweeps):
 
 
 def line_of(sweep, elastic):
-    """Return clearances with |a| by (7), or max |Z1| if inelastic; the optimum is inserted."""
+    """Return clearances, and |a| by (7) or with inelastic contact max |Z1|.
+
+    The optimum is inserted as a further clearance.
+    """
     if elastic:
         names, least = ("analytical_amplitude", "analytical_optimum"), 0
     else:

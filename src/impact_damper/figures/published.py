@@ -7,9 +7,9 @@ from impact_damper.figures.style import BLACK, BLUE, PALE, VERMILION, figure, le
 
 CAPTION = """
 Relative difference between each number computed here and the published one, one band for each
-publication. Ticks: the difference to be expected from the contact stiffness, the mass ratio, the
-standard error of a share, or a linear spring in place of Hertz's. Open: ours extrapolated to rigid
-walls. Below 1e-12: at the left edge.
+publication. Tick: the difference expected from contact stiffness, mass ratio, the standard error of
+a share, or a linear spring in place of Hertz's contact. Open: extrapolated to rigid walls.
+Differences below 1e-12 stand at the left edge.
 """
 
 # Labels of publications, from the top.
@@ -24,7 +24,7 @@ GROUPS = {
     "hertz": "elastic impact\nHertz, in Johnson 1985",
 }
 LEAST = 1e-12
-# Share of the height of a band in which its points lie.
+# Fraction of the height of a band in which its points lie.
 FILLED = 0.8
 OURS = {"color": BLUE, "marker": ".", "markersize": 4, "label": "ours"}
 EXPECTED = {"color": VERMILION, "marker": "|", "markersize": 5, "label": "expected"}

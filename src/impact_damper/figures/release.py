@@ -7,9 +7,9 @@ from impact_damper.data.datasets import flag
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-States of the primary mass at which the damper is switched off, marked by the motion on which the
-free oscillator then settles: before the damped motion has settled, then from each settled motion.
-The panels have scales of their own.
+States of the primary mass at which the damper is switched off; a marker shows the motion on which
+the free oscillator then settles. Panels: releases before the damped motion has settled, then from
+each settled motion. Their scales differ.
 """
 
 # Role of each destination, and title of the panel of each damped motion.
@@ -50,7 +50,7 @@ def draw_release(*, migration):
         draw_releases(axes, runs.isel(damped=row))
     for axes in panels[len(sources) :]:
         axes.remove()
-    # three words in a row would overlap
+    # breaks the title, because the titles of three panels in a row would overlap
     for axes in panels[1::3] if columns == 3 else panels[: len(sources)]:
         axes.set_xlabel(axis_label(migration[0]["release_displacement"]))
     drawn.supylabel(axis_label(migration[0]["release_velocity"]), fontsize="medium")

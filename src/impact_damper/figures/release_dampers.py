@@ -19,13 +19,13 @@ from impact_damper.figures.style import (
 CAPTION = """
 (a) to (f): median of the cycles until the goal, and max |Z1| of the quiet motion over the free
 resonance. Hatched: above 350 cycles, or no quiet motion. Circle: best gap for suppression; cross:
-for migration by state. (g), (h): the damper of figure 13 at other e.
+for migration by state. (g), (h): damper of figure 13 at other restitutions e.
 """
 CYCLES, DISPLACEMENTS = LogNorm(8, 350), LogNorm(0.02, 0.5)
 # Words and ticks of the colour bars.
 SCALES = (
     ("Median of the cycles", [10, 30, 100, 300]),
-    ("max $|Z_1|$ over resonance", [0.02, 0.05, 0.1, 0.2, 0.5]),
+    ("max $|Z_1|$ / resonance", [0.02, 0.05, 0.1, 0.2, 0.5]),
 )
 TITLES = "By state", "Random phase", "Quiet motion"
 
@@ -75,7 +75,7 @@ def draw_release_dampers(*, release_dampers):
 
 
 def draw_maps(panels, one):
-    """Draw the three maps for one restitution; return what pcolormesh returned of each."""
+    """Draw the three maps for one restitution, and return their images."""
     x, y = one["clearance"].values, one["mass_ratio"].values
     cycles = one["damper_cycles"].sel(bound="share")
     cycles = cycles.where(np.isfinite(cycles))
@@ -105,8 +105,8 @@ def draw_cut(left, right, data):
     for k, (name, words) in enumerate([("quiet", "quiet motion"), ("largest", "largest motion")]):
         look = curve(k + 2) | {"marker": CURVES[k + 2][2], "label": words}
         right.plot(e, data[f"cut_{name}"] / data["resonance_displacement"], **look)
-    left.set(ylim=(-0.05, 1.05), ylabel="Share in 350 cycles")
-    right.set(ylim=(0, None), ylabel="max $|Z_1|$ over resonance")
+    left.set(ylim=(-0.05, 1.05), ylabel="Share within 350 cycles")
+    right.set(ylim=(0, None), ylabel="max $|Z_1|$ / resonance")
     for axes in (left, right):
         axes.set_xlabel("Restitution, $e$")
         axes.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0, ncols=2)

@@ -16,11 +16,11 @@ from impact_damper.figures.style import (
 CAPTION = """
 Horizontal: margin inside the basin, as a fraction of the size of the resonance motion. Above: share
 of trials that reach the non-resonance motion within 350 cycles. Below: median of the cycles. Noise
-is relative to the resonance motion; h and the force are those assumed. Dotted, with grey area: what
-a controller could reach that knows state and future.
+is relative to the resonance motion; h and force are those that the controller assumes. Dotted, with
+grey area: bound for a controller that knows state and future.
 """
 
-# Disturbances that are drawn, and their words; the table has all.
+# Disturbances that are drawn, with their labels; the table holds further ones.
 WORDS = {
     "none": "none",
     "noise 10 %": "noise of 10 %",

@@ -18,7 +18,7 @@ from impact_damper.tables.policies import POLICIES
 CAPTION = """
 Above: share of trials that reach the non-resonance motion within 350 cycles, with 95 % intervals,
 by four rules of release, whose parameters were chosen in separate trials. Below: median of the
-cycles. Dotted, with grey area: what a controller could reach that knows state and future.
+cycles. Dotted, with grey area: bound reached by a controller that knows state and future.
 """
 
 

@@ -9,9 +9,10 @@ from impact_damper.figures.motion_lines import branch_lines, draw_lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement against forcing frequency of all motions found, by random starts and by
-following. Lines join the settled motions of a branch; dotted lines and motions without damper are
-exact orbits. Chaos is a transient if it ended in a run. Harmonic balance gives the first harmonic.
+Largest displacement against forcing frequency of all motions found from random starts and by
+following. Lines join the settled motions of a branch; dotted lines, and motions without damper, are
+exact orbits. Chaos is a transient if it ended in a longer run. Harmonic balance gives the first
+harmonic.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
@@ -86,7 +87,7 @@ def restitution(data):
 def response_panel(axes, response, harmonic_balance, branches, *, apart=False):
     """Draw motions, solutions of harmonic balance and exact orbits, with and without a damper.
 
-    With `apart`, inelastic dampers have looks of their own.
+    With `apart`, inelastic dampers have other colours and markers than elastic ones.
     """
     for orbits in branches:
         if has_damper(orbits):
@@ -123,7 +124,7 @@ def draw_motions(axes, motions, prefix):
 def draw_unsettled(axes, motions, roles):
     """Draw the motions that have not settled on an orbit as points; a role for each outcome.
 
-    With a role for chaotic transients, chaos stands apart from that of which one of the runs ended.
+    If `roles` has a role for chaotic transients, chaos that ended in one of the runs gets it.
     """
     for status, role in roles.items():
         outcome = "chaotic" if status == "chaotic_transient" else status

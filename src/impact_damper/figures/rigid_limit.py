@@ -19,9 +19,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Relative error of the quiet motion's largest displacement if contacts are instantaneous impacts.
-Above: against Ω and contact stiffness; hatched: not reached. Below: at the design frequency.
-Corrected walls stand v tc e/(1 + e) farther out, with approach speed v and time in contact tc.
+Relative error of the largest displacement of the quiet motion if contacts are instantaneous. Above:
+against Ω and contact stiffness; hatched: motion not found. Below: at the design frequency.
+Corrected walls stand v tc e/(1 + e) farther out, with speed of approach v and time in contact tc.
 """
 
 SMALLEST = 1e-4  # lower end of the colour scale
@@ -57,7 +57,7 @@ def draw_rigid_limit(*, rigid_limit):
     for level, line in zip(data["threshold"].values, THRESHOLDS, strict=True):
         first.plot([], [], color=BLACK, linestyle=line, label=f"error of {100 * level:g} %")
     first.plot([], [], label="$r_1$ of the damper", **OWN)
-    key(first, "one or both motions not reached", PALE, "////")
+    key(first, "one or both motions not found", PALE, "////")
     axes = drawn.add_subplot(grid[1, :])
     draw_orders(axes, rigid_limit)
     letter_panels([*maps, axes])
@@ -79,7 +79,7 @@ def draw_map(axes, data, norm):
 
 
 def draw_orders(axes, rigid_limit):
-    """Draw errors of max |Z1| against stiffness at the design frequency, with guiding slopes."""
+    """Draw errors of max |Z1| against stiffness at the design frequency, with lines of slope."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, line = data["stiffness"], curve(index)

@@ -21,7 +21,7 @@ from impact_damper.figures.style import (
 
 
 def sheet(column, height):
-    """Axes that fill an empty figure, one data unit per inch; `column` as in `style.figure`."""
+    """Return axes that fill an empty figure, one unit per inch; `column` as in `style.figure`."""
     page = figure(column, height)
     page.set_layout_engine("none")
     axes = page.add_axes((0, 0, 1, 1))
@@ -31,18 +31,18 @@ def sheet(column, height):
 
 
 def stroke(axes, points, width="outline", **changes):
-    """Line through points."""
+    """Draw a line through points."""
     keywords = {"color": BLACK, "solid_capstyle": "round", "solid_joinstyle": "round"} | changes
     axes.plot(*np.transpose(points), linewidth=STROKES[width], **keywords)
 
 
 def filled(color, width="detail"):
-    """Keywords of an outlined, filled patch."""
+    """Return the keywords of an outlined, filled patch."""
     return {"facecolor": color, "edgecolor": BLACK, "linewidth": STROKES[width]}
 
 
 def arrow(axes, start, end, width="detail", head="-|>", color=BLACK):
-    """Arrow from one point to another."""
+    """Draw an arrow from one point to another."""
     axes.add_patch(
         FancyArrowPatch(
             start,
@@ -58,12 +58,12 @@ def arrow(axes, start, end, width="detail", head="-|>", color=BLACK):
 
 
 def letter(axes, x, y, symbol, **changes):
-    """Symbol centred on a point."""
+    """Write a symbol centred on a point."""
     axes.text(x, y, symbol, **{"ha": "center", "va": "center", "size": LETTER_SIZE} | changes)
 
 
 def spring(axes, start, end, y, turns=5, height=0.16):
-    """Horizontal coil spring with straight ends."""
+    """Draw a horizontal coil spring with straight ends."""
     lead = 0.14 * (end - start)
     x = np.linspace(start + lead, end - lead, 2 * turns + 1)
     zigzag = np.where(np.arange(2 * turns + 1) % 2, 0.5, -0.5) * height
@@ -72,7 +72,7 @@ def spring(axes, start, end, y, turns=5, height=0.16):
 
 
 def dashpot(axes, start, end, y, height=0.18):
-    """Horizontal dashpot: a cup held at the start, a piston at the end."""
+    """Draw a horizontal dashpot with its cup at the start and its piston at the end."""
     cup = start + 0.34 * (end - start)
     rim = start + 0.70 * (end - start)
     piston = 0.45 * cup + 0.55 * rim
@@ -84,7 +84,7 @@ def dashpot(axes, start, end, y, height=0.18):
 
 
 def ground(axes, start, end, depth=0.09, spacing=0.09):
-    """Fixed line, hatched on the right of the direction from start to end."""
+    """Draw a fixed line, hatched on the right of the direction from start to end."""
     start, end = np.array(start), np.array(end)
     length = np.hypot(*(end - start))
     along = (end - start) / length
@@ -96,18 +96,18 @@ def ground(axes, start, end, depth=0.09, spacing=0.09):
 
 
 def mass(axes, left, bottom, width, height, color=PALE):
-    """Rigid block."""
+    """Draw a rigid block."""
     axes.add_patch(Rectangle((left, bottom), width, height, **filled(color, "outline")))
 
 
 def wheels(axes, centres, rail, radius=0.08):
-    """Wheels that stand on a rail."""
+    """Draw wheels that stand on a rail."""
     for x in centres:
         axes.add_patch(Circle((x, rail + radius), radius, **filled(WHITE)))
 
 
 def dimension(axes, left, right, y, symbol, low):
-    """Length between two extension lines that rise from `low`."""
+    """Draw the symbol of a length between two extension lines that rise from `low`."""
     for x in (left, right):
         stroke(axes, [(x, low), (x, y + 0.06)], "fine", color=GREY)
     arrow(axes, (left, y), (right, y), "fine", "<|-|>")
@@ -115,14 +115,14 @@ def dimension(axes, left, right, y, symbol, low):
 
 
 def coordinate(axes, x, y, symbol, length=0.42):
-    """Displacement measured to the right from a tick at (x, y)."""
+    """Draw the symbol of a displacement, measured to the right from a tick at (x, y)."""
     stroke(axes, [(x, y - 0.08), (x, y + 0.08)], "detail", color=BLUE)
     arrow(axes, (x, y), (x + length, y), color=BLUE)
     letter(axes, x + length + 0.13, y, symbol, color=BLUE)
 
 
 def node(axes, x, y, width, height, words, shape):
-    """Box of a flow chart: a "step", a "question" or an "end"."""
+    """Draw a box of a flow chart; `shape` is "step", "question" or "end"."""
     across, up = width / 2, height / 2
     if shape == "question":
         corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]

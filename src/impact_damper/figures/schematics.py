@@ -84,7 +84,7 @@ def inelastic_contact(axes, wall, plate):
 
 @style()
 def elastic_model():
-    """Figure 1: primary mass with a loose mass between two contact springs k2."""
+    """Return figure 1: primary mass with a loose mass between two contact springs k2."""
     axes = sheet("double", 2.75)
     carriage(axes)
     slot(axes, elastic_contact)
@@ -93,7 +93,7 @@ def elastic_model():
 
 @style()
 def inelastic_model():
-    """Figure 9: as figure 1, with a dashpot c2 beside each contact spring."""
+    """Return figure 9: as figure 1, with a dashpot c2 beside each contact spring."""
     axes = sheet("double", 2.75)
     carriage(axes)
     slot(axes, inelastic_contact)
@@ -101,7 +101,7 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Sheet coordinates, shape (n, 2), of points of a horizontal plane seen in perspective.
+    """Return sheet coordinates, shape (n, 2), of points of a horizontal plane in perspective.
 
     u points to the right, v into the page; `level` is the height of the plane.
     """
@@ -184,7 +184,7 @@ def planes(axes, off, on):
 
 @style()
 def migration_scheme():
-    """Figure 12: migration from one attractor of the free oscillator to another."""
+    """Return figure 12: migration from one attractor of the free oscillator to another."""
     axes = sheet("double", 3.6)
     off, on = 0.15, 2.1
     bad, goal, damped = (1.35, 1.0), (4.35, 1.0), (2.95, 1.0)
@@ -216,7 +216,7 @@ def migration_scheme():
 
 @style()
 def algorithm():
-    """Figure 17: the loop of migration control."""
+    """Return figure 17: the loop of migration control."""
     axes = sheet("single", 5.06)
     x, side, width, margin = 1.17, 2.84, 1.76, 0.1
     chain = [
@@ -245,7 +245,7 @@ def algorithm():
 
 @style()
 def impact_pair():
-    """Figure B1: two masses in contact through a spring k2 and a dashpot c2."""
+    """Return figure B1: two masses in contact through a spring k2 and a dashpot c2."""
     axes = sheet("single", 1.4)
     ground(axes, (0.1, 0.2), (3.3, 0.2))
     for left, symbol, displacement in ((0.25, "$m_1$", "$X_1$"), (2.3, "$m_2$", "$X_2$")):

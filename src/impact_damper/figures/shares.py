@@ -27,9 +27,9 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Share of random starts that lead to each motion. A motion keeps its colour: it is followed by
-Newton's method or, if it has not settled, matched by kind and size. Further motions of a kind are
-paler. Chaos is a transient where it ended in a run. Each bar is the 95 % interval (Wilson)
-of the area whose upper edge it crosses. Titles: bound on a motion not seen.
+Newton's method or, if not settled, matched by kind and size. Further motions of a kind are paler.
+Chaos is a transient where it ended in a longer run. Bars: 95 % intervals (Wilson). Titles: bound on
+the share of a motion not seen.
 """
 
 # Kinds of motions from below: label, colour and hatching.
@@ -51,11 +51,11 @@ OUTCOMES = {
     "drifting": "no contact",
     "chaotic": "chaotic",
 }
-# Shares of white in the colours of the first, second and third motion of a kind, and so on.
+# Fractions of white mixed into the colours of the first, second, third ... motion of a kind.
 PALER = (0.0, 0.45, 0.7)
 EDGE = {"edgecolor": WHITE, "linewidth": 0.4}
 INTERVAL = {"color": BLACK, "linewidth": 0.6}
-# Half width of the column of a single value, as a share of the value.
+# Half width of the column of a single value, as a fraction of the value.
 HALF_WIDTH = 0.05
 
 
@@ -160,9 +160,9 @@ def ranked_motions(data):
     Returns
     -------
     list of (str, int, array of bool)
-        Of each motion its kind; its rank among those of its kind, from 0 for most starts; and its
-        places in the tables of the sweep. A chaotic motion that is a transient at some values comes
-        twice, with the same rank.
+        For each motion its kind; its rank among the motions of its kind, 0 for the one with most
+        starts; and its places in the tables of the sweep. A chaotic motion that is a transient at
+        some values is listed twice, with the same rank.
     """
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
@@ -176,7 +176,7 @@ def ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return the places of a motion by kind: chaos is a transient where one of its runs ended."""
+    """Return the places of a motion by kind; chaos is a transient where one of its runs ended."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

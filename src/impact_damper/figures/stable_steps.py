@@ -20,13 +20,14 @@ from impact_damper.figures.style import (
 from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
-Largest step, times the natural frequency of a contact, with which a method, as with all smaller
-steps tested, keeps the quiet motion's largest displacement within 1 or 10 %, started on the exact
-orbit. Dotted: limit of linear stability. Missing points: no step tested is small enough.
+Points: largest step with which a fixed-step method, started on the exact quiet orbit, keeps the
+largest displacement within 1 or 10 %. All smaller steps tested keep it too. The step is multiplied
+by the natural frequency of a contact. Dotted: limit of linear stability. No point: no step tested
+was small enough.
 """
 
 LINEAR = "linear stability limit"
-# Lines by what they keep, in the order of the accuracies in the dataset, and the linear limit.
+# Looks of the lines in the order of the accuracies in the dataset, and of the linear limit.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},
@@ -55,7 +56,7 @@ def draw_stable_steps(*, stable_steps):
         words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         axes.set(xscale="log", yscale="log", xlabel=axis_label(data["contact_stiffness"]))
         axes.set_title(words)
-        # stated, because there may be no step small enough
+        # fixed, because a panel may have no points
         low, high = (edge(data["contact_stiffness"].values) for edge in (np.min, np.max))
         axes.set_xlim(low / 2, high * 2)
         tested = data["scaled_step"].values

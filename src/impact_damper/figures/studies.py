@@ -10,12 +10,12 @@ from impact_damper.figures.maps import hatch, mesh, span
 from impact_damper.figures.style import BLACK, ROLES, axis_label, figure, legend, style
 
 CAPTION = """
-Colour: the largest displacement of all motions that random starts in a cell lead to. Hatched: not
-all starts settled; their motions may be long transients. Line: rule (18). Stars: for each mass
-ratio the clearance with the smallest displacement.
+Colour: the largest displacement of all motions to which random starts in a cell lead. Hatched: not
+all motions settled; some may be long transients. Line: rule (18). Stars: for each mass ratio the
+clearance with the smallest displacement.
 """
 
-# Hatching of the cells in which not all starts settled.
+# Hatching of the cells in which not all motions settled.
 UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
 
 
@@ -60,9 +60,9 @@ def _draw(axes, data, norm):
     part = settled.sum("counted_outcome").values.T < parameters_of(data)["starts"]
     if part.any():
         hatch(axes, *grid, part, **UNSETTLED)
-    axes.fill([], [], facecolor="none", label="not all starts settled", **UNSETTLED)
+    axes.fill([], [], facecolor="none", label="not all motions settled", **UNSETTLED)
     axes.plot(grid[0], data["rule_clearance"], color=BLACK, label=r"$r_m \Omega^2 d_0 = 1$")
-    best = ROLES["optimum"] | {"label": "least at this mass ratio"}
+    best = ROLES["optimum"] | {"label": "smallest at this mass ratio"}
     axes.plot(grid[0], data["best_clearance"], **best)
     axes.set_ylim(*span(grid[1]))
     return shown

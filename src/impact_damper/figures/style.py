@@ -1,6 +1,6 @@
 """Common style of all figures: fonts, colours, roles of curves, sizes, labels, saving.
 
-A role is what a curve stands for, as `free_stable`; ROLES maps it to the look of the curve.
+A role names the meaning of a curve, such as `free_stable`. ROLES maps roles to keywords of `plot`.
 
 The palette of Okabe and Ito can be distinguished by colour-blind readers. Roles that occur in the
 same figure also differ in marker or line style, for grey print.
@@ -164,12 +164,12 @@ CURVES = [
 
 
 def style(*changes):
-    """Context manager or decorator that applies the common style, with optional changes."""
+    """Return a context manager, also a decorator, that applies the common style with changes."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
 
 def figure(column, height) -> Figure:
-    """Empty figure with the width of one or two columns of a page.
+    """Return an empty figure with the width of one or two columns of a page.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def points(index) -> dict:
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 
 
-# Mathtext of symbols of parameters that `tex` would not translate rightly.
+# Mathtext of symbols that `tex` cannot translate.
 MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
@@ -258,9 +258,8 @@ def legend(figure, columns, order=()) -> None:
 def save_figure(figure, path) -> None:
     """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
 
-    The layout is computed once and then fixed, so that both files show the same picture. Removing
-    the layout engine, instead of setting it to "none", saves matplotlib a second drawing before
-    each file.
+    The layout is computed once and then fixed, so that both files show the same picture. The layout
+    engine is removed rather than set to "none": with "none" matplotlib draws twice for each file.
     """
     with style():
         if figure.get_layout_engine() is not None:

@@ -1,13 +1,13 @@
-"""Tuned absorbers in place of an impact damper."""
+"""Tuned absorbers, which could be built in place of an impact damper."""
 
 from impact_damper.data.variables.variable import Variable
 
 GRID = ("competitor", "detuning", "frequency", "force_share")
 PEAK = ("competitor", "detuning", "force_share")
 VARIABLES = {
-    "competitor": Variable(("competitor",), "what is built in place of an impact damper"),
+    "competitor": Variable(("competitor",), "absorber in place of an impact damper, or none"),
     "detuning": Variable(
-        ("detuning",), "share by which the absorber's springs are stiffer than designed"
+        ("detuning",), "fraction by which the absorber's springs are stiffer than designed"
     ),
     "force_share": Variable(("force_share",), "factor of the machine's excitation"),
     "competitor_displacement": Variable(
@@ -31,8 +31,8 @@ VARIABLES = {
     ),
     "competitor_status": Variable(
         GRID,
-        "whether all starts that do not escape led to stable periodic motions, or some to a motion "
-        "without a short period, or some did not settle; or whether all escaped",
+        "found: all starts that do not escape lead to stable periodic motions; not_periodic: some "
+        "lead to a motion without a short period; not_settled: some motions did not settle",
         flags={
             "not_possible": -1,
             "escaped": 0,

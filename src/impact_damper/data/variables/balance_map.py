@@ -1,9 +1,9 @@
 """Harmonic balance compared with exact motions, in maps over frequency and another parameter.
 
-A cell of a map is one pair of these; a row is one value of the other parameter. Two motions are
-compared in each cell: the quiet one, which belongs to the solution of (7) with the smallest |a|,
-and the high one, as large as the free resonance (`theory.map_cells`). The quiet run and the high
-run are simulations that start from these solutions.
+A cell of a map is one frequency and one value of the other parameter; a row is one value of the
+other parameter. Two solutions of (7) are compared with motions in each cell. The quiet solution has
+the smallest |a|, below half of the free resonance. The high solution has the largest |a|, at least
+this half (`theory.map_cells`). The quiet run and the high run are simulations that start from them.
 """
 
 from impact_damper.data.variables.variable import OUTCOME, Variable
@@ -71,7 +71,7 @@ VARIABLES = {
     ),
     "quiet_orbit": Variable(
         CELL,
-        "exact quiet orbit: stable, or the bifurcation by which it lost stability",
+        "stability of the exact quiet orbit, or the bifurcation by which it becomes unstable",
         flags={
             "unresolved": -1,
             "absent": 0,
@@ -92,7 +92,7 @@ VARIABLES = {
     ),
     "quiet_verdict": Variable(
         CELL,
-        "quiet motion: stability by harmonic balance, then of the exact orbit",
+        "quiet motion: stability by harmonic balance, then stability of the exact orbit",
         flags=QUIET_VERDICT,
     ),
     "quiet_end": Variable(
@@ -113,9 +113,9 @@ VARIABLES = {
         ("map_value",),
         "Omega/Omega_p at the upper end of quiet orbits, for rigid walls at high frequency",
     ),
-    # where a start at the quiet solution leads
+    # runs from the quiet solution
     "quiet_run_motion": Variable(
-        CELL, "motion that a start at the quiet solution of (7) leads to", flags=RUN_MOTION
+        CELL, "motion to which a start at the quiet solution of (7) leads", flags=RUN_MOTION
     ),
     "quiet_run_exponent": Variable(
         CELL, "largest Lyapunov exponent of the quiet run, per unit time"
@@ -126,8 +126,8 @@ VARIABLES = {
     "balance_high_amplitude": Variable(CELL, "|a| of the high stable solution of (7)", "|a|"),
     "high_run_motion": Variable(
         CELL,
-        "motion that the high run leads to; it starts at the high solution of (7), or if there is "
-        "none on the free resonance branch",
+        "motion to which the high run leads; the run starts at the high solution of (7) or, where "
+        "none exists, on the free resonance branch",
         flags=RUN_MOTION,
     ),
     "high_run_outcome": Variable(CELL, "outcome of the high run", flags=OUTCOME),
@@ -138,12 +138,12 @@ VARIABLES = {
     "high_run_error": Variable(CELL, "standard error of high_run_exponent"),
     "high_long_outcome": Variable(
         CELL,
-        "outcome of some chaotic high runs if they are continued to ten times as many periods",
+        "outcome of some chaotic high runs, repeated with ten times as many cycles",
         flags=OUTCOME,
     ),
     "high_verdict": Variable(
         CELL,
-        "high motion: result of harmonic balance, then motion that the high run leads to",
+        "high motion: result of harmonic balance, then motion to which the high run leads",
         flags=HIGH_VERDICT,
     ),
 }

@@ -1,12 +1,12 @@
-"""Basins of attraction: which motion each state of a plane leads to, and boundaries of basins.
+"""Basins of attraction: the motion to which each state of a plane leads, and their boundaries.
 
-An attractor is a motion that settles. Negative labels are in BASIN_LABEL.
+An attractor is a periodic motion on which motions settle. BASIN_LABEL lists the negative labels.
 """
 
 from impact_damper.data.variables.variable import Variable
 
-# Labels of states that lead to no attractor; a state of the primary is `mixed` if where it leads
-# depends on the place of the loose mass.
+# Labels of states that lead to no attractor. With a damper a state of the primary mass is `mixed`
+# if the place of the loose mass decides to which attractor it leads.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,
@@ -30,13 +30,13 @@ VARIABLES = {
     "basin_phase": Variable((), "initial phase Omega T of the forcing", units="radian"),
     "basin_label": Variable(
         ("basin_velocity", "basin_displacement"),
-        "attractor that a state leads to, or a negative number: -1 unresolved, -2 escaped, "
+        "attractor to which a state leads, or a negative number: -1 unresolved, -2 escaped, "
         "-3 chaotic, -4 without contact, -5 depends on the place of the loose mass, "
         "-6 quasi-periodic",
     ),
     "basin_periods": Variable(
         ("basin_velocity", "basin_displacement"),
-        "cycles after which it is known where a state leads",
+        "cycles after which the motion from a state is decided",
     ),
     "basin_share": Variable(
         ("attractor", "basin_velocity", "basin_displacement"),
@@ -58,13 +58,13 @@ VARIABLES = {
     "attractor_share": Variable(("attractor",), "share of the states that lead to an attractor"),
     "attractor_point": Variable(
         ("attractor", "passage"),
-        "displacement of an attractor each time the forcing has the phase of the plane",
+        "displacement of an attractor whenever the forcing has the phase of the plane",
         "Z1",
         quantity="displacement",
     ),
     "attractor_speed": Variable(
         ("attractor", "passage"),
-        "velocity of an attractor each time the forcing has the phase of the plane",
+        "velocity of an attractor whenever the forcing has the phase of the plane",
         "Z1'",
         quantity="velocity",
     ),

@@ -1,8 +1,9 @@
 """The contact model in closed form, contacts of simulated motions, and the rigid limit.
 
-The load g/(omega_n v0) is the dimensionless acceleration in a contact by all forces but that of the
-wall, the realised restitution the ratio of departure to approach speed (`contact.contact_law`). A
-"mended" rigid orbit is one between corrected rigid walls (`contact.rigid_orbits.mended_walls`).
+The load g/(omega_n v0) is the dimensionless acceleration that all forces except the force of the
+wall cause. The realised restitution is the ratio of departure to approach speed
+(`contact.contact_law`). A "mended" rigid orbit is an orbit between corrected rigid walls
+(`contact.rigid_orbits.mended_walls`).
 """
 
 from impact_damper.data.variables.variable import OUTCOME, Variable
@@ -24,7 +25,7 @@ VARIABLES = {
     "contact_duration": Variable(CELL, "time in contact over that of an elastic contact"),
     "contact_verdict": Variable(
         CELL,
-        "realised restitution: within 1 % of e, within 5 %, further off, or none, since the loose "
+        "realised restitution: within 1 % of e, within 5 %, or farther; or none, because the loose "
         "mass falls back or the contact does not end",
         flags={"close": 0, "fair": 1, "off": 2, "falls_back": 3, "no_release": 4},
     ),
@@ -47,9 +48,7 @@ VARIABLES = {
         ("used",), "ratio of the largest tensile to the largest compressive force without load"
     ),
     # contacts of motions
-    "size": Variable(
-        ("size",), "which motion that random starts reach: the smallest settled or the largest one"
-    ),
+    "size": Variable(("size",), "smallest settled or largest motion to which random starts lead"),
     "scene_outcome": Variable(SCENE, "outcome of the motion", flags=OUTCOME),
     "scene_displacement": Variable(SCENE, "largest displacement of the motion", "max |Z1|"),
     "scene_without_pull": Variable(

@@ -128,7 +128,7 @@ VARIABLES = {
     ),
     "largest_displacement": Variable(
         ("clearance",),
-        "largest displacement of all motions that the random starts reach",
+        "largest displacement of all motions to which the random starts lead",
         quantity="displacement",
     ),
     "analytical_amplitude": Variable(
@@ -175,12 +175,12 @@ VARIABLES = {
     ),
     "first_harmonic_share": Variable(
         (),
-        "share of optimum_ratio - 1 that the first harmonic explains, "
+        "fraction of optimum_ratio - 1 that the first harmonic explains, "
         "(pi^2/8 - 1)/(optimum_ratio - 1)",
     ),
     "straight_flight_share": Variable(
         (),
-        "share of optimum_ratio - 1 explained by straight flight: (straight_flight_ratio - 1)/"
+        "fraction of optimum_ratio - 1 explained by straight flight: (straight_flight_ratio - 1)/"
         "(optimum_ratio - 1)",
     ),
 }

@@ -1,8 +1,8 @@
 """Failures of integrators: contacts missed near grazing, unstable steps, wrong verdicts.
 
-A passage is a free flight past a wall placed close to its largest |Z2| (`rivals.passages`). A scene
-is a test case: a motion of which is known whether it settles on a certain orbit. The verdict of a
-method on a scene says whether the method finds that.
+A passage is a flight of the loose mass past a wall close to the largest |Z2| of the flight
+(`rivals.passages`). A scene is a test case: a motion and an orbit, with the knowledge whether the
+motion settles on the orbit. The verdict on a method says whether it finds the right answer.
 """
 
 from impact_damper.data.variables.variable import Variable
@@ -30,12 +30,14 @@ VARIABLES = {
     "integrator": Variable(("integrator",), "method of integration"),
     "method_tolerance": Variable(("method_tolerance",), "tolerance of the method"),
     # contacts missed near grazing
-    "depth": Variable(("depth",), "distance by which a passage without wall would go beyond it"),
-    "contact_outcome": Variable(("contact_outcome",), "how a method treats a contact"),
+    "depth": Variable(
+        ("depth",), "distance by which a passage would go beyond the wall if it were not there"
+    ),
+    "contact_outcome": Variable(("contact_outcome",), "result of a method at a contact"),
     "passage_count": Variable(
         ("integrator", "method_tolerance", "depth", "contact_outcome"),
-        "number of contacts that a method finds, passes between two steps, or does not reach since "
-        "its motion is inaccurate, and number of failed runs",
+        "number of contacts that a method finds, misses between two steps, or does not reach "
+        "because its motion is inaccurate, and number of failed runs",
     ),
     "spurious_count": Variable(
         ("integrator", "method_tolerance", "depth"),
@@ -54,7 +56,7 @@ VARIABLES = {
     "fixed_steps": Variable(("method_tolerance",), "steps per cycle of the fixed-step method"),
     "expected_unseen": Variable(
         ("method_tolerance", "depth"),
-        "expected share of contacts that lie between two ends of fixed steps, at random times",
+        "expected share of contacts at random times that begin and end within one fixed step",
     ),
     "extremum_time": Variable(("passage",), "time of the largest |Z2| of a passage", "T"),
     "extremum": Variable(("passage",), "largest |Z2| of a passage"),
@@ -65,7 +67,7 @@ VARIABLES = {
     "accuracy": Variable(("accuracy",), "relative deviation allowed in max |Z1|"),
     "step_verdict": Variable(
         ("fixed_method", "contact_stiffness", "scaled_step"),
-        "how closely the method stays on the quiet motion",
+        "deviation of the method from the quiet motion",
         flags=STEP_VERDICT,
     ),
     "step_deviation": Variable(
@@ -75,7 +77,7 @@ VARIABLES = {
     "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps per cycle"),
     "stable_step": Variable(
         ("fixed_method", "contact_stiffness", "accuracy"),
-        "largest step such that this step and all smaller ones keep the accuracy",
+        "largest step that keeps the accuracy together with all smaller ones",
         "h",
     ),
     "largest_holding_step": Variable(
@@ -103,19 +105,17 @@ VARIABLES = {
     ),
     "free_bound": Variable((), "displacement beyond which a run has escaped", "max |Z1|"),
     # verdicts by tolerance
-    "scene": Variable(
-        ("scene",), "test case: motion of which is known whether it settles on an orbit"
-    ),
+    "scene": Variable(("scene",), "test case: a motion near an orbit of known stability"),
     "verdict_method": Variable(("verdict_method",), "method of integration"),
     "verdict": Variable(
         ("scene", "verdict_method", "method_tolerance"),
-        "verdict of the method, and how it is wrong",
+        "verdict on the method: right, or the kind of error",
         flags=VERDICT,
     ),
     "right_from": Variable(
         ("scene", "verdict_method"),
-        "largest tolerance, or smallest number of steps, such that it and all stricter ones give "
-        "the right verdict",
+        "largest tolerance, or smallest number of steps, that gives the right verdict together "
+        "with all stricter ones",
     ),
     "verdict_steps": Variable(("method_tolerance",), "steps per cycle of fixed-step methods"),
     "scene_multiplier": Variable(
@@ -123,7 +123,7 @@ VARIABLES = {
     ),
     "scene_period": Variable(("scene",), "period of the orbit in cycles", "n"),
     "landing_period": Variable(
-        ("scene",), "period of the motion that results, 0 if it does not settle", "n"
+        ("scene",), "period of the resulting motion, 0 if the motion does not settle", "n"
     ),
     "scene_periods": Variable(("scene",), "number of cycles of a run"),
     "scene_frequency": Variable(("scene",), "forcing frequency", "Omega"),

@@ -1,9 +1,9 @@
 """Migration control, releases of damped motions, and the lifetime of the violent transient.
 
-The controller of figure 17 switches the damper on and off (a switching) until the free motion, that
-without the damper, is the non-resonance one; one run of the controller is a trial. A damped motion
-is one with the damper on; its release is the switching off. A violent transient is a motion that is
-large at first, after the damper has been switched on.
+The controller of figure 17 switches the damper on and off (one switching) until the free motion is
+the non-resonance motion. One run of the controller is a trial. A damped motion is a motion with the
+damper on; its release is the moment at which the damper is switched off. A violent transient is the
+large motion that may follow when the damper is switched on.
 """
 
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, Variable
@@ -36,7 +36,7 @@ VARIABLES = {
         quantity="displacement",
     ),
     "destination": Variable(
-        ("trial", "switching"), "free motion that a release leads to", flags=FREE_MOTION
+        ("trial", "switching"), "free motion to which a release leads", flags=FREE_MOTION
     ),
     "destination_displacement": Variable(
         ("trial", "switching"),
@@ -64,7 +64,7 @@ VARIABLES = {
     "free_motion": Variable(("free_motion",), "kind of free motion"),
     "destination_count": Variable(
         ("damped_motion", "free_motion"),
-        "number of releases in all runs for each pair of a damped and a following free motion",
+        "number of releases in all runs, by the damped motion before and the free motion after",
     ),
     "reached_share": Variable(("bound",), "share of runs that arrive on the non-resonance branch"),
     "within_share": Variable(("bound",), "share of runs that arrive within 350 cycles"),
@@ -72,9 +72,12 @@ VARIABLES = {
     "damped_kind": Variable(("damped",), "kind of damped motion", flags=DAMPED_MOTION),
     "damped_period": Variable(("damped",), "period in cycles, 0 if it has not settled", "n"),
     "damped_displacement": Variable(
-        ("damped",), "largest displacement, if it has settled", "max |Z1|", quantity="displacement"
+        ("damped",),
+        "largest displacement, if the motion has settled",
+        "max |Z1|",
+        quantity="displacement",
     ),
-    "damped_contacts": Variable(("damped",), "contacts begun per cycle, if it has settled"),
+    "damped_contacts": Variable(("damped",), "contacts begun per cycle, if the motion has settled"),
     "release_phase": Variable(("damped", "release"), "cycles from Omega T = pi/2 to the release"),
     "release_displacement": Variable(
         ("damped", "release"),
@@ -89,7 +92,7 @@ VARIABLES = {
         quantity="velocity",
     ),
     "release_destination": Variable(
-        ("damped", "release"), "free motion that the release leads to", flags=FREE_MOTION
+        ("damped", "release"), "free motion to which the release leads", flags=FREE_MOTION
     ),
     "release_share": Variable(
         ("damped", "free_motion", "bound"), "share of releases that lead to each free motion"
@@ -99,7 +102,7 @@ VARIABLES = {
         ("run",),
         "cycles until the violent transient ends, if it ends before the time horizon",
     ),
-    "landing_time": Variable(("run",), "cycles until the run has settled, if it has"),
+    "landing_time": Variable(("run",), "cycles until the motion has settled; NaN if it has not"),
     "landed_on": Variable(("run",), "motion on which the run settles", flags=DAMPED_MOTION),
     "age": Variable(("age",), "cycles since the damper was switched on"),
     "survival": Variable(("age", "bound"), "share of runs whose transient is longer than age"),

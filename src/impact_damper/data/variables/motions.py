@@ -105,7 +105,7 @@ VARIABLES = {
     # frequency responses
     "branch": Variable(
         ("frequency", "motion"),
-        "number of the branch that a motion lies on, by which it is known over the sweep",
+        "number of the branch on which a motion lies, the same at all values of the sweep",
     ),
     "motion_starts": Variable(
         ("frequency", "motion"), "number of random starts that lead to the motion"
@@ -126,7 +126,7 @@ VARIABLES = {
     "run_outcome": Variable(("frequency", "start"), "outcome of a random start", flags=OUTCOME),
     "run_motion": Variable(
         ("frequency", "start"),
-        "index along the dimension `motion` of the motion that a random start leads to",
+        "index along the dimension `motion` of the motion to which a random start leads",
     ),
     "run_length": Variable(("frequency", "start"), "cycles run from a random start"),
     "end_value": Variable(
@@ -158,7 +158,7 @@ VARIABLES = {
     "mean_life_upper": Variable(
         ("frequency", "motion"), "mean life, upper end of its 95 % interval, cycles"
     ),
-    # how wide the search by random starts was
+    # range of the random starts
     "start_displacement": Variable(
         ("frequency",),
         "largest displacement of a random start",
@@ -181,7 +181,7 @@ VARIABLES = {
         quantity="velocity",
     ),
     "missed_share": Variable(
-        (), "share of starts that may lead to a motion that none found; 95 % upper bound"
+        (), "upper bound, at 95 %, on the share of starts that lead to a motion not found"
     ),
     # first collisions
     "ball": Variable(("ball",), "ball of states from which random starts are drawn"),

@@ -36,8 +36,8 @@ VARIABLES = {
     ),
     "orbit_status": Variable(
         ("point",),
-        "whether Newton's method converged, and whether a contact begins so slowly (near grazing) "
-        "that the multipliers hold for infinitesimal disturbances only",
+        "whether Newton's method converged; near grazing a contact begins so slowly that the "
+        "multipliers hold for infinitesimal disturbances only",
         flags={"not_converged": 0, "regular": 1, "near_grazing": 2},
     ),
     "orbit_contacts": Variable(("point",), "contacts begun per cycle in an orbit"),
@@ -110,29 +110,27 @@ VARIABLES = {
     ),
     "branch_met": Variable(
         ("branch", "edge"),
-        "number of the branch at which a branch ends by symmetry breaking or period doubling, -1 "
-        "if it is none of these branches, or if the branch ends otherwise",
+        "number of the branch at which a branch ends by symmetry breaking or period doubling; -1 "
+        "if this branch is not in the dataset, or if the branch ends otherwise",
     ),
-    "seeds": Variable(
-        (), "number of motions from which Newton's method looked for an orbit on a branch"
-    ),
+    "seeds": Variable((), "number of motions from which Newton's method searched for an orbit"),
     "seeds_lost": Variable(
         (), "number of motions from which Newton's method converged to no orbit"
     ),
     "searches": Variable(
         (), "number of searches by Newton's method, from random states, for orbits of period 1 to 3"
     ),
-    "searches_stable": Variable((), "number of those searches that found a stable orbit"),
+    "searches_stable": Variable((), "number of searches that found a stable orbit"),
     "searches_new": Variable(
-        (), "number of branches followed from those orbits, because no other one held them"
+        (), "number of branches followed from orbits of searches, as no other branch held them"
     ),
     "switches": Variable(
         (),
-        "number of losses of symmetry and period doublings beside stable orbits at which the "
-        "branch that leaves there was looked for, up to period 4",
+        "number of losses of symmetry and period doublings, beside stable orbits up to period 4, "
+        "at which the other branch was searched for",
     ),
     "switches_lost": Variable(
-        (), "number of those bifurcations at which no orbit of the other branch was found"
+        (), "number of these bifurcations at which no orbit of the other branch was found"
     ),
     # events
     "event_branch": Variable(("event",), "branch on which an event lies"),

@@ -1,4 +1,4 @@
-"""Policies of migration: when to let go of the damper, and how sure that is."""
+"""Policies of migration, rules that say when to switch the damper off, and their success."""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -12,7 +12,8 @@ VARIABLES = {
     "quantile": Variable(("quantile",), "quantile over all trials"),
     "margin": Variable(
         ("margin",),
-        "least distance inside the goal's basin, over the size of the resonance",
+        "least distance of the state from the edge of the goal's basin, over the size of the "
+        "resonance motion",
     ),
     "noisy_frequency": Variable(
         ("noisy_frequency",),
@@ -42,7 +43,7 @@ VARIABLES = {
     "policy_releases": Variable((*CASE, "policy"), "mean number of releases"),
     "policy_hold": Variable(
         (*CASE, "policy"),
-        "cycles with the damper on that the policy chose: hold, phase and, at most, state",
+        "cycles for which the policy keeps the damper on; for release by state, at most",
     ),
     "policy_phase": Variable(
         (*CASE, "policy"), "phase Omega T of the release that the policy chose", units="radian"
@@ -86,10 +87,13 @@ for part, dims in {"damper": DAMPER, "cut": ("frequency", "cut_restitution")}.it
             (*dims, "policy", "bound"), "share of trials that reach the goal within 350 cycles"
         ),
         f"{part}_cycles": Variable(
-            (*dims, "policy", "bound"), "median of the forcing periods until the goal"
+            (*dims, "policy", "bound"), "median of the cycles until the goal"
         ),
         f"{part}_quiet": Variable(
-            dims, "max |Z1| of the quiet motion with the damper on", quantity="displacement"
+            dims,
+            "max |Z1| of the smallest periodic motion with the damper on, if it is below half of "
+            "resonance_displacement",
+            quantity="displacement",
         ),
         f"{part}_largest": Variable(
             dims, "largest max |Z1| of the motions with the damper on", quantity="displacement"

@@ -20,7 +20,7 @@ VARIABLES = {
             "hertz": 7,
         },
     ),
-    "published_value": Variable(EACH, "published number, or that of the published closed form"),
+    "published_value": Variable(EACH, "published number, or value of the published closed form"),
     "our_value": Variable(EACH, "number computed here"),
     "difference_reason": Variable(
         EACH,
@@ -41,13 +41,13 @@ VARIABLES = {
     ),
     "difference_order": Variable(
         EACH,
-        "exponent n of difference ~ parameter^n, with the parameter that difference_reason names",
+        "exponent n of difference ~ parameter^n; difference_reason names the parameter",
     ),
     "difference_error": Variable(EACH, "standard error of the difference of two random counts"),
     "limit_value": Variable(EACH, "number computed here, extrapolated to rigid walls"),
     "expected_difference": Variable(
         EACH,
-        "size of the relative difference to be expected: by extrapolation to rigid walls, the mass "
-        "ratio, 1.96 standard errors, or that of a linear contact; NaN if unknown",
+        "expected size of the relative difference: from the extrapolation to rigid walls, the mass "
+        "ratio, 1.96 standard errors, or a linear contact; NaN if unknown",
     ),
 }

@@ -11,10 +11,14 @@ VARIABLES = {
     "outcome_count": Variable(
         ("cell", "counted_outcome"), "number of random starts with the outcome"
     ),
-    "quiet_count": Variable(("cell",), "number of random starts that lead to the quiet motion"),
+    "quiet_count": Variable(
+        ("cell",),
+        "number of random starts that lead to the quiet orbit, which has period 1 and touches each "
+        "wall once in a cycle, symmetrically",
+    ),
     "best_clearance": Variable(
         ("mass_ratio", "frequency", "restitution"),
-        "clearance of the grid at which the largest motion reached is smallest",
+        "clearance of the grid at which the largest motion that starts lead to is smallest",
         "d0",
     ),
 }

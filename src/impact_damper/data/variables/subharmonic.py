@@ -32,7 +32,7 @@ VARIABLES = {
     ),
     "reached_subharmonic": Variable(
         ("frequency",),
-        "largest displacement of the damped subharmonics that random starts lead to",
+        "largest displacement of the damped subharmonics to which random starts lead",
         quantity="displacement",
     ),
     "subharmonic_ratio": Variable(
@@ -45,15 +45,16 @@ VARIABLES = {
     ),
     "reached_suppression": Variable(
         ("frequency",),
-        "effect of the damper on the subharmonic, judged by motions that random starts lead to",
+        "effect of the damper on the subharmonic, judged by motions to which random starts lead",
         flags=SUPPRESSION,
     ),
     "switched_motion": Variable(
-        ("switched_motion",), "kind of motion that results after the damper is switched on"
+        ("switched_motion",), "kind of motion that follows when the damper is switched on"
     ),
     "switched_share": Variable(
         ("frequency", "switched_motion"),
-        "share of starts on the free subharmonic that lead to each motion, damper switched on",
+        "share of starts on the free subharmonic that lead to each motion when the damper is "
+        "switched on",
     ),
     "subharmonic_branch": Variable(("subharmonic",), "number of a branch of damped subharmonics"),
     "subharmonic_period": Variable(("subharmonic",), "period of the branch in cycles", "n"),

@@ -19,7 +19,7 @@ class Variable(NamedTuple):
     flags : dict of int or None
         For a variable with named values: the stored number of each name; otherwise None.
     quantity : str
-        Physical quantity, by which results are converted to SI units: a key of
+        Physical quantity, which decides the conversion to SI units: a key of
         `machine.units.QUANTITIES`; "state" for displacements and velocities; "followed" for the
         parameter that a sweep or a branch varies; "mixed" for a number that combines several
         quantities, such as the distance of two states.
@@ -47,7 +47,9 @@ OUTCOME = {
     "drifting": 8,
 }
 MINIMUM = {"not_found": 0, "smooth": 1, "kink": 2, "jump": 3, "edge": 4}
-# A damped period-1 motion is quiet below half the displacement of the free resonance motion.
+# Kinds of motions with the damper. A motion of period 1 is quiet if its largest displacement is
+# below the quiet limit, half of that of the free resonance motion, and violent otherwise. A motion
+# of another period is a subharmonic, whatever its size.
 DAMPED_MOTION = {"none": -1, "unsettled": 0, "quiet": 1, "violent": 2, "subharmonic": 3}
 FREE_MOTION = {
     "none": -1,

@@ -1,4 +1,4 @@
-"""Quiet share and displacement against the gap: the cliff, and the gap to build beside it."""
+"""Share of quiet starts and displacement against the gap, with the cliff and the gap to build."""
 
 import numpy as np
 
@@ -15,10 +15,11 @@ from impact_damper.figures.machines.looks import (
 from impact_damper.figures.style import BLUE, GREY, figure, legend, style
 
 CAPTION = """
-Against the gap (full play): above, the least share of random starts over the band that end quiet
-(coarse comparison: circles; candidates: squares with 95 % intervals); below, the largest
-displacement of any motion over the band. Star: the gap of the smallest stable quiet orbit, which
-few starts may reach. Blue line: the exact quiet orbit at the frequency of the cliff.
+Horizontal: gap, the full play. Above: share of random starts that lead to quiet motions, at the
+worst frequency of the band (circles: coarse comparison; squares: candidates, with 95 % intervals).
+Below: largest displacement of all motions found over the band. Star: smallest stable quiet orbit;
+few starts may lead to it. Blue line: exact quiet orbit at the frequency at which the share falls
+first.
 """
 COARSE = {
     "color": GREY,
@@ -89,7 +90,7 @@ def size_panel(axes, data):
 
 
 def _span(data):
-    """Return the gaps between which the candidates, the best orbit and the edges lie."""
+    """Return the least and the largest of the candidates, the best orbit and the edges, mm."""
     names = ("candidate_gap", "best_orbit_gap", "cliff_gap", "cliff_beyond", "stability_gap")
     gaps = np.concatenate([np.ravel(data[name].values) for name in names])
     coarse = data["coarse_gap"].values
@@ -117,7 +118,7 @@ def stable_runs(data, parameter):
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:
-            # includes the first orbit of the next part, so that no gap is drawn between them
+            # includes the first orbit of the next part, so that the lines of both parts join
             part = slice(first, last + 1)
             yield value[part], size[part], bool(stable[first])
 

@@ -1,4 +1,4 @@
-"""This damper and tuned absorbers of the same mass, over frequency and over excitation."""
+"""The designed damper compared with tuned absorbers of the same mass."""
 
 import numpy as np
 from matplotlib.ticker import NullLocator
@@ -16,9 +16,10 @@ from impact_damper.figures.machines.looks import (
 from impact_damper.figures.style import figure, legend, style
 
 CAPTION = """
-Largest displacement of any motion found. Above: at the nominal excitation, against the forcing
-frequency. Below: the largest over the band, against the excitation; there this damper's motions are
-those of random starts only. Bands: the absorber's springs 10 % softer and stiffer than designed.
+Largest displacement of all motions found: with this damper, with tuned absorbers of the same mass,
+and with the machine alone. Above: against the forcing frequency at the nominal excitation. Below:
+largest value over the band against the excitation; for this damper only motions to which random
+starts lead. Shaded: springs of the absorber 10 % softer to 10 % stiffer than designed.
 """
 DETUNED = "detuned by 10 %"
 LOOKS = {"tuned": TUNED, "nonlinear": NONLINEAR, "best": OPTIMISED}

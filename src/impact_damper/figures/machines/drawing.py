@@ -19,11 +19,12 @@ from impact_damper.figures.schematic_parts import (
 from impact_damper.figures.style import BLACK, GREY, PALE_SKY, VERMILION, WHITE, style
 
 CAPTION = """
-The machine and its damper, to scale if both masses are cubes of steel (7850 kg/m³). The loose mass
-slides or rolls freely; its gap is drawn whole on one side, and is the full play from wall to wall.
+The machine and its damper, drawn to scale as cubes of steel (7850 kg/m³). The loose mass slides or
+rolls freely. It is drawn at one wall, so that the whole gap, the full play from wall to wall, lies
+on its other side.
 """
-# kg/m^3; inches: the wall, the machine's left side, width and height of the largest drawing of it,
-# and the rail.
+# Density in kg/m^3. In inches: the wall, the left side of the machine, its largest width and
+# height, and the rail.
 STEEL = 7850.0
 WALL, LEFT, WIDTH, HEIGHT, RAIL = 0.28, 0.95, 1.75, 1.75, 0.42
 SMALL = {"size": 8.0}

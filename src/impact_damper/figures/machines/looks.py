@@ -1,4 +1,4 @@
-"""Looks and helpers that the figures of a machine share: one look for each thing in all of them."""
+"""Looks of curves and helpers common to the figures of a machine."""
 
 import numpy as np
 
@@ -32,7 +32,7 @@ LIMIT = {
     "color": VERMILION,
     "linewidth": 0.9,
     "linestyle": (0, (1, 1.2)),
-    "label": "limit of a quiet motion",
+    "label": "quiet limit",
 }
 CHOSEN = {"color": VERMILION, "linewidth": 1.1, "label": "gap to build"}
 TOLERATED = {"facecolor": PALE_SKY, "linewidth": 0, "zorder": 0, "label": "its tolerance"}
@@ -61,7 +61,7 @@ def finite(values):
 
 
 def plot_sizes(axes, x, sizes, **look):
-    """Plot sizes of motions; one that escapes has no size and is marked at the upper edge."""
+    """Plot sizes of motions; mark a motion that escapes, which has no size, at the upper edge."""
     sizes = np.asarray(sizes, float)
     plot_if_any(axes, x, finite(sizes), **look)
     escaped = np.isposinf(sizes)
@@ -71,7 +71,7 @@ def plot_sizes(axes, x, sizes, **look):
 
 
 def limit_line(axes, data):
-    """Draw the largest displacement of a quiet motion as a horizontal line."""
+    """Draw the quiet limit, the largest displacement of a quiet motion, as a horizontal line."""
     axes.axhline(float(data["displacement_limit"]), **LIMIT)
 
 

@@ -7,10 +7,10 @@ from impact_damper.figures.machines.looks import STAR, decades, limit_line, plot
 from impact_damper.figures.style import BLACK, BLUE, figure, legend, style
 
 CAPTION = """
-Dampers of other masses for the same machine and band, each with its own gap by a reduced design.
-Above: largest displacement of any motion over the band and the tolerance of the gap. Below: largest
-contact force. Filled: no other mass betters displacement, force and mass together (the Pareto
-front). The numbers are the gaps in mm.
+Dampers of other masses for the same machine and band. A reduced design chose the gap of each
+(numbers, in mm). Above: largest displacement of any motion over the band and over the tolerance of
+the gap. Below: largest contact force. Filled: on the Pareto front; none of these dampers is better
+in displacement, force and mass at once.
 """
 FRONT = {"color": BLUE, "marker": "o", "markersize": 5, "linestyle": "none"}
 FRONT |= {"label": "on the Pareto front"}

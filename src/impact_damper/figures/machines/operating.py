@@ -1,4 +1,7 @@
-"""Maps of quiet share and displacement: over frequency and force, and over gap and restitution."""
+"""Maps of the share of quiet starts and of displacement, over two pairs of parameters.
+
+The pairs are frequency and force, and gap and restitution.
+"""
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
@@ -10,13 +13,14 @@ from impact_damper.figures.machines.looks import STAR, finite, name_numbers
 from impact_damper.figures.style import BLACK, GREY, PALE, WHITE, figure, legend, style
 
 CAPTION = """
-Above: share of random starts that end quiet. Below: largest displacement of any of their motions;
-hatched where one escapes. Light is good. There are 12 starts in a cell, too few for a claim: the
-maps show where the damper works, and the shares that count are those over the gap. Lines: edges on
-which the exact quiet orbit ceases to be stable, by a fold, by losing its symmetry, or by turning to
-a torus.
+Above: share of random starts that lead to quiet motions. Below: largest displacement of any motion;
+hatched: a motion escapes. Light is good. A cell has only 12 starts: the maps show where the damper
+works, and prove no share. Lines: the exact quiet orbit ceases to be stable, by a fold, a loss of
+symmetry or a Neimark-Sacker point.
 """
-FORCES = CAPTION + "Dashed: the nominal excitation, with which the limit of a quiet motion grows."
+FORCES = (
+    CAPTION + "Dashed: the nominal excitation. The quiet limit is proportional to the excitation."
+)
 DAMPERS = CAPTION + "Star: the gap and the restitution of the design."
 NOMINAL = STAR | {"markeredgecolor": WHITE, "markersize": 9}
 LINE = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (6, 4)), "label": "nominal excitation"}
@@ -48,7 +52,7 @@ def draw_forces(data):
 
 @style()
 def draw_dampers(data):
-    """Return the maps over gap and restitution, at the frequency of the cliff."""
+    """Return the maps over gap and restitution, at the frequency at which quiet gaps end first."""
     gap, restitution = data["map_gap"].values, data["map_restitution"].values
     ends = np.exp(_edges(np.log(gap))), _edges(restitution)
     drawn, panels = _maps(*ends, data["damper_map_share"].T, data["damper_map_displacement"].T)

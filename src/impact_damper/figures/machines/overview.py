@@ -1,4 +1,4 @@
-"""All machines: displacement against frequency, and quiet share and displacement over the gap."""
+"""All machines: displacement against frequency, and displacement and share over the gap."""
 
 import json
 from string import ascii_lowercase
@@ -8,10 +8,10 @@ from impact_damper.figures.machines.response import response_panel
 from impact_damper.figures.style import figure, legend, style
 
 CAPTION = """
-One row for each machine. Left: largest displacement against forcing frequency, without the damper
-and with the one designed. Middle: largest displacement over the band against the gap. Right: least
-share of random starts that end quiet at a frequency of the band. Shaded: tolerance of the gap.
-Star: smallest stable quiet orbit.
+Left: largest displacement against forcing frequency, without the damper and with the damper
+designed. Middle: largest displacement over the band against the gap. Right: share of random starts
+that lead to quiet motions, at the worst frequency of the band. Shaded: tolerance of the gap. Star:
+smallest stable quiet orbit.
 """
 
 

@@ -15,10 +15,10 @@ from impact_damper.figures.machines.looks import (
 from impact_damper.figures.style import BLUE, GREY, ROLES, figure, legend, style
 
 CAPTION = """
-Largest displacement of the machine at each forcing frequency. Without the damper: exact periodic
-orbits, stable (full) and unstable (dashed). With the damper: motions that random starts reach
-(circles if periodic, dots if not), exact orbits through them, and the largest motion that any start
-reaches, with the 95th percentile of its peaks where the peaks differ.
+Largest displacement of the machine against forcing frequency. Without the damper: exact periodic
+orbits, stable (full) and unstable (dashed). With the damper: motions to which random starts lead
+(circles if periodic, dots if not), exact orbits through these motions, and the largest motion to
+which any start leads. Where the peaks of this motion differ, 95 % of them lie below the thin line.
 """
 BARE_STABLE = BARE | {"label": "without damper, stable"}
 BARE_UNSTABLE = BARE | {

@@ -1,18 +1,18 @@
-"""Tolerance cloud: worst displacement against quiet share, of samples and of unseen corners."""
+"""Worst displacement against the share of quiet starts, for values off within their tolerances."""
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines.looks import STAR, decades, limit_line, plot_sizes
 from impact_damper.figures.style import BLUE, GREY, ORANGE, figure, legend, style
 
 CAPTION = """
-Each point is one damper and machine with all values off within their tolerances: samples spread
-over the tolerances; corners, where every value is off by its whole tolerance; and the corners again
-with starts that the design had not seen. Horizontal: share of the starts over the band that end
-quiet, with its 95 % interval. Vertical: the largest displacement of any of them.
+Each point is one damper and machine with all values changed within their tolerances: samples spread
+over the tolerances; corners, at which each value is at one end of its tolerance; and corners with
+new starts, which the design did not use. Horizontal: share of starts over the band that lead to
+quiet motions, with its 95 % interval. Vertical: largest displacement of any of these motions.
 """
 SAMPLES = {"color": BLUE, "marker": "o", "markersize": 3.2, "label": "sample of the tolerances"}
-CORNERS = {"color": ORANGE, "marker": "s", "markersize": 3.2, "label": "corner, unseen starts"}
-NOMINAL = STAR | {"label": "nominal, unseen starts"}
+CORNERS = {"color": ORANGE, "marker": "s", "markersize": 3.2, "label": "corner, new starts"}
+NOMINAL = STAR | {"label": "nominal, new starts"}
 ASKED = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (1, 1.2)), "label": "share asked for"}
 BARS = {"linestyle": "none", "elinewidth": 0.6, "markerfacecolor": "none"}
 

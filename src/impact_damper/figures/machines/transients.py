@@ -1,15 +1,15 @@
-"""Transients without and with the damper: swept sine up and down, and ring-down."""
+"""Transients without and with the damper: swept sine up and down, and unforced decay."""
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines.looks import BARE, DAMPED, decades, limit_line
 from impact_damper.figures.style import PALE, figure, legend, style
 
 CAPTION = """
-Largest displacement in each period. Above and middle: the forcing frequency is swept up and down
-through the band and the resonance, at a constant rate, from rest and with the loose mass in the
-middle of its gap; shaded outside the band. Below: ring-down without excitation, from a displacement
-of the machine at rest. The damper does nothing while the machine moves less than half the gap and
-the loose mass has not been touched.
+Largest displacement in each cycle. Above and middle: the forcing frequency is swept up and down at
+a constant rate through the band and the resonance, from rest, with the loose mass in the middle of
+its gap. Shaded: outside the band. Below: unforced decay from a displacement of the machine at rest.
+The damper has no effect while the machine moves less than half the gap and no wall has touched the
+loose mass.
 """
 LOOKS = {"bare": BARE, "damped": DAMPED}
 
@@ -32,7 +32,7 @@ def draw_transients(data):
     for equipment, look in LOOKS.items():
         rung = data.sel(equipment=equipment)
         panels[2].plot(rung["ring_time"], rung["ring_envelope"], **look)
-    panels[2].set(xlabel="Time of the ring-down (s)")
+    panels[2].set(xlabel="Time of the unforced decay (s)")
     panels[2].set_ylim(bottom=0.5 * float(data["ring_envelope"].sel(equipment="bare").min()))
     for axes in panels:
         axes.set_ylabel("Displacement (mm)")
