@@ -80,7 +80,7 @@ def filled(lanes, p, state, phase):
         a[module.SINE // lanes, i] = size * math.sin(ANGLE)
     flat = a.ravel()
     if lanes == 1:
-        pointed(module.kept_series)(flat)
+        pointed(module.constant_series)(flat)
     pointed(getattr(module, f"{phase}_series"))(flat)
     return module, flat
 
@@ -262,11 +262,11 @@ def test_recurrence_without_rounding(phase, order):
             assert of[k + 2] == (g - force) / ((k + 1) * (k + 2))
 
 
-def test_kept_series(p):
+def test_constant_series(p):
     module = instance(1)
     a = np.zeros(module.SIZE)
     a[: packed.COUNT] = p
-    pointed(module.kept_series)(a)
+    pointed(module.constant_series)(a)
     k = np.arange(max(ORDERS.values()) - 1)
     signs = np.array([1, -1, -1, 1])[k % 4]
     factorials = np.array([math.factorial(i) for i in k], float)

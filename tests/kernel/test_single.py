@@ -125,7 +125,7 @@ def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
         "INVERSE_MASS_RATIO": inverse_mass,
     }
     numbers["NATURAL"] = math.sqrt(stiffness * (1 + inverse_mass))
-    searched = ["contact_bound", "find_release"]
+    searched = ["contact_bound", "find_separation"]
     t, met, _ = found(lanes, searched, series_given, length, SIDE=side, **numbers)
     return t, met
 

@@ -1,13 +1,15 @@
-"""Kernels, compiled with numba: the equation of motion, steps, the search for contacts.
+"""Kernels, compiled with numba: the equation of motion, integration steps, the search for contacts.
 
-The digest of their sources stands here because each dry run needs it and must not import numba.
+The compiled kernels are cached under a digest of their sources. `source_digest` stands in this
+module because each dry run of Snakemake needs the digest and must not import numba.
 """
 
 import hashlib
 from importlib.metadata import version
 from pathlib import Path
 
-# These rooms hold no kernels, and no file with kernels may import them.
+# Rooms (subpackages) without kernels. No file with kernels may import them, so an edit in one of
+# these rooms does not change the digest.
 ROOMS_WITHOUT_KERNELS = (
     "data",
     "machine",

@@ -1,8 +1,9 @@
-"""The event-driven flow of many trajectories, LANES of which are stepped side by side.
+"""Integration of many trajectories, LANES of which are stepped side by side in vector registers.
 
-All trajectories of a step must be in the same phase, in flight or in contact. So a pool holds more
-trajectories than there are lanes, with a queue for each kind of step, and each step takes those of
-the longest queue. The result for a trajectory does not depend on the others.
+All trajectories of one step must be in the same phase, in flight or in contact. Therefore a pool
+holds more trajectories than there are lanes and has a queue for each kind of step. Each step takes
+its trajectories from the longest queue. The result for a trajectory does not depend on the other
+trajectories.
 """
 
 from typing import NamedTuple
@@ -16,14 +17,15 @@ from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.system import packed
 
 LANES = 16
-# Trajectories in a pool: enough for the longest queue to fill all lanes nearly always.
+# Trajectories in a pool. With this number the longest queue nearly always fills all lanes.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = instances.instance(LANES)
 flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_MANY)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices of the numbers of a trajectory in a pool, which stand in the order of the rows of a step.
+# Indices of the numbers of a trajectory in `Pool.numbers`. The numbers have the same order as the
+# rows of a step (`series.rows`).
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -31,26 +33,27 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 
 
 class Pool(NamedTuple):
-    """Trajectories that are being integrated, each to its own end.
+    """Trajectories that are being integrated, each to its own end time.
 
     Attributes
     ----------
     numbers : array, shape (m, LENGTH)
-        Parameters, state, side, time, longest step and tolerance.
+        Parameters, state, side, time, longest step and tolerance of each trajectory.
     ends : array, shape (m,)
-        Times to stop at.
+        Times at which the trajectories stop.
     farthest : array, shape (m,)
-        |Z1| from which they escape (`equation.no_return`).
+        |Z1| beyond which a trajectory escapes (`equation.no_return`).
     tangents : array, shape (m, 4)
+        Solution of the variational equations along each trajectory.
     queues : array of int, shape (4, m)
-        Indices of the trajectories that wait for a step of each kind: in flight, in contact, and
-        both with a tangent.
+        Indices of the trajectories that wait for a step of each kind: in flight, in contact, in
+        flight with a tangent, in contact with a tangent.
     waiting : array of int, shape (4,)
         Lengths of the queues.
     contacts : array of int, shape (m,)
-        Contacts begun since the trajectory was last sent.
+        Number of contacts begun since the last call of `send` for the trajectory.
     held : array of int, shape (LANES,)
-        Index of the trajectory whose parameters stand in each lane, or -1.
+        Index of the trajectory whose parameters are in each lane, or -1.
     a, d : array
         Rows of the step and of its tangents (`series.rows`).
     """
@@ -69,7 +72,7 @@ class Pool(NamedTuple):
 
 @kernel
 def make_pool(size):
-    """Return an empty pool."""
+    """Return a pool with room for `size` trajectories."""
     return Pool(
         np.zeros((size, LENGTH)),
         np.zeros(size),
@@ -86,7 +89,7 @@ def make_pool(size):
 
 @kernel
 def enter(pool, m, p, y, side, tolerance):
-    """Write a trajectory into a pool, at index m. It is integrated once `send` is called."""
+    """Write a trajectory into a pool at index m. Its integration begins after a call of `send`."""
     numbers = pool.numbers[m]
     for i in range(packed.COUNT):
         numbers[i] = p[i]
@@ -102,7 +105,7 @@ def enter(pool, m, p, y, side, tolerance):
 
 @kernel
 def send(pool, m, t, end, with_tangent):
-    """Let a trajectory be integrated from t to its next end."""
+    """Put trajectory m into the queue for integration from time t to time `end`."""
     pool.numbers[m, TIME] = t
     pool.ends[m] = end
     pool.contacts[m] = 0
@@ -119,7 +122,10 @@ def enqueue(queues, waiting, m, kind):
 
 @kernel
 def choose(pool, chosen):
-    """Take up to LANES trajectories from the longest queue. Return their number and their kind."""
+    """Take up to LANES trajectories from the longest queue; return their number and that queue.
+
+    If there are fewer than LANES, the last one is written to all remaining entries of `chosen`.
+    """
     waiting = pool.waiting
     kind = FLIGHT
     for other in range(1, 4):
@@ -134,9 +140,9 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy the chosen trajectories into the lanes, their parameters only if these change.
+    """Copy the chosen trajectories into the lanes.
 
-    If there are fewer than LANES, `choose` has put one of them into several lanes.
+    Parameters are copied only into lanes that hold those of another trajectory.
     """
     for lane in range(LANES):
         m = chosen[lane]
@@ -155,10 +161,10 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy the trajectories back, and append those that are not at their ends to the queues.
+    """Copy the trajectories back into the pool and queue those that have not reached their ends.
 
-    A trajectory that has escaped (`equation.no_return`) counts as at its end, with the state at
-    the escape. Return how many are at their ends; `arrived` gets their indices.
+    Return the number of trajectories at their ends; `arrived` receives their indices. A trajectory
+    that has escaped (`equation.no_return`) counts as at its end and keeps the state at the escape.
     """
     ended = 0
     for lane in range(count):
@@ -188,14 +194,15 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel
 def advance_some(pool, chosen, arrived):
-    """Step trajectories of the pool until some are at their ends.
+    """Step trajectories of the pool until at least one of them is at its end.
 
     Parameters
     ----------
     pool : Pool
         Must not be empty.
     chosen, arrived : array of int, shape (LANES,)
-        `chosen` is scratch; `arrived` gets the indices of the trajectories at their ends.
+        `chosen` is working memory; `arrived` receives the indices of the trajectories at their
+        ends.
 
     Returns
     -------
@@ -221,22 +228,22 @@ def advance_some(pool, chosen, arrived):
 
 @kernel
 def advance(parameters, states, sides, starts, ends, tolerance, contacts):
-    """Integrate trajectories, each from its start to its end.
+    """Integrate trajectories, each from its start time to its end time.
 
     Parameters
     ----------
     parameters : array, shape (m, packed.COUNT)
         Packed parameters (`packed.pack`).
     states : array, shape (m, 4)
-        Z1, Z1', Z2, Z2'; replaced.
+        Z1, Z1', Z2, Z2' at the start times, replaced by the states at the end times.
     sides : array of int, shape (m,)
-        Walls in contact, -1 or 1, or 0 in flight; replaced.
+        Wall in contact, -1 or 1, or 0 in flight; also replaced.
     starts, ends : array, shape (m,)
-        Times, ends not before starts.
+        Times; no end may be before its start.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     contacts : array of int, shape (m,)
-        Gets the numbers of contacts begun.
+        Receives the numbers of contacts begun.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

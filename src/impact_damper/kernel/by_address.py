@@ -1,7 +1,7 @@
-"""Kernels that others call by address, so that each is compiled once.
+"""Kernels that other kernels call through their address, so that each is compiled only once.
 
-LLVM compiles a called kernel again as part of each caller. A dozen kernels call the steps, each
-of which takes most of a second to compile.
+Otherwise LLVM compiles a called kernel again as a part of each caller. A dozen kernels call the
+integration steps, and one step takes most of a second to compile.
 """
 
 import inspect
@@ -17,7 +17,7 @@ from impact_damper.kernel.compiling import SETTINGS, own_cache
 
 
 def signature_of(function):
-    """Signature of a kernel that takes pointers to float64 and returns nothing."""
+    """Return the signature of a kernel that takes pointers to float64 and returns nothing."""
     count = len(inspect.signature(function.py_func).parameters)
     return types.void(*[types.CPointer(types.float64)] * count)
 
@@ -33,27 +33,28 @@ def compiled(function):
     Returns
     -------
     numba.core.ccallback.CFunc
-        Its `address` is for `call_at`.
+        The compiled kernel. `call_at` takes its `address`.
     """
     with own_cache():
         return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
 
 
 def by_address(function):
-    """Compile a kernel, and return the function by which other kernels call its address.
+    """Return a stand-in for a kernel; calls of the stand-in jump to the kernel's address.
 
     A cached caller refers to the kernel by name, and this name must be bound to an address before
-    the caller is loaded from the cache. Therefore call this function at the import of a module that
-    the modules of all callers import.
+    the caller is loaded from the cache. Therefore `by_address` is called when a module is imported
+    that the modules of all callers import.
 
     Parameters
     ----------
     function : numba.core.dispatcher.Dispatcher
-        As of `compiled`.
+        A kernel that takes pointers to float64 and returns nothing.
 
     Returns
     -------
     numba.types.ExternalFunction
+        Callable in kernels.
     """
     name = f"{function.__module__}.{function.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
@@ -62,7 +63,7 @@ def by_address(function):
 
 @intrinsic
 def call_at(typing, address, numbers):
-    """Call the kernel at an address with a pointer to numbers."""
+    """Call the kernel at `address`, an integer, with `numbers`, a pointer to float64."""
 
     def generate(context, builder, signature, arguments):
         address, numbers = arguments

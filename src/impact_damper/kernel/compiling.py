@@ -4,8 +4,9 @@
     kernel_only  not callable from Python; cached only as part of the kernels that call it
     inlined      compiled as part of its callers and not by itself
 
-numba notices an edit of the file in which a cached function stands, and not an edit of what the
-function calls. So the cache is a folder named by the digest of all modules a kernel can depend on.
+numba compiles a cached function again after an edit of the file that defines it, but not after an
+edit of a function that it calls. Therefore the cache is a folder whose name is the digest of all
+modules that a kernel can depend on.
 """
 
 import os
@@ -37,10 +38,10 @@ CACHE_DIRECTORY = _cache_directory()
 
 @contextmanager
 def own_cache():
-    """Within this context numba keeps decorated functions in CACHE_DIRECTORY.
+    """Let numba cache the functions that are decorated within this context in CACHE_DIRECTORY.
 
-    numba chooses the folder of a function when it is decorated. Afterwards the setting is what
-    the user made it.
+    numba chooses the folder of a function when the function is decorated. At its end the context
+    restores the user's setting of the folder.
     """
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(CACHE_DIRECTORY)
@@ -50,9 +51,9 @@ def own_cache():
         numba.config.CACHE_DIR = before
 
 
-# "contract" allows fused multiply-add and nothing else: reordering sums would
-# cost both digits and speed. Kernels release the interpreter lock, so threads
-# spread them over cores without a parallel compilation of their own.
+# "contract" allows fused multiply-add and no other change of the arithmetic: reordered sums would
+# be both less accurate and slower. With "nogil" kernels release Python's global interpreter lock,
+# so they run in parallel in Python threads and need no parallel compilation by numba.
 CONTRACT = ("contract",)
 SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_model": "numpy"}
 
@@ -60,7 +61,7 @@ SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_mode
 def kernel(function, **options):
     """Decorate a kernel.
 
-    numba compiles no wrapper for calls from C, which would take a tenth of the time.
+    numba then compiles no wrapper for calls from C, which saves a tenth of the compile time.
     """
     with own_cache():
         return numba.njit(no_cfunc_wrapper=True, **SETTINGS | options)(function)

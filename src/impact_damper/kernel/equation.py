@@ -2,9 +2,9 @@
 
     Z1'' = (F + U W^2 + V/W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with four more parameters of `parameters.Oscillator`: k3, F, U and
-V. Kernels that evaluate the equation call these functions. `recurrence` has its Taylor series,
-where the cube is a product of series.
+This is equation (3) of the paper with four more parameters k3, F, U and V, which are fields of
+`parameters.Oscillator`. Kernels that evaluate the equation call the functions of this module. The
+module `recurrence` has the Taylor series of the equation.
 """
 
 import math
@@ -27,15 +27,15 @@ from impact_damper.system.packed import (
 
 @kernel_only
 def forcing_amplitude(p, lane=0, lanes=1):
-    """Return the amplitude F + U W^2 + V/W^2 of the forcing, over the primary mass.
+    """Return the amplitude F + U W^2 + V/W^2 of the forcing per unit of primary mass.
 
     Parameters
     ----------
     p : array or pointer
-        Packed parameters; of several trajectories side by side, one row of `lanes` numbers for
-        each parameter.
+        Packed parameters. For several trajectories side by side there is one row of `lanes` numbers
+        for each parameter.
     lane, lanes : int
-        Which trajectory, and how many stand side by side.
+        Index of the trajectory, and number of trajectories side by side.
     """
     frequency = p[FREQUENCY * lanes + lane]
     without = p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -44,42 +44,43 @@ def forcing_amplitude(p, lane=0, lanes=1):
 
 @partial(kernel_only, fastmath=False)
 def external_force(p, t):
-    """Return the forcing at a time, over the primary mass.
+    """Return the forcing at a time per unit of primary mass.
 
-    The product is rounded before it enters a sum, so that an amplitude of 1 changes no digit.
+    Without fast math the product is rounded before a caller adds it, so that a multiplication by
+    the amplitude 1 changes no digit.
     """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
 
 @kernel_only
 def spring(p, x, lane=0, lanes=1):
-    """Return the restoring force of the spring at Z1 = x, over the primary mass.
+    """Return the restoring force of the spring at Z1 = x per unit of primary mass.
 
-    Parameters `p`, `lane` and `lanes` as of `forcing_amplitude`.
+    The parameters `p`, `lane` and `lanes` are those of `forcing_amplitude`.
     """
     return (p[STIFFNESS * lanes + lane] + p[CUBIC * lanes + lane] * x * x) * x
 
 
 @kernel_only
 def spring_slope(p, x, lane=0, lanes=1):
-    """Return the derivative of `spring` with respect to x; parameters as of `spring`."""
+    """Return the derivative of `spring` with respect to x, from the same parameters."""
     return p[STIFFNESS * lanes + lane] + 3.0 * p[CUBIC * lanes + lane] * x * x
 
 
 @kernel
 def acceleration(p, y, t):
-    """Return the acceleration of Z1, and of Z2, at a state in flight."""
+    """Return Z1'', which in flight is also Z2'', at the state y = (Z1, Z1', Z2, Z2') and time t."""
     return external_force(p, t) - p[DAMPING] * y[1] - spring(p, y[0])
 
 
 @kernel
 def no_return(p):
-    """Return the |Z1| from which a primary mass that moves outward never comes back.
+    """Return the |Z1| beyond which a primary mass that moves outward never comes back.
 
-    A softening spring pushes outward beyond its barriers at |Z1| = b = omega_l / sqrt(-k3). Beyond
-    the larger of 2 b and (4 A / (-3 k3))^(1/3) it pushes harder than the forcing of amplitude A
-    can pull back: there -k3 |Z1|^3 - omega_l^2 |Z1| >= -3/4 k3 |Z1|^3 >= A. Contacts of the loose
-    mass are left out. Infinite for other springs.
+    A softening spring (k3 < 0) pushes outward where |Z1| exceeds b = omega_l / sqrt(-k3). Where
+    |Z1| exceeds the larger of 2 b and (4 A / (-3 k3))^(1/3), this push is at least as large as the
+    amplitude A of the forcing: -k3 |Z1|^3 - omega_l^2 |Z1| >= -3/4 k3 |Z1|^3 >= A. The contact
+    forces of the loose mass are neglected. For k3 >= 0 the function returns infinity.
     """
     if p[CUBIC] >= 0.0:
         return math.inf
@@ -89,18 +90,18 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether Z1 = x is beyond the point of `no_return`, and moves outward at Z1' = v.
+    """Return whether |x| exceeds `no_return` and a mass with Z1 = x and Z1' = v moves outward.
 
-    With a softening spring also for numbers that are not finite.
+    With a softening spring the function also returns True if x or v is not finite.
     """
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
 @kernel_only
 def energy(p, y):
-    """Return the energy of both masses and all springs, over the primary mass.
+    """Return the energy of both masses and all springs per unit of primary mass.
 
-    Z1' - Z2' is the velocity of the loose mass. Without forcing, energy is only lost.
+    Z1' - Z2' is the velocity of the loose mass. Without forcing the energy never grows.
     """
     x, v = y[0], y[1]
     total = 0.5 * v * v + (0.5 * p[STIFFNESS] + 0.25 * p[CUBIC] * x * x) * x * x

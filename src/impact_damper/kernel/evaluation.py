@@ -1,20 +1,23 @@
-"""Writes the source of kernels that evaluate and bound the series of a step."""
+"""Generate the source of kernels that evaluate the Taylor series of a step, and bounds on them."""
 
 import math
 
 from impact_damper.kernel.series import Writer
 from impact_damper.kernel.straight_lines import straight
 
-# Coefficients of cos and sin in powers of the squared angle, without the first terms 1 and angle.
+# Coefficients of (cos x - 1)/x^2 and (sin x - x)/x^3 in powers of x^2.
 COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
 SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 class Source(Writer):
-    """Writes the kernels that the templates call: series, their sums, bounds on their values."""
+    """Writes the kernels that the templates call: series, their sums, bounds on their values.
+
+    The names in capitals are names of rows (see `series.rows`).
+    """
 
     def text(self):
-        """Return the source of the module of these kernels."""
+        """Return the source of all kernels, with their imports."""
         slope = {"Z1": "X", "Z1_SLOPE": "X'"}
         curve = {"Z1_CURVE": "G"}
         jerk = curve | {"Z1_JERK": "G'"}
@@ -23,7 +26,7 @@ class Source(Writer):
         early = max(4, self.orders["flight"] // 2)
         changed = [f"{self.at('CHANGE')} = t * {self.at('CHANGE')}"]
         functions = [
-            *([self.kept_series()] if self.lanes == 1 else []),
+            *([self.constant_series()] if self.lanes == 1 else []),
             self.circular(),
             *(self.series(phase) for phase in self.orders),
             *(self.squares(phase) for phase in self.orders),
@@ -33,10 +36,11 @@ class Source(Writer):
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
-            # Upper bounds on |g|, which in flight is |Z1''|.
+            # Upper bounds on |g|. In flight g is Z1''.
             self.sums("flight_bound", "flight", "LENGTH", bound),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # An upper bound on the change of Z1': its terms after the first, without their signs.
+            # An upper bound on the change of Z1': the sum of the moduli of its terms after the
+            # first.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         imports = [
@@ -57,15 +61,15 @@ class Source(Writer):
         time : str
             Row of the time.
         results : dict of str
-            The series by the row of its result: "X" for a sum, "X'" for its derivative, "|X|" for
-            the sum of the moduli of its terms.
+            Maps the row of each result to its series: "X" for the sum of the series X, "X'" for the
+            derivative of the sum, "|X|" for the sum of the moduli of the terms.
         then : iterable of str
-            Lines to be executed after the sums.
+            Lines that the kernel executes after the sums.
         begin, terms : int
             First order of a sum, and the largest number of its terms.
 
-        Each sum is divided into four parts, of every fourth term, which do not wait for each other.
-        With one lane, the four parts stand in one register.
+        Each sum is split into four partial sums, each of every fourth term, which the processor can
+        compute at the same time. With one lane, the four partial sums stand in one vector register.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -83,7 +87,7 @@ class Source(Writer):
         return self.function(name, [*lines, *then], first=first)
 
     def _parts(self, series, orders, parts):
-        """Yield lines that compute the four parts of a sum in one register."""
+        """Yield lines that compute the four partial sums of a series in one vector register."""
         for k in orders[::4]:
             four = self._coefficient(series, *range(k, k + 4))
             power = k - orders[0]
@@ -91,9 +95,10 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """Return a kernel that sums the series of cosine and sine of ANGLE (COSINES, SINES).
+        """Return a kernel that sums the series COSINES and SINES at ANGLE.
 
-        The results are stored in COSINE and SINE. With one lane both sums stand in one register.
+        The results are stored in COSINE and SINE. With one lane both sums stand in one vector
+        register.
         """
         cosine, sine = self.at("COSINE"), self.at("SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
@@ -105,7 +110,7 @@ class Source(Writer):
         return self.function("circular_series", lines)
 
     def _coefficient(self, series, *orders):
-        """Return the expression for a coefficient of a series, or for four in one register."""
+        """Return the expression for one coefficient of a series, or for a vector of four."""
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
             number = _widened(number)
@@ -114,23 +119,24 @@ class Source(Writer):
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
-        """Yield lines that subtract the force of the wall from g, and its rate from the slope of g.
+        """Yield lines for the second and third derivatives of Z1 and of the penetration.
 
-        The results are curve and jerk, the second and third derivative, of Z1 and the penetration.
+        Before these lines Z1_CURVE and Z1_JERK hold g and g'. The lines subtract the force of the
+        wall and the rate of this force. "Curve" is a second derivative, "jerk" a third.
         """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
-        for force, depth_row, rate, given in (
+        for force, depth_row, rate, derivative in (
             ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),
             ("rise", "DEPTH_SLOPE", "DEPTH_CURVE", "JERK"),
         ):
             stiff, lossy = self.at("CONTACT_STIFFNESS"), self.at("DASHPOT")
-            z1, depth = self.at(f"Z1_{given}"), self.at(f"DEPTH_{given}")
+            z1, depth = self.at(f"Z1_{derivative}"), self.at(f"DEPTH_{derivative}")
             yield f"{force} = {stiff} * {self.at(depth_row)} + {lossy} * {self.at(rate)}"
             yield f"{depth} = {z1} - {mobility} * {force}"
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL the largest of the last two terms of the speeds at t."""
+        """Yield lines that store in TAIL the largest of the last two terms of the velocities."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -142,7 +148,7 @@ class Source(Writer):
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
 
     def tangent_value(self, phase):
-        """Return a kernel that evaluates a tangent at T."""
+        """Return a kernel that evaluates a tangent, a variation of the trajectory, at T."""
         lines = [*self._time("T", phase)]
         for number, name in enumerate(self.moving(phase)):
             terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
@@ -162,7 +168,7 @@ class Source(Writer):
 
 
 def _widened(number):
-    """Return the expression for a number and those that follow it, as one vector."""
+    """Return the expression for the vector that begins with a number of the array."""
     return number.replace("]", " + i]")
 
 
@@ -178,10 +184,10 @@ def _paired(c, result):
 
 
 def _sum(c, result, parts, done):
-    """Yield lines that sum a series at t in four parts, of every fourth term, and add the parts.
+    """Yield lines that sum a series at t in four partial sums, and then add the partial sums.
 
-    Terms are added in rising order, since the last coefficients of a step are known last. The
-    first `done` terms are in the four parts already.
+    Each partial sum has every fourth term, and `parts` already contain the first `done` terms.
+    Terms are added in rising order, because the last coefficients of a step are computed last.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

@@ -1,4 +1,7 @@
-"""The step compiled for a number of lanes and the orders of its series."""
+"""Modules with the integration step, for a given number of lanes and given orders of the series.
+
+A lane holds one of the trajectories that are stepped side by side.
+"""
 
 import importlib.util
 import inspect
@@ -9,17 +12,17 @@ from impact_damper.kernel.by_address import by_address
 from impact_damper.kernel.compiling import CACHE_DIRECTORY
 from impact_damper.kernel.evaluation import Source
 from impact_damper.kernel.series import SERIES, SINGLE
-from impact_damper.kernel.templates import contact, forcing, release, root_search, step
+from impact_damper.kernel.templates import contact, forcing, root_search, separation, step
 
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
 
 
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """Return the module of a step for a number of lanes and the orders of the series.
+    """Return the module with the step for a number of lanes and the orders of the series.
 
-    Its source is written to a file beside the compiled kernels, in the folder that is named by the
-    digest of all sources.
+    The source of the module is written to a file in the folder of the compiled kernels, whose name
+    is the digest of all sources.
     """
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
@@ -37,12 +40,13 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
 
 
 def bound_steps(module):
-    """Compile the steps of an instance for other kernels to call (see `by_address`).
+    """Compile the steps of a module made by `instance`, for calls by address (see `by_address`).
 
     Returns
     -------
     list of numba.types.ExternalFunction
-        A step in flight and one in contact, and the kernels that carry tangents through each.
+        The step in flight, the step in contact, and for each of them the kernel that integrates
+        tangents over the step.
     """
     steps = (
         module.flight_step,
@@ -66,5 +70,5 @@ def _source(writer):
     }
     constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
-    templates = forcing, root_search, contact, release, step
+    templates = forcing, root_search, contact, separation, step
     return "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])

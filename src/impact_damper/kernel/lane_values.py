@@ -1,4 +1,8 @@
-"""LLVM code of arithmetic on numbers, and on pairs of numbers, for lanes side by side."""
+"""Generate LLVM code for arithmetic on numbers and on pairs of numbers.
+
+The code works on several lanes at once; a lane holds one trajectory. Its caller is the compiler in
+`straight_lines`.
+"""
 
 from functools import partial
 
@@ -15,8 +19,8 @@ INDEX = ir.IntType(32)
 class Arithmetic:
     """Writes operations for `width` lanes, and returns their results as LLVM values.
 
-    With one lane a number is a double, and a pair a vector of two doubles. With more lanes a number
-    is a vector with a double for each lane, and a pair a tuple of two such vectors.
+    With one lane a number is a double, and a pair is a vector of two doubles. With more lanes a
+    number is a vector with one double per lane, and a pair is a tuple of two such vectors.
 
     Parameters
     ----------
@@ -38,7 +42,7 @@ class Arithmetic:
         return ir.Constant(self.type, value if self.width == 1 else [value] * self.width)
 
     def in_all_lanes(self, value):
-        """Return the number that has the double `value` in all lanes."""
+        """Return the number whose value is the double `value` in all lanes."""
         return value if self.width == 1 else self._repeated(value, self.width)
 
     def pair(self, first, second):
@@ -69,7 +73,7 @@ class Arithmetic:
         return self.combined("fneg", value)
 
     def fused(self, first, second, third):
-        """Return first times second plus third, rounded once where the processor can."""
+        """Return first * second + third, rounded once if the processor has such an instruction."""
         return self._each(partial(self._intrinsic, "llvm.fmuladd"), first, second, third)
 
     def modulus(self, number):
@@ -77,7 +81,7 @@ class Arithmetic:
         return self._intrinsic("llvm.fabs", number)
 
     def larger(self, first, second):
-        """Return the first number if it is larger than the second, else the second."""
+        """Return the larger of two numbers; the second one if they cannot be compared (NaN)."""
         return self.builder.select(self.builder.fcmp_ordered(">", first, second), first, second)
 
     def _repeated(self, value, count):
@@ -100,7 +104,8 @@ class Arithmetic:
     def _each(self, operation, *values):
         """Return the result of an operation on numbers, or on both numbers of pairs.
 
-        A number beside a pair counts for both numbers of the pair.
+        If one value is a pair and another a number, the number is used with both numbers of the
+        pair.
         """
         if not any(map(self.is_pair, values)):
             return operation(*values)

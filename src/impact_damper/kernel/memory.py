@@ -1,4 +1,4 @@
-"""Memory that kernels share: arrays that begin at a cache line, and pointers to their numbers."""
+"""Arrays aligned to cache lines, and pointers to the elements of arrays, for use in kernels."""
 
 import numpy as np
 from numba import types
@@ -6,15 +6,15 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.compiling import kernel
 
-# Numbers of eight bytes in a cache line of the processor.
+# Number of float64 values in a cache line of the processor, which has 64 bytes.
 CACHE_LINE = 8
 
 
 @kernel
 def aligned(count):
-    """Return an array of zeros that begins at a cache line.
+    """Return an array of `count` zeros that begins at a cache line.
 
-    A vector that lies across two cache lines takes twice as long to load.
+    A vector that crosses the border of two cache lines takes twice as long to load.
     """
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
@@ -23,10 +23,11 @@ def aligned(count):
 
 @intrinsic
 def pointer(typing, array):
-    """Return a pointer to the numbers of an array, which the caller must keep alive.
+    """Return a pointer to the first element of an array. The caller must keep the array alive.
 
-    Each call that passes an array counts references to the array, twice and by locked
-    instructions, which takes longer than some kernels. Pointers are not counted.
+    When a kernel passes an array to another kernel, numba changes the array's reference count twice
+    with locked instructions, which take longer than some kernels do. Pointers have no reference
+    count.
     """
 
     def generate(context, builder, signature, arguments):

@@ -1,4 +1,4 @@
-"""One line on standard error when kernels take long to compile."""
+"""Print a line on standard error if the compilation of kernels takes long."""
 
 import gc
 import sys
@@ -11,10 +11,10 @@ MESSAGE = "impact_damper: compiling kernels; later sessions will load them from 
 
 
 class Progress(event.Listener):
-    """Adds up the time spent on compiling functions of this package, and writes MESSAGE once.
+    """Adds up the time spent on compiling functions of this package, and prints MESSAGE once.
 
-    Meanwhile the garbage collector pauses: compiling makes little garbage, and the search for it
-    takes a fifth of the time.
+    MESSAGE is printed when the sum exceeds PATIENCE. The garbage collector is switched off during
+    compilation, because it finds little garbage and would take a fifth of the time.
     """
 
     def __init__(self):
@@ -50,10 +50,10 @@ class Progress(event.Listener):
 
 
 def _is_own(compiled):
-    """Whether an event is about a function of this package or of a module written for it."""
+    """Return whether an event concerns a function of this package or of a module it generated."""
     return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
 
 
 def show_progress():
-    """Write MESSAGE from now on when compiling takes long."""
+    """Register a `Progress` with numba, so that slow compilations print MESSAGE."""
     event.register("numba:compile", Progress())

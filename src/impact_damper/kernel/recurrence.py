@@ -1,47 +1,51 @@
-"""The recurrence of the Taylor series, written out as lines of arithmetic.
+"""Generate the lines of source code that compute the Taylor series of a step by recurrence.
 
-Between events the motion is analytic, and each coefficient of its Taylor series follows from those
-before it. Let x be the series of Z1, q that of the signed penetration Z2 -+ d0 during contact,
-e = (F + U W^2 + V/W^2) cos(W T) the forcing, a = Z1'' and b = q''. Then by equations (3), (4) and
-(20) to (24)
+Between events the motion is analytic, and each coefficient of its Taylor series follows from the
+coefficients before it. Let x be the series of Z1, q the series of the signed penetration Z2 -+ d0
+during contact, e = (F + U W^2 + V/W^2) cos(W T) the series of the forcing, a = Z1'' and b = q''.
+Then by equations (3), (4) and (20) to (24)
 
     g[k] = e[k] - omega_l^2 x[k] - k3 (x^3)[k] - h/k a[k-1]
     f[k] = r1 q[k] + D/k b[k-1]
     a[k] = g[k] - f[k]                   x[k+2] = a[k] / ((k+1) (k+2))
     b[k] = g[k] - (1 + 1/rm) f[k]        q[k+2] = b[k] / ((k+1) (k+2))
 
-where for k = 0 the last terms are h x[1] and D q[1]. f is the force of the wall, and g the part of
-the acceleration that does not come from the wall. In flight there are no q and f, and Z2 differs
-from Z1 by an offset and a uniform drift. The variational equations are the same with e = 0 and
-3 k3 (x^2 dx)[k] in place of k3 (x^3)[k].
+with the dashpot coefficient D. For k = 0 the last terms are h x[1] and D q[1]. f is the force of
+the wall, and g the part of the acceleration that does not come from the wall. In flight q and f are
+absent, and Z2 - Z1 is a linear function of time. The variational equations are the same equations
+with e = 0 and with 3 k3 (x^2 dx)[k] in place of k3 (x^3)[k].
 
 The coefficients of x^3 are computed as follows. A product of three coefficients x[i] x[j] x[m] with
-i + j + m = k has at most one factor of an order above n = k // 2. With l the polynomial of the
-terms of x up to order n,
+i + j + m = k has at most one factor of an order above n = k // 2. Let l be the polynomial that has
+the terms of x up to order n. Then
 
     (x^3)[k] = (l^3)[k] + 3 sum over j > n of (x^2)[k-j] x[j].
 
-So each of the newest coefficients stands in one product only, and that product is computed last.
-The lines use these names:
+Each of the newest coefficients therefore occurs in one product only, and this product is computed
+last. The lines use these names:
 
-    s0, s1, ...   coefficients of k3 l^2; each new order n of l adds to those from n on
-    z0, z1, ...   three times these
+    s0, s1, ...   coefficients of k3 l^2; a new term x[n] of l changes s[n] to s[2n]
+    z0, z1, ...   3 s0, 3 s1, ...
     P0, P2, ...   pairs of neighbours (s0, s1), (s2, s3), ..., each in one register with one lane
-    Z0, Z2, ...   three times these pairs
+    Z0, Z2, ...   3 P0, 3 P2, ...
 """
 
 
-def motion(order, phase, kept):
+def motion(order, phase, constants):
     """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
 
-    Before them these names must have values: x0, x1 and s0 = k3 x0^2; in contact q0 and q1; the
-    factors `cosine` and `sine` of the phase, times the amplitude of the forcing; `cubic` = k3,
-    `double` = 2 k3, `stiffness` = omega_l^2 + s0, `linear` = omega_l^2 + 3 s0; and in contact `r1`
-    and `mobility` = 1 + 1/rm. The function `kept` of k returns the lines for coefficients that are
-    the same in all steps of a trajectory: h/k, D/k, and e[k] without its cosine or sine.
+    Before these lines the following names must have values:
+
+    - x0, x1 and s0 = k3 x0^2; in contact also q0 and q1;
+    - `cosine` and `sine`, those of the forcing's phase times the amplitude of the forcing;
+    - `cubic` = k3, `double` = 2 k3, `stiffness` = omega_l^2 + s0, `linear` = omega_l^2 + 3 s0;
+    - in contact `r1` and `mobility` = 1 + 1/rm.
+
+    The function `constants` of k returns the lines for the coefficients that are the same in all
+    steps of a trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
     """
     for k in range(order - 1):
-        yield from kept(k)
+        yield from constants(k)
         if k > 0 and k % 2 == 0:
             yield from _lower_squares(k // 2)
         drive = f"e{k} * {'sine' if k % 2 else 'cosine'}"
@@ -52,14 +56,15 @@ def motion(order, phase, kept):
         yield from _accelerations(k, phase)
 
 
-def tangent(order, phase, kept):
+def tangent(order, phase, constants):
     """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
 
-    Before them also u0, u1, ..., the coefficients of 3 k3 Z1^2 from `squares`, must have values.
+    The arguments are those of `motion`. Before these lines also the coefficients u0, u1, ... of
+    3 k3 Z1^2 from `squares` must have values.
     """
     for k in range(order - 1):
-        yield from kept(k)
-        # Terms are in the order in which their factors become known.
+        yield from constants(k)
+        # The terms stand in the order in which their factors become known.
         terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
         terms += [f"u{k} * x0"] if k > 0 else []
         yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"
@@ -67,9 +72,10 @@ def tangent(order, phase, kept):
 
 
 def squares(count):
-    """Yield the lines for the first `count` coefficients u of 3 k3 x^2; they need `cubic` = k3.
+    """Yield the lines for the first `count` coefficients u0, u1, ... of 3 k3 x^2.
 
-    The product of x[i] and x[j] is computed once for both orders of its factors.
+    Before these lines x0, x1, ... and `cubic` = k3 must have values. Each product x[i] x[j] with
+    i < j is computed once and counted twice.
     """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"
@@ -81,10 +87,10 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield the lines that add the coefficient x[n] to l, and its products to s[n] to s[2n].
+    """Yield the lines that change s[n] to s[2n] when the coefficient x[n] is added to l.
 
-    With y = 2 k3 x[n] these are y x[j] in s[n+j] for j < n, in pairs from an even order on, and
-    k3 x[n]^2 in s[2n].
+    With y = 2 k3 x[n] the product y x[j] is added to s[n+j] for each j < n, in pairs that begin at
+    an even order, and k3 x[n]^2 becomes s[2n].
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
@@ -98,7 +104,7 @@ def _lower_squares(n):
 def _without_damping(k, drive):
     """Yield the lines for c[k] = g[k] + h/k a[k-1], k > 1; `drive` is the expression for e[k].
 
-    The products with the newest coefficients are added last, since they are known last.
+    The products with the newest coefficients are added last, because these are known last.
     """
     n, odd = k // 2, k % 2
     last = k - n - 1
@@ -126,11 +132,11 @@ def _without_damping(k, drive):
 def _accelerations(k, phase):
     """Yield the lines for g[k] and x[k+2], and in contact q[k+2], from c[k]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
-    share = 1 / ((k + 1) * (k + 2))
+    factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"
     if phase == "contact":
         yield f"f{k} = r1 * q{k} + d{k} * {b}"
         yield f"b{k} = g{k} - mobility * f{k}"
-        yield f"q{k + 2} = {share!r} * b{k}"
+        yield f"q{k + 2} = {factor!r} * b{k}"
     yield f"a{k} = g{k} - f{k}" if phase == "contact" else f"a{k} = g{k}"
-    yield f"x{k + 2} = {share!r} * a{k}"
+    yield f"x{k + 2} = {factor!r} * a{k}"

@@ -1,10 +1,11 @@
-"""Writes the source of kernels that compute the Taylor series of a step.
+"""Generate the source of kernels that compute the Taylor series of a step.
 
-The kernels consist of the lines of `recurrence` in a loop over lanes, which are trajectories side
-by side, and are compiled by `straight`. With one lane the code works on single numbers and pairs of
-them, about three times as fast as loops over arrays. With several lanes it consists of vector
-instructions, three times as fast again. All numbers of a step stand in one flat array of rows, each
-with one number for every lane; `rows` gives the number of each row.
+A kernel is a loop over lanes around the lines that `recurrence` yields. Each lane holds one of the
+trajectories that are stepped side by side. The decorator `straight_lines.straight` compiles the
+kernels. With one lane the code works on single numbers and pairs of numbers, and is about three
+times as fast as loops over arrays. With several lanes the code consists of vector instructions and
+is three times as fast again. All numbers of a step stand in one flat array. It consists of rows
+with one number for each lane; the function `rows` returns the number of each row.
 """
 
 from itertools import chain
@@ -14,14 +15,16 @@ from impact_damper.system import packed
 
 # Rows of a step, in this order:
 # packed.NAMES    the packed parameters
-# STATE           the state Z1, Z1', Z2, Z2' at the beginning, and afterwards at the end
-# STEP            what else the step is given (LENGTH is its result)
+# STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
+# STEP            further arguments of the step, and its result LENGTH
 # SCRATCH         intermediate results
 # SERIES          coefficients of Z1 (X), of the penetration (Q), of the acceleration that does not
-#                 come from a wall (G), of 3 k3 Z1^2 for tangents (U); then the series that are the
-#                 same in all steps of a trajectory: of cos W t, whose terms still lack the cosine
-#                 or sine of the phase (E), and h and D over the orders (H, D)
-# The array of a tangent has its STATE, then TANGENT_SERIES: the coefficients of its Z1 and Z2.
+#                 come from a wall (G), of 3 k3 Z1^2 for tangents (U); then the coefficients that
+# are
+#                 the same in all steps of a trajectory: those of the forcing without its factor
+#                 cosine or sine (E), h/k (H) and D/k (D), with the dashpot coefficient D
+# The array of a tangent has the tangent's STATE, and then the TANGENT_SERIES with the coefficients
+# of its Z1 (DX) and of its penetration (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
@@ -37,10 +40,10 @@ SUMS = 6
 
 
 def rows(flight_order, contact_order):
-    """Return the number of each row by its name, for series of these orders.
+    """Return a dictionary from the name of each row to its number, for series of these orders.
 
-    Beside the rows above, `PARTS` is the first row for partial sums, and `ROWS` and `TANGENT_ROWS`
-    are the numbers of rows of the two arrays.
+    The dictionary has three further entries. PARTS is the number of the first row for partial sums.
+    ROWS and TANGENT_ROWS are the numbers of rows of the two arrays.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -57,8 +60,8 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane, up to four tangents of the trajectory stand side by side and share its series.
-    With several lanes each trajectory has one tangent.
+    With one lane, the trajectory can have up to four tangents (solutions of the variational
+    equations), which stand side by side. With several lanes each trajectory has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -68,18 +71,22 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return the expression for a number of the trajectory: a row, or the k-th after it."""
+        """Return the expression for the number of a trajectory in the k-th row after `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the expression for a number of a tangent; rows 0 to 3 are the tangent itself."""
+        """Return the expression for the number of a tangent in the k-th row after `row`.
+
+        The row "" is the first one; rows 0 to 3 hold the tangent itself.
+        """
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
         """Return the source of a kernel that executes `lines` for each lane.
 
-        Before these it executes the lines `first`, if any, for `side_by_side` elements of vectors.
+        The kernel executes the lines `first` before `lines`, for `side_by_side` elements of
+        vectors.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -92,35 +99,35 @@ class Writer:
         return f"{text}@kernel_only\ndef {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return the names of the unknown series: Z1, and in contact also the penetration."""
+        """Return the names of the unknown series: X for Z1 and, in contact, Q for penetration."""
         return "XQ" if phase == "contact" else "X"
 
-    def kept_series(self):
+    def constant_series(self):
         """Return a kernel that fills the series which are the same in all steps of a trajectory."""
-        made = (self._made(k, "EHD") for k in range(max(self.orders.values()) - 1))
-        return self.function("kept_series", self._stored(chain.from_iterable(made), "EHD"))
+        lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
+        return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
-    def _made(self, k, names):
-        """Yield lines that compute coefficient k of the kept series with these names."""
-        share = f"{1 / k!r} * " if k > 1 else ""
+    def _computed(self, k, names):
+        """Yield lines that compute coefficient k of the constant series with these names."""
+        factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
             yield from beginning[k]
         elif "E" in names:
             yield f"e{k} = {-1.0 / (k * (k - 1))!r} * ww * e{k - 2}"
-        yield f"h{k} = {share}{self.at('DAMPING')}"
+        yield f"h{k} = {factor}{self.at('DAMPING')}"
         if "D" in names:
-            yield f"d{k} = {share}{self.at('DASHPOT')}"
+            yield f"d{k} = {factor}{self.at('DASHPOT')}"
 
-    def _kept(self, phase, tangent):
-        """Return a function of k that gives lines for coefficient k of the kept series.
+    def _constants(self, phase, tangent):
+        """Return a function of k that returns lines for coefficient k of the constant series.
 
-        With one lane they are read from the array. With several lanes each step has other
-        trajectories, so the coefficients are computed anew.
+        With one lane the lines read the coefficients from the array. With several lanes each step
+        has other trajectories, so the lines compute the coefficients again.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
-            return lambda k: self._made(k, names)
+            return lambda k: self._computed(k, names)
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
     def series(self, phase):
@@ -129,8 +136,8 @@ class Writer:
             f"cosine = {self.at('COSINE')}",
             f"sine = {self.at('SINE')}",
             f"x0 = {self.at('Y0')}",
-            # The sum keeps LLVM from loading x0 and x1 as one vector. They were stored separately,
-            # and such a load must wait until both stores are complete.
+            # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector. The two were stored
+            # separately, and the load of a vector would wait until both stores are complete.
             f"x1 = {self.at('Y1')} + 0.0",
             f"cubic = {self.at('CUBIC')}",
             "double = 2.0 * cubic",
@@ -144,7 +151,8 @@ class Writer:
                 f"q0 = {self.at('Y2')} - {self.at('SIDE')} * {self.at('CLEARANCE')}",
                 f"q1 = {self.at('Y3')}",
             ]
-        lines += recurrence.motion(self.orders[phase], phase, self._kept(phase, tangent=False))
+        constants = self._constants(phase, tangent=False)
+        lines += recurrence.motion(self.orders[phase], phase, constants)
         return self.function(f"{phase}_series", self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
@@ -167,7 +175,7 @@ class Writer:
                 for j, name in enumerate(names)
                 for k in range(2)
             ),
-            *recurrence.tangent(order, phase, self._kept(phase, tangent=True)),
+            *recurrence.tangent(order, phase, self._constants(phase, tangent=True)),
         ]
         lines = self._stored(lines, names, tangent=True)
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
@@ -179,18 +187,18 @@ class Writer:
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Yield lines, and after each that computes a coefficient of `names` the line to store it.
+        """Yield `lines`, each coefficient of `names` followed by a line that stores it.
 
-        So the stores are spread over the lines and do not follow all of them.
+        The stores are thereby spread over the computation.
         """
         for line in lines:
             yield line
-            given = line.split(" = ")[0]
-            name, order = given[0].upper(), given[1:]
+            target = line.split(" = ")[0]
+            name, order = target[0].upper(), target[1:]
             if name in names and order.isdigit():
                 at = (
                     self.at_tangent(f"D{name}", int(order))
                     if tangent
                     else self.at(name, int(order))
                 )
-                yield f"{at} = {given}"
+                yield f"{at} = {target}"

@@ -1,8 +1,8 @@
-"""The event-driven flow of one trajectory, in steps that end at events.
+"""Integration of one trajectory in steps that end at events, the begins and ends of contacts.
 
-A state is (Z1, Z1', Z2, Z2'), together with `side`, the wall that the loose mass touches: -1 or 1,
-or 0 in flight. Solutions of the variational equations, the tangents, are integrated with the
-trajectory if they are given.
+A state is (Z1, Z1', Z2, Z2') together with `side`: the wall that the loose mass touches, -1 or 1,
+or 0 in flight. Tangents, solutions of the variational equations, can be integrated with the
+trajectory.
 """
 
 import numpy as np
@@ -16,10 +16,10 @@ from impact_damper.system import packed
 from impact_damper.system.packed import CLEARANCE
 
 _ONE = instances.instance(1)
-kept_series = _ONE.kept_series
+constant_series = _ONE.constant_series
 flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_ONE)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
-# Index in a workspace at which the numbers of the tangents begin; a multiple of a cache line.
+# Index in a workspace at which the numbers of the tangents begin; a multiple of CACHE_LINE.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
 SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     _ONE.SIDE,
@@ -30,7 +30,8 @@ SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 )
 PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
-# Indices in a workspace of the series of tangents: COLUMNS numbers for each coefficient.
+# Indices in a workspace at which the series of the tangents begin. Each coefficient has COLUMNS
+# numbers, one for each tangent.
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
@@ -50,7 +51,7 @@ def assign(target, state):
 
 @kernel
 def polynomial(c, order, t):
-    """Return value and first derivative at t of a polynomial with coefficients c."""
+    """Return value and first derivative at t of the polynomial of c[0] + c[1] t + ..."""
     value = c[order]
     slope = 0.0
     for k in range(order - 1, -1, -1):
@@ -63,7 +64,7 @@ def polynomial(c, order, t):
 def write_trajectory(p, y, side, tolerance, a):
     """Write parameters and state of a trajectory into the rows of a workspace.
 
-    These rows are the same for all orders of the series.
+    The numbers of these rows do not depend on the orders of the series.
     """
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
@@ -76,9 +77,9 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel
 def load(p, y, tangents, side, tolerance, a, d):
-    """Write a trajectory and its tangents into a workspace, and fill its kept series."""
+    """Write a trajectory and its tangents into a workspace, and fill its constant series."""
     write_trajectory(p, y, side, tolerance, a)
-    kept_series(a)
+    constant_series(a)
     if len(tangents) > 0:
         for i in range(COLUMNS):
             for j in range(4):
@@ -113,30 +114,31 @@ def step_loaded(count, t, longest, a, d):
 
 @kernel
 def step(p, y, tangents, side, t, longest, tolerance, work):
-    """One step of the flow, ended early by an event.
+    """Integrate one step, which ends early at an event.
 
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
         Packed parameters (`packed.pack`).
     y : array, shape (4,)
-        Z1, Z1', Z2, Z2'; replaced.
+        Z1, Z1', Z2, Z2', replaced by the state after the step.
     tangents : array, shape (m, 4)
-        Solutions of the variational equations, m from 0 to 4; replaced.
+        Solutions of the variational equations, m from 0 to 4; also replaced.
     side : int
         Wall in contact, -1 or 1, or 0 in flight.
     t, longest, tolerance : float
-        Time (only the phase of the forcing depends on it), longest step, local error allowed.
+        Time at the beginning, longest step, and largest local error. Only the phase of the forcing
+        depends on the time.
     work : array
-        `workspace()`. Afterwards it holds from X on the series of Z1 over the step and, after a
-        step in contact, from Q on that of Z2 -+ d0.
+        The result of `workspace()`. After the call it holds the series of Z1 over the step from
+        index X on and, after a step in contact, the series of Z2 -+ d0 from index Q on.
 
     Returns
     -------
     length : float
-        Time by which the state has advanced. It is `longest` once the motion has escaped
-        (`equation.no_return`), since steps on the way to infinity would become ever shorter. The
-        returned state is then the state at the escape, after the time `work[LENGTH]`.
+        Time by which the state has advanced. For a motion that has escaped (`equation.no_return`)
+        the function returns `longest`, because steps on the way to infinity would become ever
+        shorter. The state is then the state at the escape, after the time `work[LENGTH]`.
     side : int
         Wall in contact after the step.
     """
@@ -151,7 +153,7 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
 def side_of(p, y):
     """Return the wall in contact in a state, -1 or 1, or 0 in flight.
 
-    A mass on a wall is in contact if it moves outward.
+    A loose mass exactly on a wall is in contact if it moves into the wall.
     """
     if y[2] > p[CLEARANCE] or (y[2] == p[CLEARANCE] and y[3] > 0.0):
         return 1
@@ -162,9 +164,10 @@ def side_of(p, y):
 
 @kernel
 def advance(p, y, tangents, side, t, end, tolerance, work):
-    """Integrate from t to end; return the side then, contacts begun and time in contact.
+    """Integrate from time t to time `end`; the arguments are those of `step`.
 
-    A motion that escapes (`equation.no_return`) is left in its state at the escape.
+    Return the side at the end, the number of contacts begun and the time in contact. If the motion
+    escapes (`equation.no_return`), the integration stops in the state at the escape.
     """
     contacts = 0
     touching = 0.0

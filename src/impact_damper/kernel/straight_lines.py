@@ -1,8 +1,8 @@
-"""Compile straight lines of arithmetic without numba's type inference.
+"""Compile lines of arithmetic without branches ("straight lines") without numba's type inference.
 
-All values are floats, or pairs of floats, so the LLVM code can be written at once. numba's type
-inference takes a millisecond an operation, and the series of a step have thousands of them.
-`lane_values` has the LLVM code of each operation.
+All values are floats or pairs of floats, so the LLVM code can be written directly. The type
+inference of numba would take a millisecond for each operation, and the series of a step have
+thousands of operations. `lane_values` writes the LLVM code of each operation.
 """
 
 import ast
@@ -17,7 +17,7 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.lane_values import Arithmetic
 
-# Lanes in a vector: one register of 512 bits, or several where registers are narrower.
+# Lanes in a vector. Eight doubles fill one register of 512 bits, or several narrower registers.
 WIDTH = 8
 OFFSET = ir.IntType(64)
 OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
@@ -28,34 +28,35 @@ class NotStraightError(SyntaxError):
 
 
 def straight(function):
-    """Compile a function that does the same lines of arithmetic for each lane.
+    """Decorate a function that executes the same lines of arithmetic for each lane.
 
     Parameters
     ----------
     function : callable
-        Of one argument or two, pointers to float64. The body is a loop `for i in range(lanes)`,
-        with at most WIDTH lanes or a multiple of WIDTH, over assignments, also augmented ones.
+        Takes one or two arguments, pointers to float64. Its body is a loop `for i in range(lanes)`
+        over assignments such as `x = ...` and `x += ...`. The number of lanes is at most WIDTH or a
+        multiple of WIDTH.
 
         - The left side is a name, `a[1 + i]`, or, with one lane, `a[1]`.
         - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
           `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
-          which is `x if x > y else y`.
-        - `(x, y)` is a pair. Operators act on both of its values; a float beside a pair counts
-          for both. A name can keep a pair, and `x, y = ...` takes it apart. With one lane, a pair
-          is one register.
+          which means `x if x > y else y`.
+        - `(x, y)` is a pair. Operators act on both of its values; a float combined with a pair is
+          used with both. A name can hold a pair, and `x, y = ...` unpacks it. With one lane, a pair
+          stands in one register.
 
     Returns
     -------
     intrinsic
-        Callable in kernels. If the function has other lines, compiling such a kernel raises
-        NotStraightError. The attribute `py_func` is the function itself.
+        Callable in kernels. If the function has other lines, the compilation of a kernel that calls
+        it raises NotStraightError. The attribute `py_func` is `function`.
     """
 
     def generate(context, builder, signature, arguments):
         write(function, builder, arguments)
         return context.get_dummy_value()
 
-    # numba reads the number of arguments off the signature.
+    # numba takes the number of arguments from the signature of these functions.
     def of_one(typing, a):
         return types.void(a), generate
 
@@ -69,12 +70,12 @@ def straight(function):
 
 
 def write(function, builder, pointers):
-    """Write the LLVM code of a function (see `straight`) that is called with pointers.
+    """Write the LLVM code of a call of a function (see `straight`) with these pointers.
 
     Raises
     ------
     NotStraightError
-        If a line is none of those that `straight` describes.
+        If the function has a line that `straight` does not allow.
     """
     code = function.__code__
     tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
@@ -86,7 +87,7 @@ def write(function, builder, pointers):
     lines.lanes, lines.width = lanes, min(lanes, WIDTH)
     lines.arithmetic = Arithmetic(builder, lines.width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
-    # In a loop of one round LLVM would move stores behind its end, so there is none then.
+    # For one round no loop is written, because LLVM would move stores behind the end of the loop.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         for statement in loop.body:
@@ -100,22 +101,24 @@ def is_product(node):
 
 
 class _Lines(ast.NodeVisitor):
-    """Writes the code of assignments for `width` lanes, from lane `first` on."""
+    """Writes the LLVM code of assignments for `width` lanes, beginning with lane `first`."""
 
     def __init__(self, file, builder):
         self.file, self.builder = file, builder
         self.values = {}
         self.stored, self.loaded = set(), set()
 
-    def refuse(self, node, what):
-        raise NotStraightError(f"{self.file}, line {node.lineno}: {what}: {ast.unparse(node)}")
+    def refuse(self, node, reason):
+        """Raise NotStraightError with the line of a node and the reason."""
+        raise NotStraightError(f"{self.file}, line {node.lineno}: {reason}: {ast.unparse(node)}")
 
-    def require(self, fits, node, what):
-        if not fits:
-            self.refuse(node, what)
+    def require(self, allowed, node, reason):
+        """Raise NotStraightError as `refuse` does, unless the node is allowed."""
+        if not allowed:
+            self.refuse(node, reason)
 
     def loop_of(self, tree):
-        """Return the loop that a function consists of, and the number of lanes."""
+        """Return the loop that is the whole body of a function, and the number of lanes."""
         loop = tree.body[0]
         match loop:
             case ast.For(
@@ -130,11 +133,15 @@ class _Lines(ast.NodeVisitor):
         self.refuse(tree, "the body is not one loop `for i in range(lanes)`")
 
     def check_lanes_apart(self, loop):
-        """Refuse a lane that writes what another one reads or writes: lanes run side by side."""
+        """Raise NotStraightError if a lane writes a number that another lane reads or writes.
+
+        Lanes are executed at the same time, so the order of such accesses would be undefined.
+        """
+        accessed = self.loaded | {(*each, self.lanes) for each in self.stored}
         for array, offset in self.stored:
-            for other, begin, count in self.loaded | {(*each, self.lanes) for each in self.stored}:
+            for name, begin, count in accessed:
                 same = begin == offset and count == self.lanes
-                apart = other != array or begin + count <= offset or offset + self.lanes <= begin
+                apart = name != array or begin + count <= offset or offset + self.lanes <= begin
                 self.require(same or apart, loop, f"lanes share a number of {array}")
 
     def generic_visit(self, node):
@@ -169,7 +176,7 @@ class _Lines(ast.NodeVisitor):
                 self.refuse(target, "cannot be assigned to")
 
     def element(self, node):
-        """Return the pointer to `a[1]` or `a[1 + i]`, the array, 1, and whether i is added."""
+        """Return pointer, array, offset, and whether i is added, for `a[1]` or `a[1 + i]`."""
         match node:
             case ast.Subscript(ast.Name(array), ast.Constant(int(offset))):
                 own = False
@@ -207,7 +214,7 @@ class _Lines(ast.NodeVisitor):
         return ir.Constant(self.arithmetic.type, [self.literal(each) for each in node.value.elts])
 
     def literal(self, node):
-        """Return the value of a number in the source, with a minus sign or without."""
+        """Return the value of a number in the source, which may have a minus sign."""
         match node:
             case ast.UnaryOp(ast.USub(), operand):
                 return -self.literal(operand)
@@ -231,7 +238,7 @@ class _Lines(ast.NodeVisitor):
         return self.arithmetic.pair(*(self.number(self.visit(each), each) for each in node.elts))
 
     def number(self, value, node):
-        """Return a value, which must not be a pair."""
+        """Return `value`, or raise NotStraightError if it is a pair."""
         self.require(not self.arithmetic.is_pair(value), node, "a pair where a number is wanted")
         return value
 

@@ -81,7 +81,7 @@ def steps_of(orders):
     functions take a step in flight, take a step in contact, and fill the stored series.
     """
     module = instance(1, *orders)
-    called = module.flight_step, module.contact_step, module.kept_series
+    called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])
 
 

@@ -1,9 +1,10 @@
 """Bounds of the model's parameters, and checks of single numbers.
 
-With parameters within these bounds every run of the kernels (the compiled integrator) ends.
-`Oscillator` and `Damper`, the functions that take a frequency, and the models of the configuration
-all take their bounds from here. This module imports no NumPy, since Snakemake reads it at every dry
-run. A range is a dictionary of keyword arguments of `check_number`; "why" is the reason of a bound.
+If all parameters are within these bounds, every run of the kernels (the compiled integrator) comes
+to an end. `Oscillator`, `Damper`, the functions that take a frequency, and the models of the
+configuration import their bounds from this module. The module imports no NumPy, because Snakemake
+reads it at every dry run. A range is a dictionary of keyword arguments of `check_number`; its entry
+"why" is the reason for a bound, which the error message states.
 """
 
 import math
@@ -11,7 +12,7 @@ import numbers
 import reprlib
 from dataclasses import field, fields
 
-FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "runs are counted in forcing periods"}
+FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "runs are counted in forcing cycles"}
 DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
 LINEAR_FREQUENCY_RANGE = {"least": 0.0, "most": 100.0}
 CUBIC_RANGE = {"least": -1e6, "most": 1e6}
@@ -26,39 +27,42 @@ RESTITUTION_RANGE = {
     "why": "below, the dashpot nears critical damping",
 }
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
-# Largest ratio of the natural frequency of the contact to the forcing frequency. A loose mass that
-# stays in contact takes about this number of steps in a forcing period.
+# Largest ratio of the natural frequency of the contact to the forcing frequency. While the loose
+# mass stays in contact, a run takes about this number of integration steps in a forcing cycle.
 MOST_STIFF = 1e6
-# Ball from which random initial states are drawn: RADIUS_RANGE of its radius, and MOST_RADIUS, the
-# largest ratio of its radius to the clearance. In a larger ball hardly any state is within the gap.
+# Random initial states are drawn from a ball. RADIUS_RANGE bounds its radius, and MOST_RADIUS is
+# the largest ratio of its radius to the clearance. In a larger ball hardly any state lies within
+# the gap.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
-# How accurately and how long motions are run (`settling.Settling`); lengths in forcing periods.
+# Bounds of the fields of `settling.Settling`. All but the tolerance are in forcing cycles.
 TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "below, rounding prevails"}
-PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "fewer periods decide nothing"}
+PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "fewer cycles decide nothing"}
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Number of runs whose records are in memory at the same time.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Forcing periods of a run, and forcing periods for which the lifetimes of transients are watched.
-# Their ends count from period LEAD on: a run first has to reach the transient.
+# PERIODS_RANGE: forcing cycles of a run. LIFETIME_RANGE: forcing cycles of a run that measures the
+# lifetime of a chaotic transient. Such a run counts the ends of transients after its first LEAD
+# cycles, in which it reaches the transient.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 LEAD = 20
 SCAN_LIFETIME_RANGE = LIFETIME_RANGE | {"least": 2 * LEAD}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest displacement and velocity of an initial state; beyond them a forcing period takes minutes.
+# Largest displacement and velocity of an initial state. With larger ones the integration of one
+# forcing cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
-# Highest harmonic N of a harmonic balance: its memory grows as N^2, its time as N^3.
+# Highest harmonic N of a harmonic balance, whose memory grows as N^2 and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 # Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Largest load (dimensionless external acceleration in a contact, `contact.contact_law`) in a map.
+# Largest load (constant acceleration during a contact, see `contact.contact_law`) of the load map.
 LOAD_RANGE = {"above": 0.0, "most": 1e3}
-# Settings with which integrators are compared: tolerances; steps in a forcing period; and largest
-# number of steps in a forcing period with which a stable step is searched for.
+# Settings of the comparison of integrators: the tolerance, the number of steps in a forcing cycle,
+# and the largest number of steps in a forcing cycle at which a stable step is searched for.
 METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "below, rounding prevails"}
 STEPS_RANGE = {"least": 1, "most": 10**5}
 MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
@@ -67,18 +71,23 @@ MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
 def parameter(bounds, symbol, meaning, **default):
     """Return a dataclass field for a number within `bounds`.
 
-    The field's metadata keep all that is said about a parameter in one place: `check_parameters`
-    reads the bounds, tables and captions read the symbol, and the configuration reads the bounds
-    and the meaning (with the symbol before it).
+    The field's metadata keep the facts about a parameter in one place. `check_parameters` reads the
+    bounds, tables and captions read the symbol, and the configuration reads the bounds and the
+    meaning. The stored meaning begins with the symbol.
     """
     metadata = {"bounds": bounds, "symbol": symbol, "meaning": f"{symbol}, {meaning}"}
     return field(metadata=metadata, **default)
 
 
 def check_parameters(part):
-    """Raise the error of `check_number` if a field of the frozen dataclass `part` is out of range.
+    """Check all fields of the frozen dataclass `part` against the bounds in their metadata.
 
-    A number given as an array without dimensions is replaced by a float.
+    A field that holds an array without dimensions is replaced by a float.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `check_number`, if a field is not a number or out of range.
     """
     for each in fields(part):
         value = getattr(part, each.name)
@@ -88,12 +97,14 @@ def check_parameters(part):
 
 
 def unlabelled(name, value):
-    """Return the number in an array without dimensions, as xarray gives it; else the value itself.
+    """Return the number in an array without dimensions; return any other value unchanged.
+
+    Elements of xarray datasets are arrays without dimensions.
 
     Raises
     ------
     ValueError
-        If its attributes name a unit: the number is not dimensionless.
+        If the attributes of the array name a unit, so that the number is not dimensionless.
     """
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
@@ -104,27 +115,37 @@ def unlabelled(name, value):
 
 
 def shown(value) -> str:
-    """Return a value as text in one short line, for error messages."""
+    """Return a value as one short line of text, for error messages."""
     return " ".join(reprlib.repr(value).split())
 
 
 def plain(value) -> str:
-    """Return a number as text: with six digits if they are exact, otherwise with all digits."""
+    """Return a number as text, with at most six digits if these are exact, else with all digits."""
     short = f"{value:g}"
     return short if float(short) == value else repr(float(value))
 
 
 def check_number(name, value, *, above=None, least=None, most=None, why=""):
-    """Return `value` as a float, or raise an error that names what is allowed.
+    """Return `value` as a float, or raise an error that names the allowed range.
 
-    An array without dimensions counts as a number, if it is not labelled with a unit.
+    An array without dimensions counts as a number unless it is labelled with a unit.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : float
+    above, least, most : float, optional
+        Bounds: the value must be greater than `above`, at least `least` and at most `most`.
+    why : str
+        Reason for the bounds, for the message.
 
     Raises
     ------
     TypeError
         If the value is not a real number.
     ValueError
-        If it is not finite or outside the bounds.
+        If the value is not finite or outside the bounds.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -149,7 +170,15 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
 
 
 def check_count(name, value, *, least=1, most=10**9, why=""):
-    """Return `value` as an int, or raise TypeError or ValueError naming what is allowed."""
+    """Return `value` as an int.
+
+    Raises
+    ------
+    TypeError
+        If the value is not a whole number.
+    ValueError
+        If the value is not from `least` to `most`.
+    """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} = {shown(value)}: must be a whole number")

@@ -1,6 +1,6 @@
 """Checks of frequencies and of sequences of numbers.
 
-Their errors name the argument, its value and the allowed range.
+The messages of their errors name the argument, its value and the allowed range.
 """
 
 import numpy as np
@@ -15,18 +15,20 @@ from impact_damper.system.bounds import (
 
 
 def check_numbers(name, values, **bounds):
-    """Return a number or a sequence of numbers as an array; `bounds` as of `check_number`.
+    """Return a number or a sequence of numbers as an array, shape (m,).
+
+    Each number is checked by `check_number`, which `bounds` are passed to.
 
     Raises
     ------
     TypeError, ValueError
-        If a number is not allowed. The message names its index.
+        If a number is not allowed. The message names the index of the number.
     """
     return np.array([check_number(f"{name}[{i}]", x, **bounds) for i, x in _numbered(values)])
 
 
 def check_counts(name, values, **bounds):
-    """Return whole numbers as an array; do as `check_numbers`, but with `check_count`."""
+    """Return whole numbers as an array of int, shape (m,), each checked by `check_count`."""
     return np.array([check_count(f"{name}[{i}]", x, **bounds) for i, x in _numbered(values)], int)
 
 
@@ -45,35 +47,45 @@ def check_increasing(name, values, least="one"):
     Raises
     ------
     ValueError
-        If the numbers do not increase, or are fewer than `least`, which is "one" or "two".
+        If the numbers do not increase, or if there are fewer of them than `least`, which is "one"
+        or "two".
     """
     numbers = check_numbers(name, values)
     if len(numbers) < {"one": 1, "two": 2}[least] or np.any(np.diff(numbers) <= 0):
-        given = shown(numbers.tolist())
-        raise ValueError(f"{name} = {given}: must be increasing, and at least {least}")
+        text = shown(numbers.tolist())
+        raise ValueError(f"{name} = {text}: must be increasing, and at least {least}")
     return numbers
 
 
 def check_frequencies(values, least="one"):
-    """Return forcing frequencies as an array, or raise unless they increase and are in range."""
+    """Return forcing frequencies as an array, checked to increase and to be in FREQUENCY_RANGE."""
     return check_increasing(
         "frequencies", check_numbers("frequencies", values, **FREQUENCY_RANGE), least
     )
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error if the records of `starts` runs at each of `points` points exceed memory."""
+    """Check the number of random starts at each of `points` grid points.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `starts` is not a whole number, is below `least`, or would make more than MOST_RUNS runs
+        whose records are in memory at the same time.
+    """
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"at {points} points: memory")
 
 
 def check_span(name, span, **bounds) -> tuple:
-    """Return the least and the greatest value of a range; `bounds` hold for each of them.
+    """Return the least and the greatest value of a range as a tuple of two floats.
+
+    The `bounds`, keyword arguments of `check_number`, hold for both values.
 
     Raises
     ------
     TypeError, ValueError
-        If an end is not a number or not allowed, or the ends are not in order.
+        If a value is not a number or not allowed, or if the first is not below the second.
     """
     ends = check_numbers(name, span, **bounds)
     if ends.shape != (2,) or not ends[0] < ends[1]:

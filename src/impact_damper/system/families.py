@@ -1,4 +1,4 @@
-"""Families of systems along one parameter, for the continuation of branches of orbits."""
+"""One-parameter families of systems, for the continuation of branches of periodic orbits."""
 
 from dataclasses import replace
 
@@ -10,9 +10,9 @@ from impact_damper.system.names import nearest
 from impact_damper.system.packed import DASHPOT, FORCE, SHAKER, UNBALANCE, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, and the dataclass of each; the frequency is in none. The
-# coordinate of a parameter, in which branches are continued, is its logarithm, or for the
-# parameters in LINEAR the parameter itself.
+# Parameters that can vary along a branch, each with the dataclass that holds it. No dataclass holds
+# the frequency. Branches are continued in the coordinate of the parameter: the parameter itself for
+# those in LINEAR, otherwise the logarithm of the parameter.
 PARAMETERS = {
     "frequency": None,
     "damping": Oscillator,
@@ -25,7 +25,7 @@ PARAMETERS = {
     "contact_stiffness": Damper,
 }
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# Index, in the packed array, of each part of the forcing amplitude.
+# Index in the packed array (see `packed`) of each part of the forcing amplitude.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE, "shaker": SHAKER}
 
 
@@ -47,15 +47,16 @@ def family_of(oscillator, damper, frequency, parameter, span):
     -------
     pack_at : callable
         Function from the coordinate to the packed parameters.
-    here : float
-        Coordinate of the system that is given.
+    coordinate : float
+        Coordinate of the given system.
     ends : tuple of float
         Coordinates of the ends of the span.
 
     Raises
     ------
     ValueError
-        If there is no such parameter, or its value lies outside the span.
+        If there is no such parameter, if its value lies outside the span, or if an end of the span
+        is out of the bounds of the parameter.
     """
     pack(oscillator, damper, frequency)
     if not isinstance(parameter, str) or parameter not in PARAMETERS:
@@ -64,8 +65,8 @@ def family_of(oscillator, damper, frequency, parameter, span):
     owner = PARAMETERS[parameter]
     if owner is Damper and damper is None:
         raise ValueError(f"parameter = {parameter!r}: there is no damper to change")
-    given = {None: None, Oscillator: oscillator, Damper: damper}[owner]
-    value = frequency if owner is None else getattr(given, parameter)
+    part = {None: None, Oscillator: oscillator, Damper: damper}[owner]
+    value = frequency if owner is None else getattr(part, parameter)
     least, most = check_span("span", span)
     if not least <= value <= most:
         raise ValueError(f"span = {shown(span)}: must hold {parameter} = {value:g}")
@@ -73,7 +74,7 @@ def family_of(oscillator, damper, frequency, parameter, span):
     try:
         for bound in (least, most):
             if owner is not None:
-                replace(given, **{parameter: bound})
+                replace(part, **{parameter: bound})
             pack_at(bound)
     except ValueError as error:
         raise ValueError(f"span = {shown(span)}: {error}") from None
@@ -89,16 +90,16 @@ def _pack_by(oscillator, damper, frequency, parameter):
         if parameter == "frequency":
             return pack(oscillator, damper, value)
         if parameter in FORCING:
-            # The value may be negative, which `Oscillator` does not allow, so that finite
-            # differences at 0 can be central.
+            # Central differences at 0 need negative values. `Oscillator` does not allow these, so
+            # the value is written into the packed array.
             p = pack(oscillator, damper, frequency)
             p[FORCING[parameter]] = value
             return p
         if parameter in ("damping", "cubic"):
             return pack(replace(oscillator, **{parameter: value}), damper, frequency)
         if parameter == "restitution":
-            # Beyond e = 1 the dashpot of 2 - e is taken with the opposite sign, so that finite
-            # differences at 1 can be central.
+            # Central differences at e = 1 need values e > 1. For these the dashpot coefficient is
+            # the negative of the coefficient for 2 - e.
             p = pack(oscillator, replace(damper, restitution=min(value, 2 - value)), frequency)
             p[DASHPOT] *= np.sign(1 - value)
             return p

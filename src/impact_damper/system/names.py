@@ -1,4 +1,7 @@
-"""Misspelt names are answered with the nearest known one. This module imports no NumPy."""
+"""Error messages for misspelt names, which propose the nearest known name.
+
+This module imports no NumPy, because Snakemake reads it at every dry run.
+"""
 
 import difflib
 import inspect
@@ -6,19 +9,22 @@ from functools import wraps
 
 
 def nearest(name, known) -> str:
-    """Return a question that proposes the known name nearest to `name`, or nothing."""
-    found = difflib.get_close_matches(name, known, 1) if isinstance(name, str) else []
-    return f"; did you mean {found[0]}?" if found else ""
+    """Return "; did you mean ...?" with the known name nearest to `name`, or "" if none is near."""
+    matches = difflib.get_close_matches(name, known, 1) if isinstance(name, str) else []
+    return f"; did you mean {matches[0]}?" if matches else ""
 
 
 def names_arguments(function):
-    """Return a function, or a class, that answers an unknown argument with the nearest known one.
+    """Decorate a function or class so that a wrong argument raises a helpful TypeError.
 
-    Raises
-    ------
-    TypeError
-        When called with an unknown keyword, or with too many arguments without a name; the message
-        lists the known ones.
+    A call with an unknown keyword, or with too many positional arguments, raises TypeError. The
+    message lists the known arguments, and for an unknown keyword proposes the nearest of them.
+
+    Returns
+    -------
+    callable
+        The decorated function, or the same class with a decorated `__init__`. A function that takes
+        `*args` or `**kwargs` is returned unchanged.
     """
     if inspect.isclass(function):
         function.__init__ = _checked(function.__init__, function.__name__)
@@ -31,7 +37,7 @@ def _checked(function, title):
     if any(each.kind in (each.VAR_KEYWORD, each.VAR_POSITIONAL) for each in parameters.values()):
         return function
     known = [name for name in parameters if name != "self"]
-    by_place = [each for each in parameters.values() if each.kind is each.POSITIONAL_OR_KEYWORD]
+    positional = [each for each in parameters.values() if each.kind is each.POSITIONAL_OR_KEYWORD]
 
     @wraps(function)
     def checked(*args, **kwargs):
@@ -41,7 +47,7 @@ def _checked(function, title):
                     f"{title}() has no argument {name!r}; known: {', '.join(known)}"
                     f"{nearest(name, known)}"
                 )
-        if len(args) > len(by_place):
+        if len(args) > len(positional):
             raise TypeError(
                 f"{title}() has too many arguments without a name; known: {', '.join(known)}"
             )

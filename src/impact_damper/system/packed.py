@@ -1,9 +1,10 @@
 """Parameters packed into the array that kernels read.
 
-Kernels (compiled functions) take the parameters as an array `p` of COUNT numbers, made by `pack`,
-and read each by the name of its index, as in `p[FREQUENCY]`. The numbers are W, h, omega_l^2, k3,
-F, U, V, d0, r1, 1/rm (see `parameters`) and the dashpot's coefficient 2 zeta_c sqrt(r1 rm), in the
-order of NAMES. `design_slopes` is the derivative of `pack`.
+Kernels (compiled functions) take the parameters as an array `p` of COUNT dimensionless numbers,
+which `pack` returns. They read each number by the name of its index, for example `p[FREQUENCY]`.
+The numbers are W, h, omega_l^2, k3, F, U, V, d0, r1, 1/rm (see `parameters`) and the coefficient
+2 zeta_c sqrt(r1 rm) of the dashpot, in the order of NAMES. `design_slopes` returns the derivatives
+of these numbers with respect to the parameters of a design.
 """
 
 import math
@@ -41,8 +42,8 @@ COUNT = len(NAMES)
     INVERSE_MASS_RATIO,
     DASHPOT,
 ) = range(COUNT)
-# Parameters by which `design_slopes` differentiates; linear_stiffness is omega_l^2. Those in SIMPLE
-# are numbers of the array themselves.
+# DESIGN: parameters with respect to which `design_slopes` differentiates; linear_stiffness is
+# omega_l^2. SIMPLE: those of them that stand in the array unchanged, each with its index.
 SIMPLE = {
     "damping": DAMPING,
     "linear_stiffness": STIFFNESS,
@@ -56,7 +57,15 @@ DESIGN = (*SIMPLE, "restitution", "contact_stiffness", "mass_ratio")
 
 
 def pack(oscillator, damper, frequency) -> np.ndarray:
-    """Return the parameters as the array that kernels read; `damper=None` for no damper.
+    """Return the parameters as the array that kernels read.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+        None for an oscillator without damper.
+    frequency : float
+        Forcing frequency W, dimensionless.
 
     Returns
     -------
@@ -67,9 +76,10 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     Raises
     ------
     TypeError
-        If an argument is not of its type.
+        If an argument has the wrong type.
     ValueError
-        If the frequency is out of range, or the natural frequency of the contact too high for it.
+        If the frequency is out of range, or if the natural frequency of the contact is more than
+        MOST_STIFF times the forcing frequency.
     """
     p = np.zeros(COUNT)
     p[FREQUENCY] = frequency = check_frequency(frequency)
@@ -99,7 +109,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def design_slopes(p) -> np.ndarray:
-    """Return the derivative of packed parameters by the parameters DESIGN.
+    """Return the derivatives of packed parameters with respect to the parameters DESIGN.
 
     Parameters
     ----------
@@ -109,7 +119,8 @@ def design_slopes(p) -> np.ndarray:
     Returns
     -------
     numpy.ndarray, shape (COUNT, len(DESIGN))
-        The last three columns, of the contact, are 0 without a damper.
+        One column for each parameter. Without a damper the last three columns, for the parameters
+        of the contact, are 0.
     """
     slopes = np.zeros((COUNT, len(DESIGN)))
     for column, index in enumerate(SIMPLE.values()):
@@ -117,12 +128,13 @@ def design_slopes(p) -> np.ndarray:
     if not np.isfinite(p[CLEARANCE]):
         return slopes
     mass_ratio, stiffness = 1 / p[INVERSE_MASS_RATIO], p[CONTACT_STIFFNESS]
-    # The dashpot is `most` times s, with s = -ln e/(pi^2 + ln^2 e)^(1/2).
-    most = 2 * math.sqrt(stiffness * mass_ratio / (1 + mass_ratio))
-    share = p[DASHPOT] / most
-    rest = 1 - share**2
-    restitution = math.exp(-math.pi * share / math.sqrt(rest))
-    slopes[DASHPOT, -3] = -most * rest**1.5 / (math.pi * restitution)
+    # The dashpot coefficient is `critical` times the damping ratio s of the relative motion,
+    # s = -ln e/(pi^2 + ln^2 e)^(1/2).
+    critical = 2 * math.sqrt(stiffness * mass_ratio / (1 + mass_ratio))
+    ratio = p[DASHPOT] / critical
+    rest = 1 - ratio**2
+    restitution = math.exp(-math.pi * ratio / math.sqrt(rest))
+    slopes[DASHPOT, -3] = -critical * rest**1.5 / (math.pi * restitution)
     slopes[CONTACT_STIFFNESS, -2] = 1.0
     slopes[DASHPOT, -2] = p[DASHPOT] / (2 * stiffness)
     slopes[INVERSE_MASS_RATIO, -1] = -1 / mass_ratio**2

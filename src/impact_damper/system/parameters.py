@@ -1,10 +1,10 @@
 """Dataclasses of the oscillator and of the damper.
 
-Everything is dimensionless, scaled as in section 2.1 of Chatterjee, Mallik and
-Ghosh (1995): lengths by x0 = (F/k1)^(1/3), times by 1/w0 = sqrt(m1/(k1 x0^2)), with the force F,
-the coefficient k1 of the cubic spring and the primary mass m1. Z1 is the displacement of the
-primary mass, Z2 that of the primary mass relative to the loose mass, W the forcing frequency.
-This module imports no NumPy, since Snakemake reads it at every dry run.
+All quantities are dimensionless, scaled as in section 2.1 of Chatterjee, Mallik and Ghosh (1995).
+Lengths are scaled by x0 = (F/k1)^(1/3) and times by 1/w0 = sqrt(m1/(k1 x0^2)), with the amplitude F
+of the force, the coefficient k1 of the cubic spring and the primary mass m1. Z1 is the displacement
+of the primary mass, Z2 the displacement of the primary mass relative to the loose mass, and W the
+forcing frequency. This module imports no NumPy, because Snakemake reads it at every dry run.
 """
 
 import math
@@ -45,7 +45,8 @@ def check_damper(damper):
 class Oscillator:
     """Harmonically forced Duffing oscillator, equation (3) without the damper.
 
-    Its spring hardens with a positive `cubic`, is linear with 0 and softens with a negative one.
+    The spring is hardening if `cubic` is positive, linear if it is 0 and softening if it is
+    negative.
 
     Attributes
     ----------
@@ -56,16 +57,17 @@ class Oscillator:
     cubic : float
         Coefficient k3 of Z1^3 in the spring's force, dimensionless; 1 in the paper's scales.
     force : float
-        Part F of the forcing amplitude F + U W^2 + V/W^2, dimensionless; 1 in the paper's scales.
-        For a free decay F, U and V are 0.
+        Term F of the forcing amplitude F + U W^2 + V/W^2, dimensionless; 1 in the paper's scales.
+        For an unforced decay F, U and V are 0.
     unbalance : float
-        U in the part U W^2 of the forcing amplitude, which stands for a rotating unbalance. Without
-        a damper it may also stand for a base that moves with the amplitude U; Z1 is then relative
-        to the base. (With a damper the base would move the loose mass too: use `machine.Machine`.)
+        U, dimensionless. The term U W^2 of the forcing amplitude represents a rotating unbalance.
+        Without a damper it may also represent a base that moves with the amplitude U, and Z1 is
+        then the displacement relative to the base. With a damper use `machine.Machine` for a moving
+        base, because the loose mass is then forced too.
     shaker : float
-        V in the part V/W^2 of the forcing amplitude, which stands for a base with the amplitude a
-        of acceleration at each frequency, as on a shaker: V = omega_l^2 a, and Z1 is the
-        displacement in space. For a linear spring alone.
+        V, dimensionless. The term V/W^2 of the forcing amplitude represents a base whose
+        acceleration has the same amplitude a at each frequency, as on a shaker. Then
+        V = omega_l^2 a, and Z1 is the displacement in space. Allowed only with a linear spring.
 
     Raises
     ------
@@ -113,16 +115,16 @@ class Oscillator:
 @names_arguments
 @dataclass(frozen=True)
 class Damper:
-    """Loose mass in a gap, with spring and dashpot at its walls (figures 1 and 9).
+    """Loose mass in a gap whose walls have a spring and a dashpot (figures 1 and 9 of the paper).
 
     Attributes
     ----------
     mass_ratio : float
         r_m = m2/m1, dimensionless.
     clearance : float
-        d0 = d/(2 x0), half the free space, dimensionless.
+        d0 = d/(2 x0), half of the gap d, dimensionless.
     restitution : float
-        Coefficient of restitution e (xi in the paper), 1 for elastic contact.
+        Coefficient of restitution e (xi in the paper), dimensionless; 1 for elastic contact.
     contact_stiffness : float
         r1 = k2/(m1 w0^2), dimensionless; 2000 throughout the paper.
 
@@ -138,7 +140,7 @@ class Damper:
     """
 
     mass_ratio: float = parameter(MASS_RATIO_RANGE, "rm", "loose mass over primary mass")
-    clearance: float = parameter(CLEARANCE_RANGE, "d0", "half the free space")
+    clearance: float = parameter(CLEARANCE_RANGE, "d0", "half of the gap of the loose mass")
     restitution: float = parameter(RESTITUTION_RANGE, "e", "1 for elastic contact", default=1.0)
     contact_stiffness: float = parameter(
         STIFFNESS_RANGE, "r1", "stiffness of the contact springs", default=2000.0
@@ -149,7 +151,7 @@ class Damper:
 
     @property
     def contact_damping(self) -> float:
-        """Damping ratio of the contact zeta_c for this restitution, equation (25)."""
+        """Damping ratio zeta_c of the contact for this restitution, equation (25)."""
         logarithm = math.log(self.restitution)
         return -logarithm / math.sqrt((1 + self.mass_ratio) * (math.pi**2 + logarithm**2))
 
@@ -159,14 +161,14 @@ class Damper:
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
-# Symbol of each parameter, keyed by its name, as tables and captions print it.
+# Symbol of each parameter by the parameter's name. Tables and captions print the symbols.
 SYMBOLS = {
     field.name: field.metadata["symbol"] for part in (Oscillator, Damper) for field in fields(part)
 } | {"frequency": "W"}
 
 
 def describe(*parts) -> dict:
-    """Return the fields of all dataclasses given as one dictionary; a part None is left out."""
+    """Return the fields of several dataclasses as one dictionary; a part None has no fields."""
     return {
         field.name: getattr(part, field.name)
         for part in parts
@@ -176,5 +178,5 @@ def describe(*parts) -> dict:
 
 
 def pick(kind, values) -> dict:
-    """Return the entries of a dictionary whose keys are fields of a dataclass."""
+    """Return those entries of `values` whose keys are fields of the dataclass `kind`."""
     return {field.name: values[field.name] for field in fields(kind) if field.name in values}

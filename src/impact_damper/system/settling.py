@@ -1,4 +1,7 @@
-"""How long motions are run, and how accurately. This module imports no NumPy."""
+"""Settings that state how long and how accurately motions are run.
+
+This module imports no NumPy, because Snakemake reads it at every dry run.
+"""
 
 from dataclasses import dataclass
 
@@ -18,24 +21,26 @@ from impact_damper.system.names import names_arguments
 @names_arguments
 @dataclass(frozen=True)
 class Settling:
-    """How long motions are run to find out whether they settle on an orbit, and how accurately.
+    """How long motions are run to find out whether they settle to an orbit, and how accurately.
 
     Attributes
     ----------
     tolerance : float
-        Local error allowed in a step of the integrator, dimensionless.
+        Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Forcing periods after which a motion is stopped if it is chaotic beyond doubt, or if the
-        loose mass hardly moves and has touched no wall during these periods.
+        Number of forcing cycles. After it a motion is stopped if it is certainly chaotic, or if the
+        loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Forcing periods after which every motion is stopped, as chaotic if that is certain, or as
-        drifting if its loose mass has touched no wall for `patience` periods.
+        Number of forcing cycles after which every motion is stopped. Its outcome is then chaotic if
+        it certainly is, drifting if the loose mass has touched no wall for `patience` cycles, and
+        otherwise undecided.
     watched : int
-        Further forcing periods for which a motion that has not settled is run to measure it.
+        Number of further forcing cycles for which a motion that has not settled is run to measure
+        its displacement.
     further : int
-        Most forcing periods for which a motion that is undecided at `limit` is run on, to find out
-        whether it is quasi-periodic, periodic with a long period, or chaotic.
-        A motion still undecided then is unresolved.
+        Largest number of further forcing cycles for which an undecided motion is run, to find out
+        whether it is quasi-periodic, periodic with a long period, or chaotic. The outcome of a
+        motion that is undecided even then is unresolved.
 
     Raises
     ------

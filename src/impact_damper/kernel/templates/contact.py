@@ -1,6 +1,7 @@
-"""Search for the first contact of a flight, with the kernels of `root_search`.
+"""Search for the beginning of a contact within a flight, with the kernels of `root_search`.
 
-This file is a template (see `step`): all templates are compiled together as one module.
+This file is a template: `instances.instance` joins it with the other templates into one module. The
+template `step` explains the names in capitals.
 """
 
 import math
@@ -9,45 +10,48 @@ from impact_damper.kernel.compiling import kernel_only
 
 LANES: int
 
-# Upper bound of (t - t^k) / k over t in [0, 1] and powers k >= 2. The largest is 0.1283, for k = 3.
+# Upper bound on (t - t^k)/k for t in [0, 1] and all powers k >= 2. The maximum is 0.1283, at k = 3.
 SAG = 0.13
 
 
 @kernel_only
 def loose_mass(a, i, t):
-    """Return Z2 and Z2' in flight, from Z1 and its slope at t: the loose mass moves uniformly."""
+    """Return Z2 and Z2' at time t of a flight, from Z1 and its slope at t.
+
+    The loose mass moves at constant velocity, so Z2 - Z1 is a linear function of time.
+    """
     drift = a[Y3 + i] - a[Y1 + i]
     return a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t, a[Z1_SLOPE + i] + drift
 
 
 @kernel_only
 def first_guess(a, i):
-    """Return the time of the contact by the first three terms of the gap's series."""
-    gap = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
+    """Return the time of the contact by the first three terms of the series of the distance."""
+    distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
     bend = a[WALL + i] * a[G + i]
-    return 2.0 * gap / (speed + math.sqrt(max(speed * speed + 2.0 * bend * gap, 0.0)))
+    return 2.0 * distance / (speed + math.sqrt(max(speed * speed + 2.0 * bend * distance, 0.0)))
 
 
 @kernel_only
-def gap_ahead(a, i, t):
-    """Return the gap to the WALL at t, the step of Newton's method to its root, and its bend.
+def distance_ahead(a, i, t):
+    """Return the distance f to the WALL at t, the Newton step -f/f' to its root, and f''/f'.
 
-    The bend is the second derivative over the first (see `chebyshev`). Z1, its slope and its curve
-    at t are known.
+    Before the call Z1, Z1_SLOPE and Z1_CURVE must hold Z1 and its first two derivatives at t.
     """
     z, w = loose_mass(a, i, t)
     closing = a[WALL + i] * w
-    gap = min(a[CLEARANCE + i], FAR) - a[WALL + i] * z
-    return gap, gap / closing, a[WALL + i] * a[Z1_CURVE + i] / closing
+    distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * z
+    return distance, distance / closing, a[WALL + i] * a[Z1_CURVE + i] / closing
 
 
 @kernel_only
 def expect_contact(a):
-    """Move T from LENGTH to the expected time of a contact, if one is expected in the step.
+    """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
 
-    Whether a contact is expected follows from the first three terms of the series, and its time
-    from half of all terms: the processor need not wait for the last coefficients.
+    The first three terms of the series decide whether a lane expects a contact. The time of the
+    contact follows from half of all terms, so that the processor need not wait for the last
+    coefficients.
     """
     expected = 0
     for i in range(LANES):
@@ -62,12 +66,12 @@ def expect_contact(a):
 
 @kernel_only
 def guess_contact(a):
-    """Move T to the expected contact of trajectories whose MODE is BRACKET, else to LENGTH."""
+    """Move T to the expected contact in lanes whose MODE is BRACKET, otherwise to LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
     for i in range(LANES):
-        _, first, bend = gap_ahead(a, i, a[T + i])
+        _, first, bend = distance_ahead(a, i, a[T + i])
         t = a[T + i] + chebyshev(first, bend)
         inside = a[MODE + i] == BRACKET and 0.0 < t and t < a[LENGTH + i]
         a[T + i] = t if inside else a[LENGTH + i]
@@ -75,26 +79,27 @@ def guess_contact(a):
 
 @kernel_only
 def find_contact(a):
-    """Move T to the first contact in [0, T]: where |Z2| reaches the clearance from inside.
+    """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
-    If there is one, WALL becomes the wall and MODE becomes MET. If there is certainly none, T
-    stays and MODE becomes MISSED. In either case END_Z1 and END_Z1_SLOPE become Z1 and its slope at
-    T. Before the call Z1 and its slope at T must be known. T is before LENGTH if a contact is
-    expected at T; the contact may lie a little later.
+    If there is such a time, MODE becomes MET and WALL the wall that is met. If there is certainly
+    none, MODE becomes MISSED and T does not change. In either case END_Z1 and END_Z1_SLOPE receive
+    Z1 and its slope at T. Before the call, Z1 and its slope at T must be known, and a T below
+    LENGTH means that `expect_contact` expects a contact at T; the contact may lie slightly later.
 
-    Most flights are decided here by bounds, without a search. CHANGE is the sum of the moduli of
-    all terms of Z1' after the first, at T. The bounds hold for any series, so they do not depend on
-    the spring.
+    Bounds decide most flights without a search. CHANGE is the sum of the moduli of all terms of Z1'
+    after the first, at T. The bounds hold for any series, so they do not depend on the spring. The
+    wall "ahead" is the wall to which the loose mass moves at the beginning of the flight.
 
-    - `clear`: each term of Z1 departs from its chord over [0, T] by at most SAG times its share of
-      CHANGE T. So does Z2. No wall is met ahead if Z2 is further from it than this at both ends.
-    - `left`: there are two lower bounds on the distance from the wall behind, one from the chord,
-      the other from the initial speed minus CHANGE. If their mean is positive, this wall is not met
-      again.
-    - `certain`: there is a lower bound on the speed from either end. If the mean of both is
-      positive, the speed keeps its sign: only the wall ahead can be met, and only once.
+    - `clear`: over [0, T], Z1 and therefore Z2 deviate from their chords by at most SAG CHANGE T.
+      If
+      the distance to the wall ahead exceeds this deviation at both ends, this wall is not met.
+    - `left`: the chord gives one lower bound on the distance to the wall behind, and the initial
+      speed minus CHANGE gives another. If the mean of the bounds is positive, this wall is not met.
+    - `certain`: the speed at each end of the flight gives a lower bound on the speed within it. If
+      the mean of the two bounds is positive, the velocity keeps its sign. Then only the wall ahead
+      can be met, and only once.
     """
-    unsettled = 0
+    undecided = 0
     expected = 0
     for i in range(LANES):
         t = a[T + i]
@@ -114,39 +119,39 @@ def find_contact(a):
         a[WALL + i] = wall
         a[MODE + i] = MISSED if missed else (BRACKET if certain else MARCH)
         expected += 1 if awaited else 0
-        unsettled += 0 if missed else 1
+        undecided += 0 if missed else 1
     if expected > 0:
-        unsettled = meet_expected(a)
-    if unsettled > 0:
+        undecided = meet_expected(a)
+    if undecided > 0:
         search_contact(a)
 
 
 @kernel_only
 def meet_expected(a):
-    """Decide `find_contact` for trajectories with a contact expected at T, by one iteration.
+    """Do one iteration towards the contact in lanes that expect a contact at T.
 
-    This is enough for most. Return the number of trajectories that are still undecided.
+    One iteration finds most of these contacts. Return the number of lanes that are still undecided.
     """
     flight_curve(a)
-    unsettled = 0
+    undecided = 0
     for i in range(LANES):
         t = a[T + i]
         awaited = a[MODE + i] == BRACKET and t < a[LENGTH + i]
-        gap, first, bend = gap_ahead(a, i, t)
+        distance, first, bend = distance_ahead(a, i, t)
         move = chebyshev(first, bend)
         inside = 0.0 < t + move and t + move <= a[LENGTH + i]
         met = awaited and inside and is_last_move(a, i, move, abs(bend))
-        otherwise = MISSED if awaited and gap > 0.0 else a[MODE + i]
+        otherwise = MISSED if awaited and distance > 0.0 else a[MODE + i]
         a[MODE + i] = MET if met else otherwise
         a[T + i] = t + move if met else t
         store_end(a, i, Z1, END_Z1, move, met)
-        unsettled += 1 if a[MODE + i] < MET else 0
-    return unsettled
+        undecided += 1 if a[MODE + i] < MET else 0
+    return undecided
 
 
 @kernel_only
 def search_contact(a):
-    """Decide `find_contact` by iteration for trajectories that its bounds leave undecided."""
+    """Search for the contact in lanes that the bounds of `find_contact` leave undecided."""
     for i in range(LANES):
         a[LENGTH + i] = a[T + i]
         a[LOW + i] = 0.0
@@ -177,17 +182,19 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # From a wall that recedes, the gap within `shortest` is below its rounding error.
+                # Next to a wall that recedes, the distance stays below its rounding error for the
+                # time `shortest`, so the search may advance by this time.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)
-                # A mass at rest on the wall is judged by its acceleration, a little later.
+                # A mass at rest on the wall either enters or leaves it, which depends on its
+                # acceleration. `closing` is false for zero speed, so a later time decides.
                 t, mode = march_step(
                     t, clearance - wall * z, wall * w > 0.0, ahead, a[LENGTH + i], fine
                 )
             elif mode == BRACKET:
-                gap, first, bend = gap_ahead(a, i, t)
-                move, mode = bracketed_step(a, i, t, gap, first, bend, 0.0, fine)
+                distance, first, bend = distance_ahead(a, i, t)
+                move, mode = bracketed_step(a, i, t, distance, first, bend, 0.0, fine)
                 t += move
             elif mode == ENDING:
                 mode = MISSED

@@ -1,6 +1,7 @@
 """Cosine and sine of the forcing's phase at the beginning of a step, times its amplitude.
 
-This file is a template (see `step`): all templates are compiled together as one module.
+This file is a template: `instances.instance` joins it with the other templates into one module. The
+template `step` explains the names in capitals.
 """
 
 import math
@@ -15,17 +16,17 @@ LANES: int
 # pi/2 as the sum of two numbers. The first has so few digits that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# If COSINE and SINE are known for a phase that is closer than this, four terms of the addition
-# theorem give those wanted.
+# If COSINE and SINE are known for a phase that differs by less than NEAR, the new values follow
+# from the addition theorem, with the series of cos and sin of the difference up to third order.
 NEAR = 1e-4
 
 
 @kernel_only
 def find_forcing(a):
-    """Find COSINE and SINE of the forcing's phase at the time KNOWN, times its amplitude.
+    """Compute COSINE and SINE of the forcing's phase at the time KNOWN, times the amplitude.
 
-    The phase is reduced to an eighth of a turn around 0, where the series of `circular_series`
-    converge fast.
+    Multiples of a quarter turn are subtracted from the phase, so that its modulus is at most an
+    eighth of a turn. There the series of `circular_series` converge fast.
     """
     for i in range(LANES):
         angle = a[FREQUENCY + i] * a[KNOWN + i]
@@ -49,9 +50,10 @@ def find_forcing(a):
 
 @kernel_only
 def forcing(a):
-    """Find COSINE and SINE of the forcing's phase at TIME, times its amplitude.
+    """Compute COSINE and SINE of the forcing's phase at TIME, times the amplitude.
 
-    With one lane they may be known from `look_ahead`, for TIME itself or for a time close to it.
+    With one lane `look_ahead` may have computed the two for the time KNOWN, which is TIME or close
+    to it.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -67,9 +69,10 @@ def forcing(a):
 
 @kernel_only
 def look_ahead(a):
-    """With one lane, find the forcing at T, where the step is expected to end.
+    """With one lane, compute COSINE and SINE at T, the expected end of the step.
 
-    So the next step need not wait for it. With several lanes there is other work meanwhile.
+    The processor does this while it waits for other results of the step. With several lanes it does
+    not wait, and the function does nothing.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

@@ -1,18 +1,20 @@
-"""Search for a root of the gap within a step.
+"""Search for the first root of an event function f(t) within a step.
 
-An event is a root of the *gap*: the distance to a wall in flight, the penetration in contact. Each
-search is in one of five modes, which it keeps in the row MODE.
+In flight f is the distance of the loose mass to a wall, and its root is the beginning of a contact.
+In contact f is the penetration, and its root is the separation. Each search is in one of five
+modes, whose number stands in the row MODE:
 
-    MARCH     several roots are possible. A bound on the second derivative of the gap gives a time
-              within which the gap cannot vanish; the search advances by such times, so that it
-              never passes the first root
-    BRACKET   at most one root is possible. A safeguarded iteration of third order finds it
-    ENDING    the search has marched to the end of the step without a root
-    MET       the root has been found
-    MISSED    there is certainly no root in the step
+    MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
+    vanish.
+              The search advances by such times, so that it never passes the first root.
+    BRACKET   at most one root is possible. A safeguarded iteration of third order finds it.
+    ENDING    the search has reached the end of the step in mode MARCH without a root.
+    MET       the root has been found.
+    MISSED    the step certainly contains no root.
 
-The templates `contact` and `release` search with these kernels. This file is a template (see
-`step`): all templates are compiled together as one module.
+The templates `contact` and `separation` call these kernels. This file is a template:
+`instances.instance` joins it with the other templates into one module. The template `step` explains
+the names in capitals.
 """
 
 import math
@@ -22,8 +24,8 @@ from impact_damper.kernel.compiling import kernel_only
 LANES: int
 
 ROUNDING = 2.0**-50
-# Stop the iteration for a root once (move / time in which the gap bends)^3 is below LAST_MOVE times
-# the tolerance: the cube is the size of the term that is neglected in the speed.
+# The iteration for a root ends once (move / bending time)^3 is below LAST_MOVE times the tolerance.
+# The bending time is |f'/f''|. The cube is the size of the first term of f' that is neglected.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED = 0.0, 1.0, 2.0, 3.0, 4.0
 TINY = 1e-300
@@ -31,15 +33,15 @@ FAR = 1e200
 
 
 @kernel_only
-def safe_advance(gap, closing, bound):
-    """Return a time within which the gap cannot vanish.
+def safe_advance(f, closing, bound):
+    """Return a time within which the event function cannot vanish.
 
-    It is the first root of gap - closing t - bound t^2/2, where `closing` is the speed at which the
-    gap closes and `bound` an upper bound on the modulus of its second derivative.
+    The time is the first root t of f - closing t - bound t^2/2, where f is the value of the event
+    function now, `closing` is -f' and `bound` is an upper bound on |f''|.
     """
-    gap = max(gap, 0.0)
-    root = math.sqrt(closing * closing + 2.0 * bound * gap)
-    above = 2.0 * gap if closing > 0.0 else root - closing
+    f = max(f, 0.0)
+    root = math.sqrt(closing * closing + 2.0 * bound * f)
+    above = 2.0 * f if closing > 0.0 else root - closing
     below = closing + root if closing > 0.0 else bound + TINY
     return above / below
 
@@ -48,8 +50,9 @@ def safe_advance(gap, closing, bound):
 def march_step(t, f, closing, ahead, length, fine):
     """Return the next time and mode of a search in mode MARCH.
 
-    f is the gap at t; from t on it stays positive for the time `ahead`. The root is at t if f is
-    below the rounding error `fine` and the gap closes, or if `ahead` is too short to advance t.
+    f is the value of the event function at t, and f stays positive from t to t + `ahead`. The root
+    is at t if f decreases (`closing`) and either f is below its rounding error `fine` or `ahead` is
+    too short to change t.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
@@ -61,16 +64,16 @@ def march_step(t, f, closing, ahead, length, fine):
 def chebyshev(first, bend):
     """Return a step of Chebyshev's method, which is of third order.
 
-    `first` is the step of Newton's method, and `bend` the second derivative over the first.
+    `first` is the step of Newton's method, -f/f', and `bend` is f''/f'.
     """
     return first * (1.0 - 0.5 * bend * first)
 
 
 @kernel_only
 def is_last_move(a, i, move, rate):
-    """Return whether a move is so short that the terms it neglects are far below the tolerance.
+    """Return whether the terms that a move neglects are far below the tolerance (see LAST_MOVE).
 
-    `rate` is the inverse of the time in which the gap bends.
+    `rate` is the inverse of the bending time.
     """
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
@@ -78,20 +81,24 @@ def is_last_move(a, i, move, rate):
 
 @kernel_only
 def bracketed_step(a, i, t, f, first, bend, rate, fine):
-    """Return the next move and mode of a search in mode BRACKET: one safeguarded iteration.
+    """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
 
-    f is the gap at t, positive at LOW and not positive at HIGH, with one root between them. HIGH is
-    FAR while no such time is known: then at most one root lies between LOW and the end of the step.
-    A move that would leave the bracket is replaced by bisection.
+    The event function is positive at LOW and not positive at HIGH, and has one root between them.
+    HIGH is FAR while no time is known at which the function is not positive. Then at most one root
+    lies between LOW and the end of the step. A move that would leave the bracket is replaced by
+    bisection.
 
     Parameters
     ----------
+    t, f : float
+        Time, and value of the event function at this time.
     first, bend : float
-        As in `chebyshev`, or another first guess and the bend that this guess neglects.
+        Arguments of `chebyshev`. In place of a Newton step `first` may be another estimate of the
+        move to the root; `bend` then belongs to the terms which that estimate neglects.
     rate : float
-        Lower limit of the rate that `is_last_move` receives.
+        Lower limit of the rate that is passed to `is_last_move`.
     fine : float
-        Rounding error of the gap.
+        Rounding error of the event function.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
@@ -106,17 +113,17 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
         return 0.0, MISSED
     inner = move if inside else 0.5 * (low + min(high, length)) - t
     step = length - t if past else inner
-    # The search also ends where the move is below the rounding of t, or is NaN.
+    # The search also ends if the move is too short to change t, or is NaN.
     moved = t + step > t or t + step < t
     return step, MET if last or not moved else BRACKET
 
 
 @kernel_only
 def store_end(a, i, row, end, move, going):
-    """Store value and slope after a move in the rows from `end` on, if the search is `going` on.
+    """Store value and slope after a move in `end` and the next row, if the search is `going` on.
 
-    They are extrapolated from value, slope, curve and jerk before the move: the four rows from
-    `row` on.
+    The two are extrapolated from the value and the first three derivatives (slope, curve, jerk)
+    before the move, which stand in the four rows that begin with `row`.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]
@@ -128,7 +135,7 @@ def store_end(a, i, row, end, move, going):
 
 @kernel_only
 def store_search(a, i, mode, t, move):
-    """Store time, mode and Z1 of a search after a move; return 1 if it goes on, else 0."""
+    """Store time, mode and Z1 of a search after a move; return 1 if the search goes on, else 0."""
     going = a[MODE + i] <= ENDING
     a[T + i] = t
     a[MODE + i] = mode

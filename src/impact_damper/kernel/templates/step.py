@@ -1,15 +1,16 @@
-"""One Taylor step of the event-driven flow, for one trajectory or several side by side.
+"""One Taylor step of the integration, for one trajectory or several side by side.
 
-A step takes trajectories that are all in flight, or all in contact, each to its next event or to
-its end of the step, whichever comes first. An event is the beginning or the end of a contact; the
-templates `contact` and `release` search for them.
+The trajectories of a step are all in flight or all in contact. The step integrates each of them to
+its next event or over the longest admitted time, whichever is shorter. An event is the beginning of
+a contact, which the template `contact` searches for, or the end of a contact, which the template
+`separation` searches for.
 
-The files in this folder are templates. `instances.instance` joins them into one module, for a
-number of lanes and a pair of orders, behind the constants declared below and the functions that
-`evaluation.Source` writes. All numbers stand in flat arrays, `a` for trajectories and `d` for
-tangents. A name in capitals is the index at which its row begins (`series.rows`), and lane i of the
-row stands i places further. No lane reads the numbers of another, so the result for a trajectory
-does not depend on its neighbours.
+The files in this folder are templates. `instances.instance` joins them into one module for a number
+of lanes and a pair of orders. The module begins with the constants declared below and with the
+functions that `evaluation.Source` writes. All numbers stand in flat arrays, `a` for trajectories
+and `d` for tangents. A name in capitals, such as Y0, is the index at which a row begins
+(`series.rows`), and a[Y0 + i] is the number of lane i in this row. No lane reads the numbers of
+another lane, so the result for a trajectory does not depend on the other trajectories.
 """
 
 import math
@@ -27,16 +28,17 @@ SIZE: int
 TANGENT_SIZE: int
 
 ONE = 1023 << 52
-# Share of the tolerance that a step may use. Contacts amplify local errors; with this share the
-# error of settled motions stays within 10 tolerances.
+# The last terms of the series may reach SAFETY times the tolerance. Contacts amplify local errors;
+# with this factor the error of settled motions stays below 10 times the tolerance.
 SAFETY = 0.05
-# In a flight with a predicted length the last terms may exceed `largest_tail` by this factor.
+# Because the length of a flight is only predicted, the last terms may exceed `largest_tail` by the
+# factor EXCESS before the flight is shortened.
 EXCESS = 4.0
 
 
 @kernel_only
 def bits(x):
-    """Return the bits of a float as an integer; for x > 0 nearly ONE + 2^52 log2(x)."""
+    """Return the bits of a float as an integer, which for x > 0 is nearly ONE + 2^52 log2(x)."""
     return np.float64(x).view(np.int64)
 
 
@@ -54,10 +56,11 @@ def largest_tail(a, i):
 
 @kernel_only
 def limit_length(a, series, order, excess):
-    """Shorten LENGTH so that the last two terms of a series' slope stay below `largest_tail`.
+    """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
 
-    This is done only in lanes whose TAIL exceeds `largest_tail` by the factor `excess`. Roots are
-    computed by division of the bits, that is of logarithms, with an error of a few per cent.
+    Only lanes whose TAIL exceeds `largest_tail` by the factor `excess` are changed. LENGTH is the
+    n-th root of a ratio. It is computed with an error of a few per cent from the bits of the
+    numbers, which are nearly proportional to logarithms.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -73,9 +76,10 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    The coefficients of Z1 from the order EARLY on are taken to fall geometrically from SCALE, and
-    LENGTH is such that the last terms of Z1' are then within the tolerance. The last coefficients
-    are not needed yet, so the processor can begin with the next step before they are known.
+    The coefficients of Z1 are assumed to decay geometrically from SCALE, at the rate of the
+    coefficient of order EARLY or of the two after it. LENGTH is the time at which the last terms of
+    Z1' then reach SAFETY times the tolerance. The last coefficients are not needed, so the
+    processor can begin with the next step before they are computed.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -95,7 +99,7 @@ def predict_length(a):
 
 @kernel_only
 def end_flight(a):
-    """Find END_Z1 and END_Z1_SLOPE at T, which is moved back where the last terms are too large."""
+    """Compute END_Z1 and END_Z1_SLOPE at T; T is reduced where the last terms are too large."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
@@ -112,7 +116,7 @@ def end_flight(a):
 
 @kernel_only
 def flight_step(a):
-    """Step trajectories in flight; SIDE becomes the wall on which a contact begins, or 0."""
+    """Step trajectories in flight; SIDE becomes the wall at which a contact begins, or 0."""
     forcing(a)
     flight_series(a)
     predict_length(a)
@@ -132,10 +136,10 @@ def flight_step(a):
         met = a[MODE + i] == MET
         offset = a[Y2 + i] - a[Y0 + i]
         drift = a[Y3 + i] - a[Y1 + i]
-        free = a[END_Z1 + i] + offset + drift * t
+        flown = a[END_Z1 + i] + offset + drift * t
         a[Y0 + i] = a[END_Z1 + i]
         a[Y1 + i] = a[END_Z1_SLOPE + i]
-        a[Y2 + i] = a[WALL + i] * a[CLEARANCE + i] if met else free
+        a[Y2 + i] = a[WALL + i] * a[CLEARANCE + i] if met else flown
         a[Y3 + i] = a[END_Z1_SLOPE + i] + drift
         a[SIDE + i] = a[WALL + i] if met else 0.0
         a[LENGTH + i] = t
@@ -143,7 +147,7 @@ def flight_step(a):
 
 @kernel_only
 def flight_tangents(a, d):
-    """Carry tangents through the flight that `flight_step` has just made."""
+    """Integrate tangents over the flight that `flight_step` has just integrated."""
     flight_squares(a)
     flight_tangent_series(a, d)
     for i in range(TANGENTS):
@@ -158,7 +162,7 @@ def flight_tangents(a, d):
 
 @kernel_only
 def contact_tangents(a, d):
-    """Carry tangents through the contact that `contact_step` has just made."""
+    """Integrate tangents over the step in contact that `contact_step` has just integrated."""
     contact_squares(a)
     contact_tangent_series(a, d)
     contact_tangent_value(a, d)
@@ -167,10 +171,11 @@ def contact_tangents(a, d):
 
 @kernel_only
 def dashpot_jump(a, d, direction):
-    """Let tangents jump where the dashpot's force has set in (direction -1) or ended (+1).
+    """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
-    This is the saltation matrix of the event Z2 = +-d0. Only the force is discontinuous, so the
-    jump is linear in the tangent's Z2, does not depend on the speed, and has determinant 1.
+    The tangent jumps where the dashpot's force sets in (direction -1) or ends (direction +1). Only
+    this force is discontinuous. Therefore the jump is proportional to the tangent's Z2 and does not
+    depend on the speed, and the matrix has determinant 1.
     """
     for i in range(TANGENTS):
         j = i % LANES
@@ -185,7 +190,7 @@ def dashpot_jump(a, d, direction):
 def contact_step(a):
     """Step trajectories in contact; SIDE becomes 0 where the contact ends."""
     forcing(a)
-    predict_release(a)
+    predict_separation(a)
     contact_series(a)
     look_ahead(a)
     contact_bound(a)
@@ -200,13 +205,13 @@ def contact_step(a):
         for i in range(LANES):
             a[T + i] = min(a[T + i], a[LENGTH + i])
         contact_bound(a)
-    find_release(a)
+    find_separation(a)
     for i in range(LANES):
-        released = a[MODE + i] == MET
+        separated = a[MODE + i] == MET
         wall = a[SIDE + i] * a[CLEARANCE + i]
         a[Y0 + i] = a[END_Z1 + i]
         a[Y1 + i] = a[END_Z1_SLOPE + i]
-        a[Y2 + i] = wall if released else wall + a[END_DEPTH + i]
+        a[Y2 + i] = wall if separated else wall + a[END_DEPTH + i]
         a[Y3 + i] = a[END_DEPTH_SLOPE + i]
-        a[SIDE + i] = 0.0 if released else a[SIDE + i]
+        a[SIDE + i] = 0.0 if separated else a[SIDE + i]
         a[LENGTH + i] = a[T + i]

@@ -1,6 +1,7 @@
-"""The search for the release, at which a contact ends.
+"""Search for the separation, at which the loose mass leaves the wall and a contact ends.
 
-This file is a template (see `step`): all templates are compiled together as one module.
+This file is a template: `instances.instance` joins it with the other templates into one module. The
+template `step` explains the names in capitals.
 """
 
 import math
@@ -12,10 +13,12 @@ from impact_damper.kernel.equation import spring, spring_slope
 
 LANES: int
 
-# Longest step in natural periods of the contact, while the penetration grows and while it shrinks,
-# and the share of the natural frequency by which the phase of the contact may turn faster. A step
-# then turns the phase by less than 3/4 or 1/2 of a turn, which holds one release at most.
-LONGEST_DEEPENING, LONGEST_RETURNING, PHASE_MARGIN = 0.55, 0.4, 0.25
+# Longest step while the penetration grows and while it shrinks, in natural periods of the contact.
+LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
+# Largest relative increase of the rate at which the phase of the contact turns. With this margin
+# the phase turns by less than 3/4 or 1/2 of a turn in the two kinds of steps, so that a step
+# contains at most one separation.
+PHASE_MARGIN = 0.25
 
 
 @kernel_only
@@ -29,10 +32,10 @@ def fast_exp2(y):
 
 @kernel_only
 def time_to_zero(f, slope, natural):
-    """Return nearly the time until a harmonic oscillation with value f and this slope is zero.
+    """Return the approximate time until a harmonic oscillation with value f and this slope is zero.
 
-    That is arctan(natural * move) / natural, where move = -f / slope is the step of Newton's
-    method, with a rational function in place of the arctangent.
+    The exact time is arctan(natural * move) / natural, with the Newton step move = -f / slope. A
+    rational function replaces the arctangent.
     """
     u = (natural * f) ** 2
     v = slope * slope
@@ -40,11 +43,11 @@ def time_to_zero(f, slope, natural):
 
 
 @kernel_only
-def predict_release(a):
-    """Find the NATURAL frequency of the contact, LENGTH, and T, the predicted time of the release.
+def predict_separation(a):
+    """Compute the NATURAL frequency of the contact, LENGTH, and the predicted separation T.
 
-    T is LENGTH if no release is expected before. The prediction needs only the state, so that the
-    processor need not wait for the series.
+    T is LENGTH if no separation is expected before LENGTH. The prediction needs only the state, so
+    that the processor need not wait for the series.
     """
     for i in range(LANES):
         wall = a[SIDE + i]
@@ -58,9 +61,9 @@ def predict_release(a):
         loss = a[DASHPOT + i] * mobility
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
-        # g is the acceleration that does not come from the wall. A contact that begins here lasts
-        # half a natural period, changed by the mean of g over it. A contact on its way is taken
-        # to oscillate freely.
+        # g is the acceleration that does not come from the wall. A contact that has just begun
+        # (q = 0) lasts half a damped natural period plus a correction by the mean of g over this
+        # time. A contact that began earlier is treated as a harmonic oscillation, without g.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
@@ -75,23 +78,24 @@ def predict_release(a):
 
 
 @kernel_only
-def find_release(a):
+def find_separation(a):
     """Move T to the first time in [0, LENGTH] at which the penetration returns to zero.
 
-    At the call T is a guess. If there is a release, MODE becomes MET. If there is certainly none,
-    T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes receive
-    the values of Z1, of the penetration q and of both slopes at T.
+    Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
+    none, T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes
+    receive the values of Z1, of the penetration q and of both slopes at T.
 
-    Let g be the part of the acceleration that does not come from the wall, |g| <= G = BOUND, for
-    any spring and forcing, since the bound is a sum over the series of g. With the natural
-    frequency w and the damping D of the contact,
+    Let g be the part of the acceleration that does not come from the wall. Its bound |g| <= G, in
+    the row BOUND, is the sum of the moduli of the terms of its series, so it holds for any spring
+    and forcing. With the natural frequency w of the contact and the damping
+    D = DASHPOT (1 + 1/rm) of the relative motion,
 
         q'' = g - w^2 q - D q'.
 
-    R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G, and falls at most at the rate G + D R,
-    which bounds q''. The phase of (w q, q') turns at the rate w, with a deviation of at most
-    G/R + D/2. If the deviation is below PHASE_MARGIN w over the step, q has at most one root in
-    it, and the search need not march.
+    The radius R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate
+    G + D R. The bounds on R bound |q''|. The phase of (w q, q') turns at the rate w, with a
+    deviation of at most G/R + D/2. If the deviation is below PHASE_MARGIN w over the step, q has at
+    most one root in the step, and the search begins in mode BRACKET.
     """
     contact_values(a)
     uncertain = 0
