@@ -2,19 +2,20 @@
 
 While the loose mass touches a wall, equations (20) to (23) give for the penetration q = |Z2| - d0
 
-    q'' + 2 z wn q' + wn^2 q = g,   wn^2 = r1 (1 + 1/rm),   z = zeta_c sqrt(1 + rm),
+    q'' + 2 z wn q' + wn^2 q = g,   wn^2 = r1 (1 + 1/rm),   z = zeta_c sqrt(1 + rm).
 
-where g is the acceleration of Z1 towards the wall by all other forces, nearly constant during the
-short contact. With s = wn t, u = wn q/v0 and the approach speed v0 this is
+Here g is the acceleration of Z1 towards the wall by all forces other than the contact force. It is
+nearly constant during the short contact. With s = wn t, u = wn q/v0 and the approach speed v0 the
+equation becomes
 
-    u'' + 2 z u' + u = G,   u(0) = 0,   u'(0) = 1,   G = g/(wn v0):
+    u'' + 2 z u' + u = G,   u(0) = 0,   u'(0) = 1,   G = g/(wn v0).
 
-so that a contact depends only on the restitution e, which gives z by (25), and on the load G, the
-dimensionless acceleration by the other forces. A positive load presses loose mass and wall
-together. The force of the wall is F = u + 2 z u'.
+A contact therefore depends only on the restitution e, which gives z by (25), and on the load G. A
+positive load presses loose mass and wall together. The force of the wall is F = u + 2 z u'.
 
-Two exit rules say when a contact ends: `zero_penetration` (appendix B) when u = 0, so that the wall
-may pull the loose mass before; `no_tension` when F = 0, so that it never pulls.
+An exit rule states when a contact ends. By `zero_penetration` (appendix B) it ends when u = 0; the
+wall may pull the loose mass shortly before. By `no_tension` it ends when F = 0; the wall never
+pulls.
 """
 
 import math
@@ -33,13 +34,15 @@ class Exit(NamedTuple):
     Attributes
     ----------
     outcome : str
-        "released"; "falls_back" if under `no_tension` the loose mass leaves the wall, but the load
-        drives it back into the wall before u = 0; "no_release" if the contact does not end.
+        "released" if the loose mass separates from the wall. "falls_back" if the rule `no_tension`
+        ends the contact, but the load drives the loose mass back before u = 0. "no_release" if the
+        contact does not end.
     duration : float
         s = wn t at the end of the contact, infinite if the contact does not end.
     departure : float
-        The realised restitution: speed at u = 0 divided by approach speed. If the contact ended
-        before, a flight under the load leads to u = 0. NaN unless released.
+        The realised restitution: speed at u = 0 divided by approach speed. If the contact ends
+        before u = 0, the loose mass flies under the load until u = 0. NaN unless the outcome is
+        "released".
     """
 
     outcome: str
@@ -48,12 +51,12 @@ class Exit(NamedTuple):
 
 
 class Tension(NamedTuple):
-    """Pull of the wall before the penetration is zero again; NaN if the contact does not end.
+    """Pull of the wall on the loose mass at the end of a contact; NaN if the contact does not end.
 
     Attributes
     ----------
     time : float
-        Share of the duration of the contact in which the wall pulls.
+        Time in which the wall pulls divided by the duration of the contact.
     impulse : float
         Impulse of the pull divided by the impulse of the push.
     peak : float
@@ -84,14 +87,20 @@ class _Wave(NamedTuple):
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
     def first_extrema(self):
-        """Return s at the first maximum (0 if the function falls from s = 0) and next minimum."""
+        """Return s at the first maximum and at the minimum after it.
+
+        If the function decreases from s = 0 on, the maximum is at 0.
+        """
         slope = self.slope()
         turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
         rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
         return (turn / self.w, (turn + math.pi) / self.w) if rising else (0.0, turn / self.w)
 
     def first_fall(self):
-        """Return s at the first fall to zero, or infinity, since later minima are no deeper."""
+        """Return s at which the function first decreases to zero, or infinity if it never does.
+
+        Only the first minimum is examined, because later minima are not lower.
+        """
         top, bottom = self.first_extrema()
         if self(bottom) > 0:
             return math.inf
@@ -105,12 +114,15 @@ def damping_ratio(restitution) -> float:
 
 
 def natural_frequency(damper) -> float:
-    """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`; elastic contact without load lasts pi/wn."""
+    """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`.
+
+    An elastic contact without load lasts pi/wn.
+    """
     return math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
 
 
 def _waves(restitution, load):
-    """Return penetration u and force F of a contact as functions of s = wn t."""
+    """Return penetration u and wall force F of a contact as functions of s = wn t."""
     check_number("restitution", restitution, above=0.0, most=1.0)
     check_number("load", load)
     z = damping_ratio(restitution)
@@ -126,7 +138,7 @@ def contact(restitution, load, rule) -> Exit:
     Parameters
     ----------
     restitution : float
-        The intended e, for which (25) gives the dashpot.
+        The intended restitution e, from which (25) gives the dashpot; dimensionless.
     load : float
         G = g/(wn v0), dimensionless.
     rule : str
@@ -135,7 +147,7 @@ def contact(restitution, load, rule) -> Exit:
     Raises
     ------
     TypeError, ValueError
-        If an argument is out of range.
+        If an argument is not a number or out of range.
     """
     if rule not in EXIT_RULES:
         raise ValueError(f"rule = {rule!r}: must be one of {', '.join(EXIT_RULES)}")
@@ -158,7 +170,12 @@ def tension(restitution, load) -> Tension:
     Parameters
     ----------
     restitution, load : float
-        As of `contact`.
+        Intended restitution e, and load G = g/(wn v0), dimensionless.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not a number or out of range.
     """
     penetration, force = _waves(restitution, load)
     speed = penetration.slope()

@@ -1,8 +1,8 @@
-"""Contacts of simulated motions: their load, and their realised restitution.
+"""Load and realised restitution of the contacts of simulated motions.
 
-`contact_law` defines the load and the realised restitution of a contact. Contacts are logged, that
-is recorded one by one, for two of the motions with contacts that random starts reach: the smallest
-settled motion, and the largest motion, settled or not.
+`contact_law` defines both. Random starts lead to motions, and each contact of two of these motions
+is recorded ("logged"): the smallest settled motion with contacts, and the largest motion with
+contacts, settled or not.
 """
 
 from dataclasses import replace
@@ -21,16 +21,19 @@ from impact_damper.system.packed import DASHPOT, FREQUENCY, pack
 # and "fair" if it is at most FAIR.
 CLOSE, FAIR = 0.01, 0.05
 SIZES = ("smallest", "largest")
-# Accuracy, in the dashpot's coefficient, at which the end of a stable orbit is located.
+# If an orbit cannot be followed to the wanted dashpot coefficient, the coefficient at which the
+# stable orbit ends is located to within RESOLUTION.
 RESOLUTION = 1e-6
 # Largest number of contacts that are logged.
 LARGEST_LOG = 10**5
-# Errors stated for a motion are this quantile over its contacts.
+# The error of a motion is the quantile MOST of the errors of its contacts.
 MOST = 0.99
 
 
 def logged_contacts(oscillator, damper, frequency, state, periods):
-    """Log the contacts of a motion that begin and end within a number of forcing periods.
+    """Return load, restitution and duration of the contacts of a motion.
+
+    Contacts that do not both begin and end within the logged time are omitted.
 
     Parameters
     ----------
@@ -39,20 +42,21 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     frequency : float
         W.
     state : array, shape (4,)
-        State at W T = pi/2.
+        Z1, Z1', Z2, Z2' at W T = pi/2.
     periods : int
+        Logged time in forcing cycles.
 
     Returns
     -------
     dict of numpy.ndarray
-        Arrays with one entry for each contact. `load`: g/(wn v0) at its beginning. `restitution`:
-        speed of departure divided by speed of approach. `duration`: duration divided by pi/wn, the
-        duration of an elastic contact without load.
+        Arrays with one entry for each contact, dimensionless. `load`: g/(wn v0) at the beginning of
+        the contact. `restitution`: speed of departure divided by speed of approach. `duration`:
+        duration divided by pi/wn, which is the duration of an elastic contact without load.
 
     Raises
     ------
     ValueError
-        If there are more contacts than the log holds.
+        If there are more than LARGEST_LOG contacts.
     """
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)
@@ -62,7 +66,7 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     count = records.trace(p, np.array(state), begin, times, tolerance, states, log)
     if count > LARGEST_LOG:
         raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in this time")
-    # the same integration again, now to store the states at which contacts begin
+    # The same integration is repeated to store the states at which contacts begin.
     times = np.append(log[:count, 1], times)
     states = np.empty((len(times), 4))
     records.trace(p, np.array(state), begin, times, tolerance, states, log)
@@ -78,9 +82,9 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return records of the smallest settled and of the largest motion with contacts.
+    """Return the smallest settled motion and the largest motion among those with contacts.
 
-    Each is a `records.MOTION`, or None if there is no such motion.
+    Each is a record of type `records.MOTION`, or None if there is no such motion.
 
     Parameters
     ----------
@@ -95,8 +99,8 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
     """
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
-    found = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
-    touching = found[(found["contacts"] > 0) & np.isfinite(found["maximum_displacement"])]
+    motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
+    touching = motions[(motions["contacts"] > 0) & np.isfinite(motions["maximum_displacement"])]
     settled = touching[is_settled(touching)]
     return (
         settled[np.argmin(settled["maximum_displacement"])] if len(settled) else None,
@@ -105,7 +109,7 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
 
 
 def compare_contacts(oscillator, damper, frequency, motion, periods):
-    """Compare the restitution in the contacts of a motion with e and with the closed form.
+    """Compare the realised restitution of a motion with e and with the closed form.
 
     Parameters
     ----------
@@ -115,14 +119,14 @@ def compare_contacts(oscillator, damper, frequency, motion, periods):
         W.
     motion : records.MOTION or None
     periods : int
-        Forcing periods over which contacts are logged.
+        Forcing cycles over which contacts are logged.
 
     Returns
     -------
     table : dict
         Values of registered variables, keyed by name.
     logged : dict or None
-        What `logged_contacts` returns; None without a motion.
+        Result of `logged_contacts`; None without a motion.
     """
     if motion is None:
         return {
@@ -158,24 +162,26 @@ def compare_contacts(oscillator, damper, frequency, motion, periods):
 
 
 def _most(error, released):
-    """Return the quantile MOST of |error| over the released contacts."""
+    """Return the quantile MOST of |error| over the contacts that end in a separation."""
     return np.quantile(np.abs(error[released]), MOST)
 
 
 def without_pull(oscillator, damper, frequency, motion):
-    """Return max |Z1| of a settled motion as it would be if walls did not pull the loose mass.
+    """Estimate max |Z1| of a settled motion under the rule `no_tension`, when walls never pull.
 
-    The simulation ends contacts by the rule `zero_penetration`. The rule `no_tension` is imitated
-    by the dashpot that realises its higher restitution (without load); the orbit is followed to
-    this dashpot. The duration of contacts remains that of `zero_penetration`.
+    The simulation ends contacts by the rule `zero_penetration`. With the same dashpot, the rule
+    `no_tension` realises a higher restitution without load. The function follows the orbit to the
+    weaker dashpot with which `zero_penetration` realises this restitution. The duration of the
+    contacts is not corrected.
 
     Returns
     -------
     displacement : float
-        NaN unless found.
+        max |Z1|, dimensionless; NaN unless the status is found.
     status : int
-        Flag of `scene_without_pull_status`: found, not_settled, not_followed if the orbit cannot be
-        followed to this dashpot, or other_contacts if it then has another number of contacts.
+        Flag of `scene_without_pull_status`: found; not_settled; not_followed if the orbit cannot be
+        followed to the weaker dashpot; other_contacts if the followed orbit has another number of
+        contacts.
     """
     if not is_settled(motion):
         return np.nan, flag("scene_without_pull_status", "not_settled")

@@ -1,12 +1,16 @@
-"""Orbits of the rigid-impact model with two impacts a forcing period, without and with corrections.
+"""Orbits of the rigid-impact model with two impacts in a forcing cycle, and corrections of them.
 
-The corrected ("mended") rigid walls imitate a compliant contact of finite stiffness r1. Such a
-contact takes the time tc, and the loose mass must leave it at the right time with the right speed.
-Time: rigid walls further out by delta = v tc e/(1 + e), v the approach speed, make the loose mass
-return to |Z2| = d0 when the compliant contact ends. Speed: the load, that is the other forces
-during the contact, changes the speed at this end; `mended_walls` gives the restitution e' of the
-rigid wall that yields the same speed. The error of the orbit is of order 1/sqrt(r1) between plain
-rigid walls and of order 1/r1 between corrected ones.
+The model replaces compliant walls of finite stiffness r1 by rigid walls. A contact with a compliant
+wall takes the time tc. The corrected ("mended") rigid walls imitate it in two ways.
+
+- They are further out by delta = v tc e/(1 + e), with the approach speed v. The loose mass then
+  returns to |Z2| = d0 at the time at which the contact with the compliant wall ends.
+- They have another restitution e', which `mended_walls` returns. The loose mass then has the speed
+  at |Z2| = d0 that it has at the end of the compliant contact, which depends on the load (the
+  acceleration by other forces during the contact).
+
+The error of the orbit is of order 1/sqrt(r1) between plain rigid walls and of order 1/r1 between
+corrected walls.
 """
 
 from typing import NamedTuple
@@ -18,9 +22,9 @@ from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rigid_map
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE, DASHPOT, pack
 
-# Number of impacts in a forcing period of an orbit; largest number of corrections of Newton's
-# method; largest relative difference between the approach speeds of impacts that count as
-# symmetric.
+# IMPACTS: number of impacts of an orbit in a forcing cycle. ITERATIONS: largest number of steps of
+# Newton's method. SAME_SPEED: an orbit counts as symmetric if the approach speeds of its impacts
+# differ relatively by at most this number.
 IMPACTS = 2
 ITERATIONS = 12
 SAME_SPEED = 1e-6
@@ -42,7 +46,7 @@ class RigidOrbit(NamedTuple):
     acceleration : float
         Acceleration of Z1 towards the wall before an impact.
     maps : int
-        Number of maps over a forcing period that Newton's method computed.
+        Number of integrations over a forcing cycle that Newton's method took.
     """
 
     state: np.ndarray
@@ -54,7 +58,7 @@ class RigidOrbit(NamedTuple):
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
-    """Find an orbit of the rigid model by Newton's method; r1 of the damper has no effect.
+    """Find an orbit of the rigid model by Newton's method. The damper's r1 has no effect.
 
     Parameters
     ----------
@@ -70,18 +74,18 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
     -------
     orbit : RigidOrbit or None
     status : str
-        "found"; "not_followed" if Newton's method fails; "other_contacts" if the orbit has other
-        than two symmetric impacts a period; "chatter" if there are MOST_IMPACTS in a period.
+        "found"; "not_followed" if Newton's method fails; "other_contacts" if the orbit does not
+        have two symmetric impacts in a cycle; "chatter" if a cycle has MOST_IMPACTS impacts.
     """
     p = pack(oscillator, damper, frequency)
     return _solve(p, damper.restitution, guess, reach)
 
 
 def _solve(p, restitution, guess, reach):
-    """Return what `rigid_orbit` does, for packed parameters and any restitution."""
+    """Return orbit and status as `rigid_orbit`, for packed parameters and any restitution."""
     p = p.copy()
     p[DASHPOT] = 0.0
-    restitution = float(restitution)  # for an int numba would compile the map again
+    restitution = float(restitution)  # numba would compile the map a second time for an int
     y = np.array(guess, float)
     for k in range(ITERATIONS):
         state, matrix, impacts, slowest, first, largest = rigid_map(
@@ -108,21 +112,23 @@ def _solve(p, restitution, guess, reach):
 def mended_walls(oscillator, damper, orbit):
     """Return clearance d0 + delta and restitution e' of rigid walls that replace compliant ones.
 
-    The corrections are of first order in 1/wn, with the natural frequency wn and the damping ratio
-    z of the contact (`contact_law`), v the approach speed and a the acceleration of Z1 towards the
-    wall before the contact. Three effects change the restitution e:
+    The corrections are of first order in 1/wn. Here wn is the natural frequency and z the damping
+    ratio of the contact (`contact_law`), v the approach speed, and a the acceleration of Z1 towards
+    the wall before the contact. Three effects change the restitution e:
 
-    - the damping h of Z1 damps the relative motion in contact by h rm/(1 + rm), which adds to z;
-    - the load of the contact, G = (a + h rm/(1 + rm) v)/(wn v), adds -2 z (1 + e) G to e;
-    - between d0 and the wall at d0 + delta the loose mass flies under the acceleration a before and
-      a_after after the impact. To undo its effect, (delta/v^2) (a_after/e - e a) is added.
+    - The damping h of Z1 also damps the relative motion in contact, by h rm/(1 + rm), and thereby
+      increases z.
+    - The load of the contact, G = (a + h rm/(1 + rm) v)/(wn v), adds -2 z (1 + e) G to e.
+    - Between d0 and the rigid wall at d0 + delta the loose mass flies under the acceleration a
+      before and a_after after the impact. Adding (delta/v^2) (a_after/e - e a) to e compensates
+      this flight, which the compliant contact does not have.
 
     Parameters
     ----------
     oscillator : Oscillator
     damper : Damper
     orbit : RigidOrbit
-        Orbit between plain rigid walls, which gives v and a.
+        Orbit between plain rigid walls, from which v and a are taken.
 
     Returns
     -------
@@ -130,21 +136,21 @@ def mended_walls(oscillator, damper, orbit):
         The restitution e' may exceed 1.
     """
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
-    share = damper.mass_ratio / (1 + damper.mass_ratio)
+    reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), natural_frequency(damper)
     duration = np.pi / (natural * np.sqrt(1 - z * z))
     shift = v * duration * e / (1 + e)
-    after = before + h * (1 + e) * share * v
-    load = (before + h * share * v) / (natural * v)
-    damped = e * np.pi * h * share / (2 * natural * (1 - z * z) ** 1.5)
+    after = before + h * (1 + e) * reduced * v
+    load = (before + h * reduced * v) / (natural * v)
+    damped = e * np.pi * h * reduced / (2 * natural * (1 - z * z) ** 1.5)
     returned = e - damped - 2 * z * (1 + e) * load
     return damper.clearance + shift, returned + shift / v**2 * (after / e - e * before)
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return orbit and status as `rigid_orbit`, between the corrected walls of `mended_walls`.
+    """Return orbit and status as `rigid_orbit`, but between the corrected walls of `mended_walls`.
 
-    Newton's method starts from `orbit`, the orbit between plain rigid walls.
+    Newton's method begins at `orbit`, the orbit between plain rigid walls.
     """
     clearance, restitution = mended_walls(oscillator, damper, orbit)
     p = pack(oscillator, damper, frequency)

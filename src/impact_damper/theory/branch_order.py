@@ -1,44 +1,46 @@
-"""Order solutions that are found at each frequency by itself along branches over frequency."""
+"""Sort solutions, found at each frequency separately, into branches over the frequency."""
 
 import numpy as np
 
-# Solutions at neighbouring frequencies are of one branch only if they are closer than this share of
-# the largest solution; a longer way is a jump.
+# Solutions at neighbouring frequencies can belong to one branch only if their distance is below
+# JUMP times the size of the largest solution.
 JUMP = 0.25
 
 
 def branches_over(rows) -> list[np.ndarray]:
-    """Number the solutions at each value of a parameter by branches that do not jump.
+    """Return the number of the branch of each solution, at each value of a parameter.
 
-    A solution continues the branch of the solution at the value before that is nearest to it, if it
-    is also the nearest to that one. Where two branches meet and vanish, at a fold, each of the two
-    moves less than they are apart, so they are not confused. Other solutions begin a branch.
+    Two solutions at neighbouring values of the parameter belong to the same branch if each is the
+    nearest one to the other and their distance is below JUMP times the size of the largest
+    solution. Any other solution begins a new branch. Two branches that meet at a fold are not
+    confused, because each of them moves less from value to value than their distance.
 
     Parameters
     ----------
     rows : list of array, shape (count, m)
-        Coordinates of the solutions at each value of the parameter, continuous along a branch.
+        Coordinates of the solutions at each value of the parameter. The coordinates are continuous
+        along a branch.
 
     Returns
     -------
     list of numpy.ndarray of int, shape (count,)
-        Numbers of the branches, from 0 in order of their first solutions.
+        Numbers of the branches, counted from 0 in the order of their first solutions.
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
     reach = JUMP * max(sizes, default=1.0)
     numbers, begun = [], 0
     last, names = np.empty((0, 1)), np.empty(0, int)
     for row in rows:
-        found = np.full(len(row), -1)
+        branch = np.full(len(row), -1)
         if len(row) and len(last):
             distance = np.linalg.norm(row[:, None] - last[None], axis=2)
             before, after = distance.argmin(axis=1), distance.argmin(axis=0)
             place = np.arange(len(row))
             kept = (after[before] == place) & (distance[place, before] < reach)
-            found[kept] = names[before[kept]]
-        new = found < 0
-        found[new] = begun + np.arange(new.sum())
+            branch[kept] = names[before[kept]]
+        new = branch < 0
+        branch[new] = begun + np.arange(new.sum())
         begun += int(new.sum())
-        numbers.append(found)
-        last, names = row, found
+        numbers.append(branch)
+        last, names = row, branch
     return numbers

@@ -1,32 +1,36 @@
-"""Design rule (19) for the clearance. Imports no NumPy, since the workflow evaluates it too."""
+"""Design rule (19) of the paper for the clearance.
+
+This module imports no NumPy, because Snakemake reads it at every dry run.
+"""
 
 import math
 
 
 def peak_frequency(oscillator) -> float:
-    """Peak frequency Wp of rule (19), at which Z1 without the damper lags by a quarter period.
+    """Return the peak frequency Wp of rule (19), dimensionless.
 
-    Defined by a = f/(h W) and W^2 = wl^2 + (3/4) k3 a^2 (section 2.1) with the forcing amplitude
-    f = F + U W^2 + V/W^2, so without V, which only a linear spring has, Wp^2 = s solves
+    At Wp the displacement Z1 without the damper lags the forcing by a quarter of a cycle. Section
+    2.1 gives a = f/(h W) and W^2 = wl^2 + (3/4) k3 a^2, with the forcing amplitude
+    f = F + U W^2 + V/W^2. For V = 0 the square Wp^2 = s therefore solves
 
         (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0,   g = (3/4) k3.
 
-    Of the two solutions with a softening spring, the one with the smaller amplitude is the peak.
-    Dimensionless. The maximum of the response curve lies slightly below, see
-    `free_oscillator.maximum_response`.
+    V occurs only with a linear spring (k3 = 0), for which Wp = wl. A softening spring (k3 < 0) has
+    two solutions, and the peak is the solution with the smaller amplitude. The maximum of the
+    response curve lies at a slightly lower frequency, see `free_oscillator.maximum_response`.
 
     Raises
     ------
     ValueError
-        If no motion lags by a quarter period: neither stiffness is positive; or the motion goes
-        over the barrier of a softening spring at a lower amplitude; or with a hardening spring the
-        unbalance outgrows the damping.
+        If no motion lags by a quarter of a cycle. There are three reasons: neither the linear nor
+        the cubic stiffness is positive; the motion crosses the barrier of a softening spring at a
+        lower amplitude; or, with a hardening spring, the unbalance is too large for the damping.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2
-    share = 1 - scale * oscillator.unbalance**2
+    leading = 1 - scale * oscillator.unbalance**2
     middle = stiffness + 2 * scale * oscillator.force * oscillator.unbalance
-    if share <= 0:
+    if leading <= 0:
         raise ValueError(
             f"unbalance = {oscillator.unbalance:g}: the response has no peak, it grows with the "
             f"frequency without end; with cubic = {oscillator.cubic:g} and damping = "
@@ -34,7 +38,7 @@ def peak_frequency(oscillator) -> float:
             f"{oscillator.damping / math.sqrt(hardening):g}"
         )
     cubic = 2 * math.sqrt(abs(hardening)) * oscillator.force / oscillator.damping
-    middle, cubic = middle / share, cubic / math.sqrt(share)
+    middle, cubic = middle / leading, cubic / math.sqrt(leading)
     if hardening < 0 and middle < cubic:
         raise ValueError(
             f"force = {oscillator.force:g}: the response has no peak, the motion goes over the "
@@ -53,15 +57,15 @@ def peak_frequency(oscillator) -> float:
 
 
 def rule_clearance(oscillator, mass_ratio) -> float:
-    """Clearance d0 = f/(rm Wp^2) of rule (19), dimensionless.
+    """Return the clearance d0 = f/(rm Wp^2) of rule (19), dimensionless.
 
-    With this clearance the amplitude a = 0 solves (13) at the peak frequency Wp. The forcing
-    amplitude is f = F + U Wp^2.
+    With this clearance the amplitude a = 0 solves (13) at the peak frequency Wp. f is the forcing
+    amplitude F + U W^2 + V/W^2 at W = Wp.
 
     Raises
     ------
     ValueError
-        If there is no peak, or no forcing.
+        If `peak_frequency` finds no peak, or if there is no forcing.
     """
     peak = peak_frequency(oscillator)
     forcing = oscillator.forcing_amplitude(peak)

@@ -1,22 +1,22 @@
-"""Values and extrema of real Fourier series, and the intervals in which one exceeds a level.
+"""Values and extrema of real Fourier series, and the intervals in which a series exceeds a level.
 
 A series z(s) is the sum of c_k exp(i k s) over all k in K and in -K, where K (`harmonics`) is an
 ascending array of non-negative integers. c_-k is the conjugate of c_k, and c_0 is real, so that z
-is real. `coefficients` are the c_k for k in K. Angles s are in radian.
+is real. The array `coefficients` holds the c_k for k in K. Angles s are in radian.
 """
 
 import numpy as np
 from scipy.fft import next_fast_len
 from scipy.optimize import brentq
 
-# Intervals narrower than this, in radian, are not halved further in the search for crossings.
+# In the search for crossings, intervals narrower than SHORTEST (in radian) are not halved.
 SHORTEST = 1e-9
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
-    """Values of a series at the angles 2 pi j/count, j = 0 ... count - 1.
+    """Return the values of a series at the angles 2 pi j/count, j = 0 ... count - 1.
 
-    Exact if count > 2 max(harmonics).
+    The values are exact if count > 2 max(harmonics).
     """
     spectrum = np.zeros(count // 2 + 1, complex)
     spectrum[harmonics] = coefficients
@@ -24,18 +24,18 @@ def samples(coefficients, harmonics, count) -> np.ndarray:
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Derivative of a series at angles; `order` is the order of the derivative, 0 for the value."""
+    """Return the derivative of the given order of a series at angles; order 0 is the value."""
     weights = np.where(harmonics == 0, 1, 2) * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
 def product_samples(harmonics, degree) -> int:
-    """Number of samples with which a product of `degree` series has no aliasing error in K."""
+    """Return the number of samples with which a product of `degree` series has no aliasing in K."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
 def largest(coefficients, harmonics) -> float:
-    """Maximum of |z(s)|: the largest samples, refined by Newton's method on the slope."""
+    """Return the maximum of |z(s)|, from the largest samples and Newton's method for z'(s) = 0."""
     count = next_fast_len(16 * int(harmonics[-1]) + 64)
     size = np.abs(samples(coefficients, harmonics, count))
     top = np.flatnonzero((size >= np.roll(size, 1)) & (size >= np.roll(size, -1)))
@@ -47,11 +47,11 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Intervals of s in which z(s) > level (wall 1) or z(s) < -level (wall -1).
+    """Return the intervals of s in which z(s) > level (wall 1) or z(s) < -level (wall -1).
 
-    No interval is missed. A bound on the second derivative of z shows which cells (intervals
-    between two samples) contain no crossing of the level, and which exactly one; the other cells
-    are halved down to the width SHORTEST.
+    No interval wider than SHORTEST is missed. A bound on the second derivative of z shows which
+    cells (intervals between two samples) contain no crossing of the level and which contain exactly
+    one. All other cells are halved, down to the width SHORTEST.
 
     Returns
     -------
@@ -62,7 +62,7 @@ def intervals(coefficients, harmonics, level) -> np.ndarray:
 
 
 def _beyond(coefficients, harmonics, level, wall):
-    """Rows of `intervals` for one wall."""
+    """Return the rows of `intervals` for one wall."""
 
     def penetration(angle):
         return wall * value(coefficients, harmonics, angle) - level
@@ -82,7 +82,7 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Ascending cells, shape (count, 2), each with exactly one sign change of `function`."""
+    """Return ascending cells, shape (count, 2), each with exactly one sign change of `function`."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []
@@ -103,14 +103,14 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Fourier coefficients of the function that is 1 in all `intervals` and 0 elsewhere.
+    """Return the Fourier coefficients of the function that is 1 in all `intervals`, elsewhere 0.
 
     Parameters
     ----------
     rows : array, shape (count, 3)
-        Returned by `intervals`.
+        Result of `intervals`.
     orders : array of int, shape (m,)
-        Indices k of the coefficients, of either sign.
+        Indices k of the coefficients, positive or negative.
 
     Returns
     -------

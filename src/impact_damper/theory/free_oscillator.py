@@ -1,17 +1,18 @@
 """Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
 
-a is the amplitude and t1 the phase of the primary mass. Equation (3) without contact gives, with
-g = (3/4) k3, the linear frequency wl and the forcing amplitude f = F + U W^2 + V/W^2 (V only with
-k3 = 0),
+a is the amplitude and t1 the phase of the primary mass. Let wl be the linear frequency, g = (3/4)
+k3, and f = F + U W^2 + V/W^2 the forcing amplitude (V = 0 unless k3 = 0). Then equation (3) without
+contact gives
 
-    (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2,
+    (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2.
 
-a cubic in a^2 at a fixed frequency W and a quadratic in W^2 at a fixed amplitude a. Every quantity
-is dimensionless, angles are in radian.
+This is a cubic equation in a^2 at a fixed frequency W, and a quadratic equation in W^2 at a fixed
+amplitude a. All quantities are dimensionless. Angles are in radian.
 
-With a softening spring the response curve has a second part, whose amplitudes near the barrier
-|Z1| = wl/sqrt(-k3) a single harmonic describes badly. The curve through the peak is the one with
-amplitudes up to that of `maximum_response`.
+With a softening spring (k3 < 0) the response curve has two parts. The main part passes through the
+resonance peak, and its amplitudes do not exceed the amplitude of `maximum_response`. The second
+part has larger amplitudes, near the barrier |Z1| = wl/sqrt(-k3) of the spring, where a single
+harmonic is a poor approximation.
 """
 
 from functools import lru_cache
@@ -23,7 +24,7 @@ from numpy.polynomial import Polynomial
 from impact_damper.system.checks import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
-# Amplitudes that exceed a bound by at most this share count as within the bound.
+# Amplitudes that exceed a bound by at most this relative amount count as within the bound.
 ROUNDING = 1e-9
 
 
@@ -35,7 +36,7 @@ class FreeSolutions(NamedTuple):
     amplitude : numpy.ndarray, shape (count,)
         a > 0, ascending. Without forcing the only solution is 0.
     phase : numpy.ndarray, shape (count,)
-        t1 in (-pi, pi], phase of Z1 to the forcing.
+        t1 in (-pi, pi], phase of Z1 relative to the forcing.
     """
 
     amplitude: np.ndarray
@@ -55,9 +56,9 @@ class Resonance(NamedTuple):
     Attributes
     ----------
     amplitude : float
-        a; at a frequency beyond the end of the branch, a at that end.
+        a. At a frequency beyond the end of the branch, the amplitude at this end.
     phase : float or None
-        t1; None at a frequency beyond the end of the branch.
+        t1. None at a frequency beyond the end of the branch.
     """
 
     amplitude: float
@@ -65,7 +66,7 @@ class Resonance(NamedTuple):
 
 
 def free_solutions(oscillator, frequency) -> FreeSolutions:
-    """All solutions without the damper at one frequency, by ascending amplitude.
+    """Return all solutions without the damper at one frequency, by ascending amplitude.
 
     Raises
     ------
@@ -80,7 +81,8 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
     squares = polynomial_roots(
         [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
     )
-    # with a tiny k3 rounding makes a double root out of a near miss far beyond the bound f/(h W)
+    # With a tiny k3 rounding errors produce a double root where there is none. Its amplitude is far
+    # above the bound f/(h W).
     squares = squares[squares <= (force / drag) ** 2 * (1 + ROUNDING)]
     amplitude = np.sqrt(squares)
     inline = amplitude * (detuning + hardening * squares)
@@ -88,7 +90,9 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Those of `free_solutions` on the curve through the peak; not all with a softening spring.
+    """Return those of `free_solutions` on the main part of the curve, through the peak.
+
+    With a linear or hardening spring these are all solutions.
 
     Raises
     ------
@@ -105,7 +109,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 def balance_amplitudes(oscillator, frequency):
     """Return the amplitudes of `main_solutions`, ascending.
 
-    For a softening spring without a resonance peak only the smallest amplitude is returned.
+    If a softening spring has no resonance peak, only the smallest of all amplitudes is returned.
     """
     try:
         return main_solutions(oscillator, frequency).amplitude
@@ -114,10 +118,10 @@ def balance_amplitudes(oscillator, frequency):
 
 
 def resonance(oscillator, frequency) -> Resonance:
-    """Free resonance branch: the part of the response curve that begins at the peak.
+    """Return the free resonance branch, the branch of the response curve on which the peak lies.
 
-    With a hardening spring it extends to low frequencies and ends at the upper fold; with a
-    softening one it extends to high frequencies and ends at the fold next to the peak. Without
+    With a hardening spring the branch extends to low frequencies and ends at the upper fold. With a
+    softening spring it extends to high frequencies and ends at the fold next to the peak. Without
     folds it is the whole curve.
 
     Raises
@@ -136,20 +140,22 @@ def resonance(oscillator, frequency) -> Resonance:
 
 
 def maximum_response(oscillator) -> Point:
-    """Maximum of the free response curve over W, exact within single-term harmonic balance.
+    """Return the maximum of the free response curve over W.
 
-    The frequencies at which the curve has the amplitude a are the roots of a quadratic in W^2,
+    It is exact within single-term harmonic balance. The frequencies at which the curve has the
+    amplitude a are the roots of a quadratic equation in W^2,
 
         (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0,   m = wl^2 + g a^2.
 
-    They coincide at the maximum, where its discriminant, another quadratic in a^2, vanishes. With
-    V the response also grows without end towards W = 0, and its local maximum is returned.
+    At the maximum the two roots coincide. Then the discriminant of this equation vanishes, which is
+    a quadratic equation in a^2. With V > 0 the response also grows without limit towards W = 0; the
+    function then returns the local maximum at resonance.
 
     Raises
     ------
     ValueError
-        If the amplitude decreases from W = 0 on (large damping), increases without end (a large
-        unbalance and a hardening spring), or reaches the barrier of a softening spring.
+        If the amplitude decreases from W = 0 on (large damping), increases without limit (large
+        unbalance with a hardening spring), or reaches the barrier of a softening spring.
     """
     if oscillator.shaker:
         return _peak_on_a_shaker(oscillator)
@@ -180,10 +186,10 @@ def maximum_response(oscillator) -> Point:
 
 
 def _peak_on_a_shaker(oscillator):
-    """Return the local maximum of `maximum_response` with V: there the slope of f^2/D vanishes.
+    """Return the local maximum of the response with V > 0, where the derivative of a^2 vanishes.
 
-    With s = W^2, f = F + U s + V/s and D = s^2 + b s + wl^4, where b = h^2 - 2 wl^2, the slope has
-    the sign of 2 f' D - f D'.
+    For a linear spring a^2 = f^2/D. With s = W^2, f = F + U s + V/s, D = s^2 + b s + wl^4 and
+    b = h^2 - 2 wl^2, the derivative of a^2 by s has the sign of 2 f' D - f D'.
     """
     stiffness = oscillator.linear_frequency**2
     force, unbalance, shaker = oscillator.force, oscillator.unbalance, oscillator.shaker
@@ -202,15 +208,16 @@ def _peak_on_a_shaker(oscillator):
 
 
 def free_folds(oscillator) -> list[Point]:
-    """Folds of the free response curve, by ascending amplitude: two or none for a hardening spring.
+    """Return the folds of the free response curve, by ascending amplitude.
 
-    The curve is a quadratic in s = W^2, see `maximum_response`. At a fold its derivative by
-    u = a^2, a quadratic too, vanishes as well. Their resultant is a polynomial of degree five in u,
-    and for U = 0 the common root is
+    A hardening spring has two folds or none. The curve is the zero set of a quadratic polynomial in
+    s = W^2, see `maximum_response`. At a fold the derivative of this polynomial by u = a^2, which
+    is also quadratic in s, vanishes too. The resultant of both is a polynomial of degree five in u.
+    For U = 0 their common root is
 
         s = wl^2 + g u - h^2/2 + (F^2/u^2 + g h^2)/(2 g).
 
-    With a softening spring the folds of the curve's second part are among them.
+    With a softening spring the list also contains the folds of the second part of the curve.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
@@ -232,9 +239,9 @@ def free_folds(oscillator) -> list[Point]:
     root = (force**2 / squares**2 + g * damping) / (2 * g)
     linear = damping - 2 * stiffness - 4 * g * squares
     bend = stiffness**2 + 4 * g * stiffness * squares + 3 * (g * squares) ** 2
-    share = 1 - unbalance * (2 * force - unbalance * linear) / (2 * g * squares**2)
+    leading = 1 - unbalance * (2 * force - unbalance * linear) / (2 * g * squares**2)
     frequencies = stiffness + g * squares - damping / 2 + root
-    frequencies = (frequencies - unbalance**2 * bend / (2 * g * squares**2)) / share
+    frequencies = (frequencies - unbalance**2 * bend / (2 * g * squares**2)) / leading
     return [
         Point(float(np.sqrt(square)), float(np.sqrt(u)))
         for square, u in zip(frequencies, squares, strict=True)

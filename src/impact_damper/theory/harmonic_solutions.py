@@ -1,4 +1,4 @@
-"""Solutions of the harmonic balance of `many_harmonics`, by Newton's method."""
+"""Solve the equations of harmonic balance of `many_harmonics` by Newton's method."""
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -11,27 +11,28 @@ from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import main_solutions
 from impact_damper.theory.many_harmonics import Balance
 
-# Newton's method: largest change of a coefficient on convergence, relative to the largest
-# coefficient; most steps; smallest factor by which a step is shortened.
+# Newton's method. TOLERANCE: largest change of a coefficient in the last step, relative to the
+# largest coefficient. ITERATIONS: largest number of steps. LEAST_DAMPING: smallest factor by which
+# a step is multiplied.
 TOLERANCE = 1e-11
 ITERATIONS = 40
 LEAST_DAMPING = 1e-4
 
 
 class Solution(NamedTuple):
-    """Last iterate of Newton's method for a balance: a solution if the status is "converged".
+    """Last iterate of Newton's method, which is a solution if the status is "converged".
 
     Attributes
     ----------
     balance : Balance
     coefficients : numpy.ndarray of complex, shape (2, m)
-        Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper of Z1
-        only, shape (1, m).
+        Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper the
+        coefficients of Z1 only, shape (1, m).
     status : str
-        "converged"; "stalled" if no shortened step makes the following step shorter; or
-        "iteration_limit".
+        "converged"; "stalled" if even the shortest admitted step fails the test of `solve`; or
+        "iteration_limit" if the number of steps was reached.
     iterations : int
-        Steps of Newton's method taken.
+        Number of steps of Newton's method.
     residual : float
         Largest absolute entry of the real residual.
     """
@@ -44,20 +45,22 @@ class Solution(NamedTuple):
 
 
 def solve(balance, start, iterations=ITERATIONS) -> Solution:
-    """Solve a balance by damped Newton's method, from an approximation with any harmonics.
+    """Solve the equations of a balance by the damped Newton's method.
 
-    A step is halved until the following step, computed with the same Jacobian, is shorter: the
-    natural monotonicity test of Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3. The residual would be a poor measure, since the stiff contact dominates it. The method
-    has converged when a step changes no coefficient by more than 1e-11 of the largest one.
+    A step is halved until the following step, computed with the same Jacobian, is shorter. This is
+    the natural monotonicity test of Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
+    3.3. The residual would be a poor measure of progress, because the stiff contact dominates it.
+    The method has converged when a step changes no coefficient by more than TOLERANCE times the
+    largest coefficient.
 
     Parameters
     ----------
     balance : Balance
     start : array, shape (1 or 2, any)
-        Coefficients of the lowest retained harmonics; all higher ones start at zero.
+        First guess of the coefficients of the lowest retained harmonics. The first guess of all
+        higher coefficients is zero.
     iterations : int
-        Number of steps allowed.
+        Largest number of steps.
 
     Returns
     -------
@@ -93,8 +96,8 @@ def solve(balance, start, iterations=ITERATIONS) -> Solution:
 def factorised(matrix):
     """Return the LU factors of a matrix for `scipy.linalg.lu_solve`.
 
-    They are computed in another thread, so that Ctrl-C is heard at once: with a thousand harmonics
-    the computation takes seconds.
+    The factors are computed in another thread, because the computation takes seconds with a
+    thousand harmonics. In the main thread it would delay the reaction to Ctrl-C.
     """
     pool = ThreadPoolExecutor(1)
     try:
@@ -106,8 +109,9 @@ def factorised(matrix):
 def single_term(oscillator, damper, frequency) -> np.ndarray:
     """Return the coefficients of a single-term solution, the first guess for more harmonics.
 
-    With a damper, taken as elastic, this is the solution of equation (7) with the least |a|;
-    without a damper the solution with the greatest |a| on the curve through the peak.
+    With a damper this is the solution of equation (7) with the smallest |a|; (7) assumes elastic
+    contact, so the restitution is not used. Without a damper it is the solution with the largest a
+    on the response curve through the peak.
 
     Parameters
     ----------
@@ -129,30 +133,32 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
         Without a damper, as in `free_oscillator.main_solutions`.
     """
     if damper is None:
-        found = main_solutions(oscillator, frequency)
-        sizes = found.amplitude[-1:]
-        phase = found.phase[-1]
+        solutions = main_solutions(oscillator, frequency)
+        sizes = solutions.amplitude[-1:]
+        phase = solutions.phase[-1]
     else:
-        found = single_harmonic.impacting_solutions(
+        solutions = single_harmonic.impacting_solutions(
             oscillator, replace(damper, restitution=1.0), frequency
         )
-        if not len(found.amplitude):
+        if not len(solutions.amplitude):
             raise ArithmeticError(f"frequency = {frequency:g}: (7) has no solution with contacts")
-        least = np.argmin(np.abs(found.amplitude))
-        sizes = np.array([found.amplitude[least], found.relative_amplitude[least]])
-        phase = found.phase[least]
+        least = np.argmin(np.abs(solutions.amplitude))
+        sizes = np.array([solutions.amplitude[least], solutions.relative_amplitude[least]])
+        phase = solutions.phase[least]
     return sizes[:, None] * np.exp(1j * phase) / 2
 
 
 def refine(balances, start) -> list:
-    """Return a `Solution` of each balance; its first guess is the last solution that converged.
+    """Return a `Solution` of each balance.
+
+    The first guess for a balance is the last solution before it that converged.
 
     Parameters
     ----------
     balances : list of Balance
         In the order of increasing numbers of harmonics.
     start : numpy.ndarray
-        Coefficients that are the first guess for the first balance, as from `single_term`.
+        First guess for the first balance, for example from `single_term`.
     """
     solutions = []
     for balance in balances:
@@ -163,7 +169,7 @@ def refine(balances, start) -> list:
 
 
 def state_of(solution) -> np.ndarray:
-    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2; without a damper Z2 = Z1."""
+    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2, with Z2 = Z1 without a damper."""
     balance = solution.balance
     state = [
         fourier.value(each, balance.harmonics, np.pi / 2, order) * balance.frequency**order

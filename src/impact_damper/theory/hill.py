@@ -1,19 +1,19 @@
 """Hill's method: Floquet exponents of a motion from the Fourier series of its linearisation.
 
-A disturbance exp(lambda T) p(T) with periodic p turns the linearised equations into the quadratic
-eigenvalue problem (Q0 + lambda Q1 + lambda^2 Q2) p = 0, where `many_harmonics.Balance.operator`
-gives the matrices, truncated at the harmonics of the balance. In contact the force on the
-disturbance is r1 M p + c (d/dT + lambda)(M p), with M = 1 in contact and 0 elsewhere. The time
-derivative of M contains Dirac impulses at entry and exit. They account for the displaced entry and
-exit, at which the dashpot force jumps, so that no saltation matrix is needed.
+For a disturbance exp(lambda T) p(T) with periodic p the linearised equations become the quadratic
+eigenvalue problem (Q0 + lambda Q1 + lambda^2 Q2) p = 0. `many_harmonics.Balance.operator` returns
+the matrices, truncated at the harmonics of the balance. In contact the force on the disturbance is
+r1 M p + c (d/dT + lambda)(M p), with M = 1 in contact and 0 elsewhere. The time derivative of M
+contains Dirac impulses at the beginning and end of each contact. The impulses represent the jumps
+of the dashpot force at the displaced ends of the contact, so that no saltation matrix is needed.
 
-The infinite problem has copies of each exponent, spaced by i s. The spacing s is 2 nu for a
-symmetric motion, for which only odd harmonics of p are used, and nu otherwise (nu is the base
-frequency of the motion). In the truncated problem the copies near the middle of the spectrum are
-accurate and those near its ends are not. Kept are the copies in the strip -s/2 < Im lambda <= s/2.
-If their number is not the dimension of the state, the status is "not_separated".
+In the infinite problem each exponent has copies at distances of i s. Let nu be the base frequency
+of the motion. For a symmetric motion only odd harmonics of p are used and s = 2 nu; otherwise s =
+nu. In the truncated problem the copies near the middle of the spectrum are accurate and the copies
+near its ends are not. The copies in the strip -s/2 < Im lambda <= s/2 are returned. If their number
+is not the dimension of the state, the status is "not_separated".
 
-Compare Lazarus and Thomas, C. R. Mecanique 338, 510 (2010), on choosing among the copies.
+Lazarus and Thomas, C. R. Mecanique 338, 510 (2010), discuss how to choose among the copies.
 """
 
 from typing import NamedTuple
@@ -24,12 +24,13 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
 from impact_damper.theory.harmonic_solutions import factorised
 
-# With at most DENSE unknowns all eigenvalues are computed, with more only those nearest to zero, as
-# many as make COPIES copies of each exponent.
+# With at most DENSE unknowns all eigenvalues are computed. With more unknowns only the eigenvalues
+# nearest to zero are computed: COPIES of them for each exponent.
 DENSE = 100
 COPIES = 3
-# An imaginary part closer to s/2 than this share of s/2 is set to s/2. Such an exponent belongs to
-# a negative real multiplier, and its two copies at both edges of the strip count once.
+# An imaginary part that differs from s/2 by less than EDGE s/2 is set to s/2. Such an exponent
+# belongs to a negative real multiplier. It has a copy at both edges of the strip, of which one
+# counts.
 EDGE = 1e-2
 
 
@@ -50,12 +51,12 @@ class Exponents(NamedTuple):
     status: str
 
     def multipliers(self, time) -> np.ndarray:
-        """Floquet multipliers exp(lambda time), for a time in units of T."""
+        """Return the Floquet multipliers exp(lambda time), for a time in units of T."""
         return np.exp(self.values * time)
 
 
 def exponents(solution) -> Exponents:
-    """Floquet exponents of a solution of harmonic balance.
+    """Return the Floquet exponents of a solution of harmonic balance.
 
     Parameters
     ----------
@@ -83,11 +84,11 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
+    """Return the eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
 
     With at most DENSE unknowns all eigenvalues are returned. They are the reciprocals of the
-    largest eigenvalues of the inverted first-order form, which needs the LU factors of `stiffness`
-    alone.
+    largest eigenvalues of the inverse of the first-order form. To apply this inverse, only
+    `stiffness` needs to be factorised.
     """
     size = len(stiffness)
     factors = factorised(stiffness)

@@ -1,10 +1,11 @@
 """Single-term harmonic balance in each cell of a balance map, and start states for simulations.
 
-A cell is a pair of a forcing frequency (column) and a value of another parameter (row). Z1 and Z2,
-of amplitudes a and b, are the displacements of the primary mass and of that relative to the loose
-mass. The quiet solution is the one meant by the design, the high one as large as the free resonance
-(`balance_cells`). Single-term harmonic balance holds for elastic contact. In cells with restitution
-e < 1 its solutions for e = 1 are used.
+A cell is a pair of a forcing frequency (column) and a value of another parameter (row). a is the
+amplitude of Z1, the displacement of the primary mass. b is the amplitude of Z2, the displacement of
+the primary mass relative to the loose mass. The quiet solution is the motion for which the damper
+is designed. The high solution has an amplitude comparable with the free resonance. `balance_cells`
+defines both. Single-term harmonic balance assumes elastic contact, so cells with restitution e < 1
+have the solutions for e = 1.
 """
 
 from dataclasses import replace
@@ -18,9 +19,10 @@ from impact_damper.theory.free_oscillator import resonance
 from impact_damper.theory.single_harmonic import impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# A motion is high if its amplitude is at least this share of the free resonance amplitude.
+# A motion is high if its amplitude is at least HIGH times the free resonance amplitude, and quiet
+# if its amplitude is below this limit.
 HIGH = 0.5
-# A settled motion is near a predicted one if max |Z1| differs by at most this share.
+# A settled motion is near a predicted motion if max |Z1| differs relatively by at most NEAR.
 NEAR = 0.2
 
 
@@ -30,8 +32,8 @@ class Cells(NamedTuple):
     Attributes
     ----------
     resonance : numpy.ndarray, shape (rows, columns)
-        Amplitude of the free resonance branch; beyond the frequency at which the branch ends, its
-        amplitude at the end.
+        Amplitude of the free resonance branch. Beyond the frequency at which the branch ends, the
+        amplitude at this end.
     quiet, high : numpy.ndarray of int, shape (rows, columns)
         Values of the flags `balance_quiet` and `balance_high`.
     quiet_amplitude, high_amplitude : numpy.ndarray, shape (rows, columns)
@@ -39,8 +41,9 @@ class Cells(NamedTuple):
     quiet_growth : numpy.ndarray, shape (rows, columns)
         Growth rate of the slow flow at the quiet solution, per unit time T.
     quiet_start, high_start : numpy.ndarray, shape (rows, columns, 4)
-        State Z1, Z1', Z2, Z2' at T = 0 of both solutions. Without a high solution, the state on
-        the free resonance branch with the loose mass at rest in the middle of the gap.
+        State Z1, Z1', Z2, Z2' of the quiet and of the high solution at T = 0. Without a high
+        solution `high_start` is the state on the free resonance branch, with the loose mass at rest
+        in the middle of the gap.
     """
 
     resonance: np.ndarray
@@ -56,9 +59,9 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The quiet solution has the smallest |a|, provided that |a| is below half the amplitude of the
-    free resonance branch. The high solution is the stable one with the largest |a|, provided that
-    |a| is at least this half.
+    The quiet limit is half the amplitude of the free resonance branch. The quiet solution is the
+    solution with the smallest |a|, if this |a| is below the limit. The high solution is the stable
+    solution with the largest |a|, if this |a| is not below the limit.
 
     Parameters
     ----------
@@ -79,12 +82,12 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Harmonic balance in one cell, as `Cells` with one entry in place of each array."""
+    """Return the harmonic balance in one cell, as `Cells` with one entry in place of each array."""
     free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
     if phase is not None:
         start = _start(free, 0.0, phase, frequency)
-        # loose mass at rest in the middle of the gap: Z2 = 0, Z2' = Z1'
+        # The loose mass is at rest in the middle of the gap: Z2 = 0 and Z2' = Z1'.
         high_start = np.array([start[0], start[1], 0.0, start[1]])
     nothing = np.nan, np.nan, np.full(4, np.nan)
     elastic = replace(damper, restitution=1.0)
@@ -114,7 +117,10 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Solutions of (7) and their growth rates; cached, since they do not depend on e."""
+    """Return the solutions of (7) and their growth rates.
+
+    The result is cached because cells that differ only in the restitution share it.
+    """
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
@@ -123,7 +129,7 @@ _resonance = lru_cache(4096)(resonance)
 
 
 def _start(amplitude, relative_amplitude, phase, frequency):
-    """State Z1, Z1', Z2, Z2' at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
+    """Return Z1, Z1', Z2, Z2' at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
     inline, across = np.cos(phase), -frequency * np.sin(phase)
     return np.array(
         [

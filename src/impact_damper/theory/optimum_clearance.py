@@ -1,7 +1,9 @@
-"""The optimum clearance by harmonic balance, by straight flight and by rules for designers.
+"""The optimum clearance by harmonic balance, by straight flight and by closed-form rules.
 
-The clearance d0 is stated as the ratio rm W^2 d0, short for rm W^2 d0/f, with the mass ratio rm,
-the forcing frequency W and the forcing amplitude f = F + U W^2 + V/W^2. Rule (18) has the ratio 1.
+Straight flight is a model in which the loose mass moves at constant velocity between impacts
+(`straight_flight`). The clearance d0 is stated as the dimensionless ratio rm W^2 d0/f, with the
+mass ratio rm, the forcing frequency W and the forcing amplitude f = F + U W^2 + V/W^2. The ratio is
+written rm W^2 d0 for short. By rule (18) of the paper it is 1.
 """
 
 from dataclasses import replace
@@ -20,17 +22,19 @@ from impact_damper.theory.straight_flight import (
     least_harmonic_ratio,
 )
 
-# rm W^2 d0 at which the first harmonic of a straight flight between rigid walls spans the gap.
+# rm W^2 d0 at which, in a straight flight between rigid walls, the first harmonic of the loose mass
+# has the amplitude that rule (18) requires.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# A solution of (7) with a smaller |a|, as a share of the clearance, counts as a = 0.
+# A solution of (7) with |a| below ZERO_AMPLITUDE times the clearance counts as a = 0.
 ZERO_AMPLITUDE = 1e-6
-# CRITERIA: quantities of Z1; an optimum makes one of them smallest. RULES: rules for the clearance.
+# CRITERIA: quantities of Z1 that an optimum clearance makes as small as possible. RULES: rules that
+# predict the optimum clearance, see `rule_ratios`.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
-    """rm W^2 d0 at which max |Z1| is smallest, in the limit of high frequency and rigid walls.
+    """Return rm W^2 d0 at which max |Z1| is smallest, for high frequency and rigid walls.
 
     In this limit the spring and the damping of the primary mass are negligible, and the loose mass
     flies at constant velocity (see `straight_flight.Flight`). For e = 1 the result is
@@ -52,7 +56,7 @@ def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
 
 
 def _analytical(oscillator, damper, frequency):
-    """Signed a of the stable solution of (7) with the smallest |a|, and `analytical_status`."""
+    """Return signed a of the stable solution of (7) with smallest |a|, and `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     try:
@@ -65,7 +69,7 @@ def _analytical(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Amplitude by (7) along a clearance sweep, and the clearance at which the amplitude vanishes.
+    """Return the amplitude by (7) along a clearance sweep, and the clearance of zero amplitude.
 
     Parameters
     ----------
@@ -92,7 +96,8 @@ def analytical_table(oscillator, dampers, frequency):
 
     for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
         clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
-        # The sign also changes at a jump, where another solution becomes the smallest.
+        # The sign also changes at a jump, where another solution becomes the smallest. There the
+        # amplitude does not vanish.
         if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
             best, kind = clearance, "kink"
     return {
@@ -104,7 +109,10 @@ def analytical_table(oscillator, dampers, frequency):
 
 
 def excess_table(ratio, damper):
-    """Shares of (rm W^2 d0 at the optimum) - 1, the excess over rule (18), by two closed forms.
+    """Return how much of the excess of the optimum over rule (18) two closed forms explain.
+
+    The excess is (rm W^2 d0 at the optimum) - 1. A closed form with the ratio c explains the share
+    (c - 1)/excess of it.
 
     Parameters
     ----------
@@ -130,6 +138,11 @@ def excess_table(ratio, damper):
 
 def rule_ratios(oscillator, damper, frequency):
     """Return the optimum rm W^2 d0 by each rule for each criterion.
+
+    The rules are: rule (18) ("balance"), the first harmonic of a straight flight ("gap_harmonic"),
+    a straight flight between rigid walls ("straight_flight"), a straight flight with elastic
+    contact to first order in its duration and in the damping ("elastic"), and a straight flight
+    with damping, stiffness and inelastic contact ("flight").
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""All real roots of a smooth function of one variable, double roots included.
+"""Find all real roots of a smooth function of one variable, double roots included.
 
 Between neighbouring extrema a function is monotone, so a change of sign means exactly one root
-and no change of sign means none. An extremum that is zero to rounding is a double root. No
+and no change of sign means none. An extremum whose value is zero to rounding is a double root. No
 decision depends on the imaginary part of a computed root, which is inaccurate at a double root.
 """
 
@@ -11,20 +11,20 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from scipy.optimize import brentq
 
 EPSILON = np.finfo(float).eps
-# Values below ROUNDING times the sum of the sizes of a function's terms count as zero.
+# Values below ROUNDING times the sum of the moduli of a function's terms count as zero.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# An interval is halved if the size of the terms varies by more than this factor.
+# An interval is halved if the sum of the moduli of the terms varies by more than this factor in it.
 LARGEST_RANGE = 1e6
 
 
 def polynomial_roots(coefficients) -> np.ndarray:
-    """Real roots of a polynomial, ascending; a double root is listed once.
+    """Return the real roots of a polynomial, ascending; a double root is listed once.
 
     Parameters
     ----------
     coefficients : array_like, shape (degree + 1,)
-        Lowest power first. Zeros at the end are left out. A constant has no roots.
+        Lowest power first. Zeros at the end are ignored. A constant has no roots.
 
     Returns
     -------
@@ -49,20 +49,20 @@ def polynomial_roots(coefficients) -> np.ndarray:
 
 
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
-    """Real roots of an analytic function in [lower, upper], ascending; a double root once.
+    """Return the real roots of an analytic function in [lower, upper], ascending.
 
-    The extrema come from a Chebyshev interpolant, as eigenvalues of a companion matrix
-    (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18). The degree of
-    the interpolant is doubled until its last coefficients reach the rounding error; an interval
-    in which the rounding error varies by a factor above 1e6 is halved first. The roots between
-    the extrema come from the function itself.
+    A double root is listed once. The extrema are those of a Chebyshev interpolant, found as
+    eigenvalues of a companion matrix (Trefethen, Approximation Theory and Approximation Practice,
+    2013, chapter 18). The degree of the interpolant is doubled until its last coefficients reach
+    the rounding error. An interval in which the rounding error varies by more than a factor of 1e6
+    is halved first. Between the extrema the roots of the function itself are located.
 
     Parameters
     ----------
     function : callable
         Maps x, a number or an array, to the function's value.
     size : callable
-        Maps an array x to the sum of the absolute values of the function's terms, positive.
+        Maps an array x to the sum of the moduli of the function's terms, which must be positive.
         Rounding errors of `function` are proportional to `size`.
     lower, upper : float
         Ends of the interval.
@@ -95,7 +95,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Roots of `function` in [lower, upper], given its `extrema`, of which real parts are used."""
+    """Return the roots of `function` in [lower, upper] from the real parts of its `extrema`."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():

@@ -1,12 +1,14 @@
 """Single-term harmonic balance with the damper (section 2.1): equations (6), (7), (13), (14).
 
-The ansatz is Z1 = a cos(W T + t1) for the primary mass and Z2 = b cos(W T + t2) for its
-displacement relative to the loose mass. Equation (6d) requires sin(t1 - t2) = 0; we take t2 = t1
-and let the amplitude a have either sign. With a < 0, Z1 and Z2 are in antiphase. b > 0 loses no
-solution: changing the signs of both a and b only shifts t1 by half a period.
+The ansatz is Z1 = a cos(W T + t1) for the displacement of the primary mass and Z2 = b cos(W T + t2)
+for its displacement relative to the loose mass. Equation (6d) requires sin(t1 - t2) = 0. We set
+t2 = t1 and let the amplitude a have either sign. With a < 0, Z1 and Z2 are in antiphase. We also
+set b > 0 without losing a solution, because changing the signs of both a and b shifts t1 by pi and
+changes nothing else.
 
 The equations hold for elastic contact (restitution 1). Below, g = (3/4) k3, and f is the forcing
-amplitude F + U W^2 + V/W^2, 1 in the paper. Every quantity is dimensionless, angles are in radian.
+amplitude F + U W^2 + V/W^2, which is 1 in the paper. All quantities are dimensionless. Angles are
+in radian.
 """
 
 from typing import NamedTuple
@@ -31,7 +33,7 @@ class Solutions(NamedTuple):
     relative_amplitude : numpy.ndarray
         b > 0, amplitude of Z2.
     phase : numpy.ndarray
-        t1 in (-pi, pi], phase of Z2 to the forcing; also the phase of Z1 if a > 0.
+        t1 in (-pi, pi], phase of Z2 relative to the forcing; also the phase of Z1 if a > 0.
     """
 
     amplitude: np.ndarray
@@ -49,7 +51,7 @@ class RigidSolutions(NamedTuple):
     amplitude, phase : numpy.ndarray
         a and t1 as in `Solutions`.
     pulling : numpy.ndarray of bool
-        True where a > d0: the contact force would have to be tensile, so (7) has no such solution.
+        True where a > d0. There the contact force would be tensile, so (7) has no such solution.
     residual : numpy.ndarray
         Residual of (13a), left side minus right side.
     """
@@ -62,7 +64,7 @@ class RigidSolutions(NamedTuple):
 
 
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
-    """First harmonic B(b) of the contact force divided by r1, equation (6e), and dB/db.
+    """Return the first harmonic B(b) of the contact force divided by r1, equation (6e), and dB/db.
 
     With the contact angle p, cos(p) = d0/b, we have B = b (2/pi)(p - sin p cos p) and
     dB/db = (2/pi)(p + sin p cos p). Both are zero for b <= d0, without contact.
@@ -86,10 +88,10 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
-    """All real roots D of (14), ascending, with the amplitude and phase that they give in (13).
+    """Return all real roots D of (14), ascending, with the amplitudes and phases that solve (13).
 
-    With a forcing amplitude f other than 1, (14) holds with d0/f for d0, k3 f^2 for k3 and a/f for
-    a. Without forcing there is no solution.
+    For a forcing amplitude f other than 1, (14) holds with d0/f in place of d0, k3 f^2 in place of
+    k3, and a/f in place of a. Without forcing there is no solution.
 
     Raises
     ------
@@ -123,16 +125,15 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
 
 
 def impacting_solutions(oscillator, damper, frequency) -> Solutions:
-    """All solutions of (7) with (6e), by ascending contact angle p, where cos(p) = d0/b.
+    """Return all solutions of (7) with (6e), by ascending contact angle p, where cos(p) = d0/b.
 
     (7c) gives a(p) = (d0/cos p)(1 - k (p - sin p cos p)) with k = 2 r1/(pi rm W^2). Eliminating
     t1 from (7a, b) leaves one equation for p:
 
         G(p) = (a wl^2 - a W^2 + g a^3 + rm W^2 (b - a))^2 + (h a W)^2 - f^2 = 0.
 
-    cos^6(p) G(p) is an entire function, and (7b) bounds |a| and thereby p. No root is missed, to
-    rounding: between two neighbouring extrema the function is monotone, so their signs tell
-    whether there is one root or none (see `smooth_roots`). Without forcing there is none.
+    cos^6(p) G(p) is an entire function, and (7b) bounds |a| and thereby p. `smooth_roots` finds all
+    roots of this function up to rounding. Without forcing there is no solution.
 
     Raises
     ------
@@ -153,9 +154,9 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Motions without contact, the loose mass at rest: the free solutions with a < d0.
+    """Return the motions without contact, in which the loose mass is at rest.
 
-    The loose mass at rest makes Z2 = Z1, so b = a.
+    These are the free solutions with a < d0. Z2 = Z1 and b = a, because the loose mass is at rest.
 
     Raises
     ------
@@ -171,7 +172,7 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 class _Balance:
     """The terms of (7) with (6e) as functions of the contact angle p.
 
-    Multiplied by powers of cos(p), since a and b have a pole at p = pi/2.
+    The terms are multiplied by powers of cos(p), because a and b have a pole at p = pi/2.
     """
 
     def __init__(self, oscillator, damper, frequency):
@@ -203,7 +204,7 @@ class _Balance:
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
     def defect_size(self, angle):
-        """Bound on the rounding error of `defect`, in units of the machine precision.
+        """Return a bound on the rounding error of `defect`, in units of the machine epsilon.
 
         The rounding error of a cos(p) dominates.
         """
@@ -221,9 +222,10 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Smallest and largest p that (7a, b) allow; equal if they allow none.
+        """Return the smallest and the largest p that (7a, b) allow.
 
-        (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the remaining terms.
+        The two are equal if no p is allowed. (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3
+        by the other terms.
         """
         reach = self.force / self.drag
         if reach == 0:
@@ -239,8 +241,8 @@ class _Balance:
     def _angles_within(self, reach):
         """Return the range of p that contains every solution with |a| <= reach.
 
-        The upper end is the root of (a + reach) cos(p), which decreases with p; the lower end is
-        the first root of (a - reach) cos(p), which increases and then decreases, or 0.
+        The upper end is the root of (a + reach) cos(p), which decreases with p. The lower end is 0
+        or the first root of (a - reach) cos(p), which first increases and then decreases.
         """
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)

@@ -1,11 +1,11 @@
 """Slow flow (17) and its Jacobian in the complex amplitudes A = a exp(i t1), C = b exp(i t2).
 
-The slow flow gives the rates at which the amplitudes change; its fixed points are the solutions of
-harmonic balance, and the Jacobian there decides on their stability. Z1 = Re(A exp(i W T)) and Z2 =
-Re(C exp(i W T)) with slowly varying A and C (section 2.2). The polar equations (17a) to (17d) are
-the real and imaginary parts of A' exp(-i t1) and C' exp(-i t2). They are singular at a = 0, which
-is the design point; the equations in A and C are not, and their Jacobian has the same eigenvalues
-at a fixed point.
+Z1 = Re(A exp(i W T)) and Z2 = Re(C exp(i W T)) with slowly varying A and C (section 2.2). The slow
+flow gives the rates at which A and C change. Its fixed points are the solutions of harmonic
+balance, and the Jacobian at a fixed point decides whether the solution is stable. The polar
+equations (17a) to (17d) are the real and imaginary parts of A' exp(-i t1) and C' exp(-i t2). The
+polar equations are singular at a = 0, the design point. The equations in A and C are not singular
+there, and their Jacobian has the same eigenvalues at a fixed point.
 """
 
 import numpy as np
@@ -13,12 +13,12 @@ import numpy as np
 from impact_damper.system.checks import check_frequency
 from impact_damper.theory.single_harmonic import contact_amplitude
 
-# A motion whose growth rate has a modulus up to this counts as marginally stable.
+# A motion whose growth rate has a modulus of at most MARGIN counts as marginally stable.
 MARGIN = 1e-9
 
 
 def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
-    """Time derivatives of the slow amplitudes, equation (17).
+    """Return the time derivatives of the slow amplitudes, equation (17).
 
     Parameters
     ----------
@@ -26,14 +26,14 @@ def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
         Re A, Im A, Re C, Im C, dimensionless. Without a damper shape (..., 2): Re A, Im A.
     oscillator : Oscillator
     damper : Damper or None
-        Elastic contact; the restitution is not used.
+        The contact is treated as elastic, so the restitution is not used.
     frequency : float
         W, dimensionless.
 
     Returns
     -------
     numpy.ndarray
-        Derivatives by T, with the shape of `state`.
+        Derivatives with respect to T, with the shape of `state`.
 
     Raises
     ------
@@ -60,7 +60,9 @@ def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
-    """Jacobian of `slow_flow` with respect to the state: appendix A in complex amplitudes.
+    """Return the Jacobian of `slow_flow` with respect to the state.
+
+    This is appendix A in complex amplitudes. The arguments are those of `slow_flow`.
 
     Returns
     -------
@@ -95,13 +97,13 @@ def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
-    """Largest real part of the eigenvalues of the Jacobian at each state, shape (...)."""
+    """Return the largest real part of the eigenvalues of `jacobian` at each state, shape (...)."""
     matrices = jacobian(state, oscillator, damper, frequency)
     return np.max(np.real(np.linalg.eigvals(matrices)), axis=-1)
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """States of harmonic-balance solutions, which are fixed points of the slow flow.
+    """Return the states of harmonic-balance solutions, which are fixed points of the slow flow.
 
     Parameters
     ----------
@@ -123,12 +125,18 @@ def fixed_points(solutions) -> np.ndarray:
 
 
 def stability(growth) -> np.ndarray:
-    """Flag `stability` of growth rates: 1 stable (< -1e-9), -1 unstable (> 1e-9), 0 marginal."""
+    """Return the flag `stability` of growth rates.
+
+    It is 1 (stable) below -MARGIN, -1 (unstable) above MARGIN, and 0 (marginal) between.
+    """
     return -np.sign(np.where(np.abs(growth) <= MARGIN, 0.0, growth)).astype(int)
 
 
 def _push(loose, damper):
-    """Return r1 B(b)/b, and the derivatives of r1 (B/b) C with respect to C and conj(C)."""
+    """Return r1 B(b)/b, and the derivatives of r1 (B/b) C with respect to C and conj(C).
+
+    B is the first harmonic of the contact force divided by r1, equation (6e), and b = |C|.
+    """
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)

@@ -1,10 +1,11 @@
-"""Closed forms for the optimum clearance: the quiet motion as straight flights between impacts.
+"""Closed forms for the optimum clearance, by a model of the quiet motion with straight flights.
 
-At small displacement the cubic spring is negligible, and the primary mass is a linear oscillator
-under the forcing and two impulses per period. The walls may be rigid or stiff, the impacts elastic
-or inelastic. The optimum value of rm W^2 d0 follows for two criteria: the smallest max |Z1|, and
-the smallest first harmonic of Z1. Lengths are in units of f/W^2 with the forcing amplitude
-f, so that rm W^2 d0 stands for rm W^2 d0/f everywhere in this module.
+In the model the loose mass flies at constant velocity between two impacts in each forcing cycle. At
+small displacement the cubic spring is negligible, and the primary mass is a linear oscillator under
+the forcing and the two impulses. The walls may be rigid or compliant, and the impacts elastic or
+inelastic. The model gives the optimum value of rm W^2 d0 for two criteria: the smallest max |Z1|,
+and the smallest first harmonic of Z1. Lengths are in units of f/W^2 with the forcing amplitude f,
+so rm W^2 d0 means rm W^2 d0/f everywhere in this module.
 """
 
 from functools import cache
@@ -16,58 +17,61 @@ from scipy.optimize import minimize_scalar
 from impact_damper.system.bounds import check_number
 from impact_damper.system.parameters import check_damper
 
-# Number of impulses q that are tried before the minimum of max |x| is refined.
+# Number of impulses q that are compared before the minimum of max |x| is refined.
 GRID = 65
-# Impulse q and phase of the turning point at which the displacement at the impact equals the one
-# at the turning point, for elastic rigid walls without damping and stiffness:
-# q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
+# IMPULSE q and phase TURN of the turning point, such that |x| at the impact equals |x| at the
+# turning point, for elastic rigid walls without damping and stiffness. They solve q - 1 = cos(phi)
+# - q + 2 q phi/pi with sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 NEWTON_STEPS = 3
-# Half the distance by which the characteristic roots are separated if they coincide (critical
-# damping).
+# If the two characteristic roots coincide (critical damping), each is moved by APART, so that their
+# divided differences are defined.
 APART = 1e-20j
 
 
 class Flight(NamedTuple):
     """The quiet motion near its optimum, with lengths in units of f/W^2 and time as phase W T.
 
-    Let x = W^2 Z1/f. The response to the forcing alone is -A cos(phi), where the phase phi is zero
-    at a peak of -x. An impact takes place at the lag s, phi = s. In the following half period the
-    loose mass flies at constant velocity, W^2 x2/f = -(q/rm) (1 - 2 (phi - s)/pi); in the other
-    half the motion is its mirror image. The impulses 4 q/pi of the loose mass on the primary mass
-    add q R(y) to the displacement:
+    Let x = W^2 Z1/f, and let x2 be the displacement of the loose mass. The response to the forcing
+    alone is -A cos(phi), where the phase phi is zero at a maximum of -x. An impact takes place at
+    phi = s, the lag. In the following half cycle the loose mass flies at constant velocity:
+    W^2 x2/f = -(q/rm) (1 - 2 (phi - s)/pi). The motion in the other half cycle is the mirror image.
+    The loose mass exerts the impulses 4 q/pi on the primary mass, which add q R(y) to x:
 
         x = -A cos(phi) + q R(y),      y = pi/2 - (phi - s),  |y| <= pi/2.
 
-    R is the periodic response of x'' + g x' + l^2 x to alternating impulses 4/pi; R = 2 y/pi for
-    g = l = 0. Three conditions complete the problem.
+    R is the periodic response of x'' + g x' + l^2 x to alternating impulses 4/pi. For g = l = 0 it
+    is R = 2 y/pi. Three conditions complete the problem.
 
-    Lag. The mean of the relative velocities before and after an impact is zero for e = 1; for
-    e < 1 it is (1 - e)/(1 + e) times half the velocity jump. Hence A sin(s) = q L, where L is
-    (2/pi) (1 + 1/rm) (1 - e)/(1 + e) plus a term of the damping, (2/pi) tanh(pi g/2) for l = 0.
+    Lag. For e = 1 the mean of the relative velocities before and after an impact is zero. For e < 1
+    it is (1 - e)/(1 + e) times half the velocity jump. Hence A sin(s) = q L, where L is the sum of
+    (2/pi) (1 + 1/rm) (1 - e)/(1 + e) and a term of the damping g, which is (2/pi) tanh(pi g/2) for
+    l = 0.
 
-    Walls. For rigid walls the gap at an impact gives rm W^2 d0 = q + rm x(s). An elastic contact
-    lasts the phase pi k with k = W/sqrt(r1 (1 + 1/rm)); a damped one lasts
-    theta = pi k/sqrt(1 - z^2), where z is the damping ratio of the pair of masses. The straight
-    lines of the flights before and after, with speeds v and e v, intersect beyond the wall at the
-    depth v theta e/(1 + e). The motion therefore equals one between rigid walls farther out by
-    this depth, which reduces rm W^2 d0 by (1 + rm) q (4/pi) theta e/(1 + e)^2; for e = 1 by
-    (1 + rm) q k. The forcing during a contact reduces the lag by theta (1 - e)/(1 + e) - 2 z k.
+    Walls. For rigid walls, rm W^2 d0 = q + rm x(s), because the loose mass is at a wall at the
+    impact. For compliant walls let k = W/sqrt(r1 (1 + 1/rm)). An elastic contact then lasts the
+    phase pi k, and an inelastic contact the phase theta = pi k/sqrt(1 - z^2), where z is the
+    damping ratio of the relative motion. The straight lines of the flights before and after the
+    contact, with the speeds v and e v, intersect beyond the wall at the depth v theta e/(1 + e).
+    The motion therefore equals a motion between rigid walls that are farther out by this depth.
+    This reduces rm W^2 d0 by (1 + rm) q (4/pi) theta e/(1 + e)^2, which is (1 + rm) q k for e = 1.
+    The forcing during a contact reduces the lag by theta (1 - e)/(1 + e) - 2 z k.
 
-    Tip. In a contact of finite duration x has a rounded maximum below the intersection of the
-    lines, by the share 1 - 2/pi of the depth, as a half sine has below its end tangents.
+    Tip. During a contact of finite duration x has a rounded maximum. The maximum lies below the
+    intersection of the two lines by 1 - 2/pi times the depth, as the maximum of a half sine lies
+    below the intersection of its end tangents.
 
-    For rigid walls l and g enter exactly. The neglected effects of the contact are of the orders
-    k^2, that is 1/r1, and k g; for e < 1 also a small part of the rounding of the tip, of order
-    (1 - e) k. The cubic spring is neglected: near an optimum it would add about
-    (3/4) k3 max |Z1|^2/W^2 to l^2, and the relative error of the clearance is about as large.
+    For rigid walls l and g enter exactly. For compliant walls terms of the orders k^2 (that is
+    1/r1) and k g are neglected, and for e < 1 also a part of the rounding of the tip, of order (1 -
+    e) k. The cubic spring is neglected. Near an optimum it would add about (3/4) k3 max |Z1|^2/W^2
+    to l^2. The relative error of the clearance is of the same size.
 
     Attributes
     ----------
     mass_ratio, restitution : float
         rm and e, dimensionless.
     contact : float
-        k, phase of an elastic contact divided by pi; 0 for rigid walls.
+        k, phase that an elastic contact lasts, divided by pi; 0 for rigid walls.
     damping : float
         g = h/W.
     stiffness : float
@@ -82,7 +86,7 @@ class Flight(NamedTuple):
 
     @property
     def forced(self):
-        """A, amplitude of the response x to the forcing alone."""
+        """Amplitude A of the response x to the forcing alone."""
         return 1 / np.hypot(1 - self.stiffness**2, self.damping)
 
     @property
@@ -92,19 +96,19 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """L/A: for rigid walls sin(s) = q L/A."""
+        """Ratio L/A, with which sin(s) = q L/A for rigid walls."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
 
     @property
     def contact_damping(self):
-        """z, damping ratio of the relative motion in contact, appendix B."""
+        """Damping ratio z of the relative motion in contact, appendix B."""
         return -np.log(self.restitution) / np.hypot(np.pi, np.log(self.restitution))
 
     @property
     def contact_phase(self):
-        """theta, phase W T that a contact lasts."""
+        """Phase theta that a contact lasts."""
         return np.pi * self.contact / np.sqrt(1 - self.contact_damping**2)
 
     @property
@@ -115,8 +119,8 @@ class Flight(NamedTuple):
     @property
     def setback(self):
         """Reduction of the lag s by a contact of finite duration."""
-        share = (1 - self.restitution) / (1 + self.restitution)
-        return self.contact_phase * share - 2 * self.contact_damping * self.contact
+        asymmetry = (1 - self.restitution) / (1 + self.restitution)
+        return self.contact_phase * asymmetry - 2 * self.contact_damping * self.contact
 
     @property
     def largest_impulse(self):
@@ -125,17 +129,17 @@ class Flight(NamedTuple):
         return min(bound, 1 / self.loss) if self.loss > 0 else bound
 
     def lag(self, impulse):
-        """Lag s for an impulse q."""
+        """Return the lag s for an impulse q."""
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Divided difference of a function at the characteristic roots of x'' + g x' + l^2 x."""
+        """Return the divided difference of a function at the roots of r^2 + g r + l^2 = 0."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
 
     def motion(self, phase, impulse):
-        """x and its first two derivatives at a phase between an impact and the next one."""
+        """Return x and its first two derivatives at a phase between an impact and the next one."""
         y = np.pi / 2 - (phase - self.lag(impulse))
         pushed = [
             -2
@@ -151,14 +155,14 @@ class Flight(NamedTuple):
         )
 
     def ratio(self, impulse):
-        """rm W^2 d0 for an impulse q."""
+        """Return rm W^2 d0 for an impulse q."""
         tip = self.motion(self.lag(impulse), impulse)[0]
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
     def largest_displacement(self, impulse):
-        """max |x| for an impulse q, at the rounded tip or at a turning point between impacts.
+        """Return max |x| for an impulse q, at the rounded tip or at a turning point in flight.
 
-        Newton's method locates the turning points, started from their positions for g = l = 0.
+        Newton's method locates the turning points, beginning at their positions for g = l = 0.
         """
         lag = self.lag(impulse)
         turn = np.arcsin(np.minimum(2 * impulse / (np.pi * self.forced), 1.0))
@@ -172,7 +176,7 @@ class Flight(NamedTuple):
 
 
 def flight_of(oscillator, damper, frequency) -> Flight:
-    """Flight of the loose mass of a damper; independent of its clearance.
+    """Return the `Flight` for a damper, whose clearance is not used.
 
     Parameters
     ----------
@@ -208,13 +212,13 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """rm W^2 d0 at which max |Z1| is smallest, dimensionless.
+    """Return rm W^2 d0 at which max |Z1| is smallest, dimensionless.
 
-    For rigid walls without damping and stiffness the result is (1 + rm) q - rm cos(s), with two
-    cases of Lambda = (1 + 1/rm) (1 - e)/(1 + e). For Lambda <= 0.369 the displacement at the
-    impact equals the one between impacts at the optimum, a kink; for e = 1 there q = 1.1382 and
-    s = 0. For larger Lambda the displacement between impacts is the larger one and has a smooth
-    minimum, where Lambda cos(s + tan(s)) = sin(s) and q = pi sin(s)/(2 Lambda).
+    For rigid walls without damping and stiffness the result is (1 + rm) q - rm cos(s). Two cases of
+    Lambda = (1 + 1/rm) (1 - e)/(1 + e) differ. For Lambda <= 0.369 the optimum is a kink, at which
+    |x| at the impact equals the largest |x| between impacts; for e = 1 it has q = 1.1382 and s = 0.
+    For larger Lambda the largest |x| occurs between impacts and has a smooth minimum, where
+    Lambda cos(s + tan(s)) = sin(s) and q = pi sin(s)/(2 Lambda).
     """
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
@@ -226,27 +230,29 @@ def least_displacement_ratio(flight) -> float:
 
 
 def least_harmonic_ratio(flight) -> float:
-    """rm W^2 d0 at which the first harmonic of Z1 is smallest, dimensionless; in closed form.
+    """Return rm W^2 d0 at which the first harmonic of Z1 is smallest, dimensionless.
 
-    The first harmonic of Z1 is the response to the first harmonic of forcing plus impulses,
-    1 - c q exp(-i p), with c = 8/pi^2 and the lag p of the impact behind the forcing. Let
-    sin(u) = q L/A and n = u - p. The modulus is smallest where
+    The result is a closed form. The first harmonic of Z1 is the response to the first harmonic of
+    the forcing and the impulses, which is 1 - c q exp(-i p) with c = 8/pi^2 and the lag p of the
+    impact behind the forcing. Let sin(u) = q L/A and n = u - p. The modulus is smallest where
     tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
 
     For e = 1 without damping q = pi^2/8, and for rigid walls rm W^2 d0 = (1 + rm) pi^2/8 - rm.
     For small rm this tends to pi^2/8, the value for a primary mass at rest.
     """
-    share = 8 / np.pi**2
+    factor = 8 / np.pi**2
     loss = flight.loss
     if loss == 0:
-        return float(flight.ratio(1 / share))
+        return float(flight.ratio(1 / factor))
     shift = flight.forced_lag + flight.setback
-    angle = np.arctan2(2 * loss * np.cos(shift), share - 2 * loss * np.sin(shift)) / 2
+    angle = np.arctan2(2 * loss * np.cos(shift), factor - 2 * loss * np.sin(shift)) / 2
     return float(flight.ratio(np.sin(angle) / loss))
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Both optima of rm W^2 d0 for elastic contact, to first order in k and g, without stiffness.
+    """Return the optima of rm W^2 d0 by both criteria for elastic contact.
+
+    The closed forms are of first order in k and g and neglect the stiffness l.
 
     Returns
     -------
