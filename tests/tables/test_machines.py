@@ -31,7 +31,10 @@ def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
 
 @pytest.mark.parametrize(
     ("choice", "advice"),
-    [("needs_tolerance", "build it, with a closer gap"), ("least_worst", "do not build it")],
+    [
+        ("needs_tolerance", "build it, with a closer tolerance of the gap"),
+        ("least_worst", "do not build it"),
+    ],
 )
 def test_the_advice_follows_the_choice(choice, advice):
     assert row(choice=choice)["advice"] == advice

@@ -1,6 +1,6 @@
 """Tables of methods and models on each test case (scene), and of errors of design models.
 
-Work is counted in floating-point operations. The accuracy that a scene asks for consists of a
+Work is counted in floating-point operations. The accuracy required on a scene consists of a
 quantity and its largest allowed error.
 """
 
@@ -15,15 +15,15 @@ from impact_damper.tables import clearance, responses
 
 INTEGRATORS = COMPARED["accuracy"]
 LABELS = INTEGRATORS + ORBIT_MODELS
-# What each quantity of an accuracy asks for, in words with a place for the largest error.
+# Text of a required accuracy for each quantity, with a place for the largest error.
 WORDS = {
-    "amplitude": "max |Z1| to {:g} of it",
-    "state": "state to {:g}",
-    "contact_time": "contact times to {:g}",
-    "contacts": "number of contacts to {:g}",
-    "contact_rate": "contacts a cycle to {:g} of them",
-    "displacement": "mean max |Z1| to {:g} of it",
-    "exponent": "Lyapunov exponent to {:g} of it",
+    "amplitude": "max |Z1|, relative error {:g}",
+    "state": "state, error {:g}",
+    "contact_time": "contact times, error {:g}",
+    "contacts": "number of contacts, error {:g}",
+    "contact_rate": "contacts a cycle, relative error {:g}",
+    "displacement": "mean max |Z1|, relative error {:g}",
+    "exponent": "Lyapunov exponent, relative error {:g}",
 }
 
 
@@ -44,22 +44,23 @@ SHOWN = {
         "data": "data",
         "quantity": "quantity",
         "model": "model",
-        "by the model": "by the model",
-        "by the motions": "by the motions",
-        "or up to": "or up to",
+        "by the model": "value by the model",
+        "by the motions": "value by the exact motions",
+        "or up to": "or, if uncertain, up to",
         "relative error": "relative error",
     },
 }
-# Words for the cells of a column; other cells are keys without underscores.
+# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
 CELLS = {"method": method_in_words}
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return a row for each method and scene, at the setting of least work that meets the accuracy.
+    """Return a row for each method and scene.
 
-    If no setting meets the accuracy, the one with the least error is taken. The column `choice`
-    marks the method with the least work; if that is a model of orbits, it also marks the integrator
-    with the least work. Taylor series of further orders are listed, but not chosen.
+    A row holds the setting with the least work that meets the required accuracy or, if none does,
+    the setting with the least error. The column `choice` marks the method with the least work; if
+    this method is a model of orbits, the column also marks the integrator with the least work.
+    Taylor series of further orders are listed, but not chosen.
     """
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
@@ -74,7 +75,7 @@ def models(datasets) -> pd.DataFrame:
             if k is None:
                 continue
             of = data.isel(run=k)
-            words = "cheapest that meets it" if k == best else ""
+            words = "cheapest that is accurate enough" if k == best else ""
             if k == integrator != best:
                 words = "cheapest integrator"
             used = made["tolerance"] if method == "taylor" else None
@@ -112,8 +113,8 @@ def cheapest(data, labels):
 def _most_accurate(data, method):
     """Return the number of the run of a method with the least error of max |Z1|.
 
-    For a chaotic motion the error of the contacts per period is taken. The first run if no error is
-    known, None if the method was not run.
+    For a chaotic motion the error of the contacts per cycle decides. If no error is known, return
+    the first run; if the method was not run, None.
     """
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
@@ -145,10 +146,10 @@ def _averages(data, of):
 
 
 def readings(datasets) -> pd.DataFrame:
-    """Return optimum clearances and suppression bands' edges by models and by the exact motions.
+    """Return optimum clearances and edges of suppression bands, by models and by the exact motions.
 
-    The motions bracket the lower edge of a band between two frequencies; the error of a model is
-    taken relative to the nearest value in this interval.
+    The lower edge of a band by the motions is known to lie between two frequencies. The error of a
+    model is its distance from this interval.
     """
     rows = []
     for sweep in clearance.optimum(datasets).to_dict("records"):

@@ -31,11 +31,11 @@ SHOWN = {
         "cells": "map cells",
         "of": "of cells",
         "share": "share",
-        "lower": "share at least (95 %)",
-        "upper": "share at most (95 %)",
+        "lower": "lower end of its 95 % interval",
+        "upper": "upper end of its 95 % interval",
     },
 }
-# Words for the cells of a column; other cells are keys without underscores.
+# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
 TRUTHS = {
     "high": "violent",
     "high chaotic": "violent and chaotic",
@@ -51,9 +51,9 @@ CELLS = {
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Count the cells of each map with each verdict, with chaos, and with accurate amplitudes.
+    """Return the numbers of map cells with each verdict, with chaos, and with accurate amplitudes.
 
-    Each share of cells has the 95 % interval of a binomial share, as if cells were drawn at random.
+    The 95 % intervals of the shares of cells hold as if the cells were drawn at random.
     """
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
@@ -70,7 +70,7 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _words(variable, value):
-    """Split the meaning of a flag into the verdict of harmonic balance and the exact result."""
+    """Return the two parts of a flag's meaning: verdict of harmonic balance, exact result."""
     words = extract.meaning(variable, value)
     balance, _, truth = words.partition(" ")
     if balance in BALANCE_VERDICT and truth:
@@ -84,7 +84,7 @@ def _share(count, total):
 
 
 def _summary(data):
-    """Rows on chaos among the high motions, and on the cells with a stable quiet orbit."""
+    """Yield rows on chaos among the high motions, and on the cells with a stable quiet orbit."""
     kinds = data["high_run_motion"].values
     chaotic = np.sum(kinds == flag("high_run_motion", "high_chaotic"))
     settled = np.sum(kinds == flag("high_run_motion", "high"))

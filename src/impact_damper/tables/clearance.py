@@ -8,7 +8,7 @@ from impact_damper.data.datasets import damper_of, flag, oscillator_of, paramete
 from impact_damper.tables.columns import parameter_columns
 from impact_damper.theory.optimum_clearance import RULES, rule_ratios
 
-WITHIN = (1, 2, 5, 10)  # errors counted, in per cent
+WITHIN = (1, 2, 5, 10)  # for each of these errors, per cent, the table counts the optima within it
 RULE_NAMES = {
     "balance": "(18): 1",
     "gap_harmonic": "pi^2/8",
@@ -35,11 +35,11 @@ SHOWN = {
     },
     "design_rules": {
         "group": "designs",
-        "criterion": "quantity made smallest",
+        "criterion": "quantity that is smallest",
         "rule": "rule for rm Ω^2 d0",
         "optima predicted": "optima predicted",
-        "within 1 %": "within 1 %",
-        "within 10 %": "within 10 %",
+        "within 1 %": "optima within 1 %",
+        "within 10 %": "optima within 10 %",
         "median error, %": "median error of d0 [%]",
         "largest error, %": "largest error of d0 [%]",
         "median excess of max |Z1|, %": "median excess of max |Z1| [%]",
@@ -48,7 +48,7 @@ SHOWN = {
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Optimum clearance of each sweep: by simulation, equations (7), rules and straight flight."""
+    """Return the optimum clearance of each sweep by simulation, (7), rules and straight flight."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)
@@ -74,12 +74,13 @@ def optimum(datasets) -> pd.DataFrame:
 
 
 def design_rules(datasets) -> pd.DataFrame:
-    """Number of optima that each rule predicts within 1, 2, 5 and 10 %, and the cost of its error.
+    """Return the numbers of optima that each rule predicts within 1, 2, 5 and 10 %.
 
-    One row for each group of designs, criterion and rule. A design is a cell of a grid: a damper
-    and a frequency. The groups are each grid, the clearance sweeps of the paper's figures, and the
-    cells of all grids with elastic and with inelastic contact. All optima count, stable or not. The
-    cost of an error is the share by which max |Z1| at the rule's clearance exceeds the least one.
+    The table has one row for each group of designs, criterion and rule. A design is a cell of a
+    grid: a damper and a frequency. The groups are each grid, the clearance sweeps of the paper's
+    figures, and the cells of all grids with elastic and with inelastic contact. Stable and unstable
+    optima count. The excess of max |Z1| is the fraction by which max |Z1| at the clearance of the
+    rule exceeds the smallest max |Z1|.
     """
     cells = pd.concat([*_grids(datasets), *_sweeps(datasets)], ignore_index=True)
     grids = cells[cells.group != SWEEPS]

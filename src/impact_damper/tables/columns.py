@@ -1,4 +1,4 @@
-"""Shared by the tables: columns with the parameters of a dataset, and runs of True."""
+"""Helpers of the tables: columns with the parameters of a dataset, and runs of True."""
 
 import numpy as np
 
@@ -7,15 +7,14 @@ from impact_damper.system.parameters import SYMBOLS
 
 
 def parameter_columns(data, *names) -> dict:
-    """Values of the named parameters of a dataset, keyed by the paper's symbols.
+    """Return the values of the named parameters of a dataset, keyed by the paper's symbols.
 
-    Parameters that the dataset does not have are left out, such as those of a damper if there is no
-    damper.
+    Parameters that the dataset does not have are left out, as for a dataset without a damper.
     """
     parameters = parameters_of(data)
     return {SYMBOLS[name]: parameters[name] for name in names if name in parameters}
 
 
 def runs_of_true(mask) -> np.ndarray:
-    """First index, and index after the last, of each run of True; shape (count, 2)."""
+    """Return the first index of each run of True and the index after its last, shape (n, 2)."""
     return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

@@ -1,7 +1,7 @@
 """Tables of the contact model and of the rigid limit, with counts of the cells of their maps.
 
 An exit rule says where a contact ends: at zero penetration, as in the paper, or at zero force. The
-load is the acceleration by other forces during a contact (`contact.contact_law`).
+load is the acceleration that all forces except the contact force cause (`contact.contact_law`).
 """
 
 import numpy as np
@@ -18,11 +18,11 @@ SHOWN = {
         "exit": "exit rule",
         "e": "restitution e, given",
         "realised e": "restitution e, realised",
-        "energy lost": "share of energy lost",
+        "energy lost": "fraction of energy lost",
         "cells": "map cells",
         "close": "cells within 1 % of e",
-        "fair": "cells 1 % to 5 % off",
-        "off": "cells further off",
+        "fair": "cells within 1 % to 5 %",
+        "off": "cells beyond 5 %",
     },
     "contact_motions": {
         "case": "case",
@@ -50,12 +50,12 @@ SHOWN = {
 
 
 def _counts(name, values):
-    """Number of cells with each value of a flag, keyed by the meaning of the value."""
+    """Return the number of cells with each value of a flag, keyed by the meaning of the value."""
     flags = VARIABLES[name].flags
     return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
 
 
-# Words for the cells of a column; other cells are keys without underscores.
+# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
 EXITS = {
     "zero_penetration": "at zero penetration, as in appendix B",
     "no_tension": "at zero force, without pull",
@@ -64,7 +64,7 @@ CELLS = {"exit": lambda cell: EXITS.get(cell, cell)}
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """For each exit rule: number of map cells with each verdict, and contacts without load."""
+    """Return for each exit rule the numbers of map cells by verdict, and contacts without load."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -80,7 +80,7 @@ def contact_model(datasets) -> pd.DataFrame:
 
 
 def _unloaded(data, pulls):
-    """Columns of a contact without load; the wall pulls only with the paper's exit rule."""
+    """Return the columns of a contact without load; the wall pulls only by the paper's rule."""
     realised = float(data.unloaded_restitution)
     row = {
         "damping ratio": float(data.unloaded_damping),
@@ -98,7 +98,7 @@ def _unloaded(data, pulls):
 
 
 def contact_motions(datasets) -> pd.DataFrame:
-    """Contacts of simulated motions, and max |Z1| with either exit rule."""
+    """Return the contacts of simulated motions, and max |Z1| with either exit rule."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for place in np.ndindex(*(data.sizes[dim] for dim in data.scene_outcome.dims)):
@@ -132,7 +132,7 @@ def contact_motions(datasets) -> pd.DataFrame:
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Errors of rigid impacts at the damper's own r1, the order in r1, and numbers of map cells."""
+    """Return the errors of rigid impacts at the damper's r1, their order in r1, and cell counts."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=extract.parameter(data, "frequency"), method="nearest")

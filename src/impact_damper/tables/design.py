@@ -11,7 +11,7 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.tables.columns import SYMBOLS, parameter_columns
 
-# Table of convergence: its parameters, and the accuracies for which it lists the harmonics needed.
+# Table of convergence: its parameters, and accuracies with the heads of the harmonics they need.
 MOTION = ("damping", "frequency", "mass_ratio", "clearance", "restitution", "contact_stiffness")
 ACCURACIES = {0.01: "N for 1 %", 1e-3: "N for 1e-3", 1e-6: "N for 1e-6"}
 MEASURES = {
@@ -46,7 +46,7 @@ SHOWN = {
         "max |Z1|": "displacement max |Z1|",
         "N for 1 %": "harmonics for an error of 1 %",
         "N for 1e-6": "harmonics for an error of 1e-6",
-        "decay": "decay with harmonics N",
+        "decay": "decrease with harmonics N",
         "max |Z1|, observed": "power or rate, observed",
         "max |Z1|, predicted": "power or rate, predicted",
         "cold starts": "cold starts",
@@ -56,7 +56,7 @@ SHOWN = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """For each curve at its peak frequency: rule (19), harmonic balance and exact quiet orbit."""
+    """Return rule (19), harmonic balance and quiet orbit of each curve at its peak frequency."""
     rows = []
     for name, data in extract.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -81,7 +81,7 @@ def harmonic_balance(datasets) -> pd.DataFrame:
 
 
 def _exact_orbit(orbit):
-    """Columns on the exact quiet orbit at the design point, and on random starts at this point."""
+    """Return columns on the exact quiet orbit and on random starts, both at the design point."""
     if orbit is None:
         return {}
     starts = {
@@ -102,9 +102,10 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """For each motion: harmonics needed, observed and predicted decay of errors, and cold starts.
+    """Return for each motion the harmonics needed, the decrease of errors, and cold starts.
 
-    A cold start solves a balance directly from the solution with a single harmonic.
+    The decrease is listed as observed and as predicted. In a cold start Newton's method begins from
+    the solution with one harmonic.
     """
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
@@ -113,7 +114,7 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
 
 
 def _convergence(data):
-    """Row of a motion in the table of convergence."""
+    """Return the row of a motion in the table of convergence."""
     highest = data["highest_harmonic"].values
     error = data["series_error"]
     row = {SYMBOLS[name]: np.nan for name in MOTION} | parameter_columns(data, *MOTION)
@@ -142,7 +143,7 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Smallest N from which on all errors are at most `accuracy`; NaN if the last error is not."""
+    """Return the smallest N from which on all errors are at most `accuracy`; NaN if none is."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan

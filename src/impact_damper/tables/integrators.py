@@ -1,4 +1,4 @@
-"""Tables of where integrators fail: missed contacts, largest stable steps, verdicts on motions."""
+"""Tables on failures of integrators: missed contacts, largest steps, verdicts on motions."""
 
 import numpy as np
 import pandas as pd
@@ -46,7 +46,7 @@ SHOWN = {
         for label in COMPARED["method_verdicts"]
     },
 }
-# Words for the cells of a column; other cells are keys without underscores.
+# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
 CELLS = {"method": method_in_words, "scene": lambda cell: CASES.get(cell, in_words(cell))}
 
 
@@ -121,8 +121,9 @@ def stable_steps(datasets) -> pd.DataFrame:
 def method_verdicts(datasets) -> pd.DataFrame:
     """Return the loosest tolerance, or fewest steps, from which on each method's verdict is right.
 
-    One row for each test case (scene). Where no such tolerance exists, words say why: the method
-    was not run on the scene, was never right, or was right, but not at the strictest tolerance.
+    The table has one row for each test case (scene). Where no such tolerance exists, the cell says
+    why: the method was not run on the scene, was never right, or was right, but not at the
+    strictest tolerance.
     """
     rows = []
     for data in datasets.get("method_verdicts", {}).values():

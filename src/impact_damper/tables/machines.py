@@ -9,13 +9,13 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.data.design_ranges import quiet_gaps
 from impact_damper.data.variables import VARIABLES
 
-# Choices of the gap, in words.
+# Text for each choice of the gap.
 CHOICES = {
     "robust": "build it",
-    "needs_tolerance": "build it, with a closer gap",
+    "needs_tolerance": "build it, with a closer tolerance of the gap",
     "least_worst": "do not build it",
 }
-# Whether unseen starts kept to what the design promises, in words.
+# Text for each result of the test of the promise with new starts.
 PROMISES = {
     "robust_kept": "kept within all tolerances",
     "nominal_kept": "kept at nominal values",
@@ -34,14 +34,14 @@ SHOWN = {
         "advice": "advice",
         "largest without damper, mm": "largest displacement without damper [mm]",
         "largest with it, mm": "largest displacement with damper [mm]",
-        "promise": "promise, tested with unseen starts",
+        "promise": "promise, tested with new starts",
         "best tuned absorber, mm": "largest with the best tuned absorber [mm]",
     },
 }
 
 
 def machines(datasets) -> pd.DataFrame:
-    """For each machine: what to build, what that does, how sure it is, and the best alternative."""
+    """Return for each machine the gap, displacements, the promise, and the best tuned absorber."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
 
 
@@ -67,7 +67,7 @@ def _row(name, data):
 
 
 def _gap(data, tolerance):
-    """Return the gap with its tolerance, or with the narrower range in which it must be held."""
+    """Return the gap with its tolerance, or with a narrower range in which the gap must lie."""
     gap = f"{float(data['design_gap']):.3g}"
     if named(data, "design_choice") == "needs_tolerance":
         return f"{gap}, held from {quiet_gaps(data)}"
@@ -81,6 +81,6 @@ def named(data, name) -> str:
 
 
 def escape_or(size):
-    """Return a size as a number, or the word for a motion that escapes and has none."""
+    """Return a size as a number, or "escapes" for a motion that escapes, which has no size."""
     size = float(size)
     return "escapes" if np.isinf(size) else size

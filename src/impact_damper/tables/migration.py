@@ -26,7 +26,7 @@ SHOWN = {
     "release_scan": {
         "scan": "scan",
         "released from": "released from",
-        "period": "its period [cycles]",
+        "period": "period of the damped motion [cycles]",
         "leads to": "leads to",
         "at W": "at Ω",
         "frequencies": "frequencies",
@@ -38,7 +38,7 @@ SHOWN = {
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Shares of each damped motion's releases that lead to each free motion; controller runs."""
+    """Return the shares of releases to each free motion, by damped motion, and controller runs."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
@@ -82,9 +82,9 @@ def migration(datasets) -> pd.DataFrame:
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """For each kind of damped motion, the frequencies at which releases lead to which free motions.
+    """Return the frequencies at which releases of each damped motion lead to each free motion.
 
-    One row for each set of free motions that occurs.
+    The table has one row for each set of free motions that occurs at one frequency.
     """
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
@@ -112,7 +112,7 @@ def release_scan(datasets) -> pd.DataFrame:
 
 
 def _ranges(grid, chosen):
-    """Return chosen values of a grid as text, where neighbouring values are joined to a range."""
+    """Return chosen values of a grid as text; neighbouring values are joined to a range."""
     runs = runs_of_true(np.isin(grid, chosen))
     ends = [dict.fromkeys([f"{grid[first]:.5g}", f"{grid[last - 1]:.5g}"]) for first, last in runs]
     return ", ".join(" to ".join(pair) for pair in ends)

@@ -1,4 +1,4 @@
-"""Tables of what motions are: outcomes of starts, quasi-periodic motions, and lives of chaos."""
+"""Tables of motions: outcomes of starts, quasi-periodic motions, shares, and lives of chaos."""
 
 import numpy as np
 import pandas as pd
@@ -12,13 +12,13 @@ from impact_damper.data.variables.variable import OUTCOME
 from impact_damper.tables.columns import parameter_columns
 
 DAMPER = ("mass_ratio", "clearance", "restitution")
-# Stages whose datasets hold the outcome of each random start, and the motion that it leads to.
+# Stages whose datasets hold the outcome of each random start and the motion to which it leads.
 SWEPT = ("response", "subharmonic", "optimum")
 # Dimension of the outcomes of a study.
 COUNTED = "counted_outcome"
-# Stages of which the motions at different values are matched.
+# Stages whose datasets match the motions at different values of the parameter.
 MATCHED = ("response", "optimum")
-# Least share of starts, at some value, of a motion listed.
+# A motion is listed if at some value of the parameter at least this share of starts leads to it.
 LISTED = 0.05
 # Outcomes that are not counted one by one.
 OTHERS = ("diverged", "escaped", "at_rest")
@@ -45,7 +45,7 @@ SHOWN = {
         "d0": "clearance d0",
         "W": "forcing frequency Ω",
         "max |Z1|": "displacement max |Z1|",
-        "starts": "random starts",
+        "starts": "random starts that lead to it",
         "second frequency": "second frequency",
         "its error": "error of the second frequency",
         "rotation number": "rotation number",
@@ -56,24 +56,24 @@ SHOWN = {
         "max |Z1|": "displacement max |Z1|",
         "Lyapunov exponent": "Lyapunov exponent",
         "runs that end": "runs in which chaos ends",
-        "of": "of runs",
+        "of": "number of runs",
         "mean life, periods": "mean life [cycles]",
-        "at least": "at least [cycles]",
-        "at most": "at most [cycles]",
+        "at least": "lower end of its 95 % interval",
+        "at most": "upper end of its 95 % interval",
     },
     "shares": {
         "data": "data",
         "motion": "motion",
         "from": "from Ω or d0",
         "to": "to",
-        "at": "largest share at",
+        "at": "largest share at Ω or d0",
         "share": "share of starts there",
-        "at least": "at least",
-        "at most": "at most",
-        "not seen, at most": "of a motion not seen, at most",
+        "at least": "lower end of its 95 % interval",
+        "at most": "upper end of its 95 % interval",
+        "not seen, at most": "bound on the share of a motion not seen",
     },
 }
-# Words for the cells of a column; other cells are keys without underscores.
+# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
 STAGES = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -85,7 +85,7 @@ CELLS = {"stage": lambda cell: STAGES.get(cell, cell)}
 
 
 def outcomes(datasets) -> pd.DataFrame:
-    """Number of random starts with each outcome; why motions are unresolved, by their exponent."""
+    """Return the numbers of random starts with each outcome; unresolved ones also by exponent."""
     rows = []
     for stage in SWEPT:
         for name, data in extract.damped(datasets, stage).items():
@@ -102,7 +102,7 @@ def outcomes(datasets) -> pd.DataFrame:
 
 
 def _row(stage, name, counts):
-    """Columns with the number of starts that have each outcome."""
+    """Return the columns with the number of starts of each outcome."""
     counts = {each: int(value) for each, value in counts.items() if each != "absent"}
     shown = {each.replace("_", " "): counts[each] for each in counts if each not in OTHERS}
     others = sum(counts.get(each, 0) for each in OTHERS)
@@ -118,7 +118,7 @@ def _row(stage, name, counts):
 
 
 def _reasons(data):
-    """Number of unresolved starts whose motion has a positive, a zero or a negative exponent."""
+    """Return the numbers of unresolved motions with a positive, zero and negative exponent."""
     dims = data.run_motion.dims
     chosen = {"motion": data.run_motion}
     mean, error = data.lyapunov_exponent.isel(chosen), data.lyapunov_error.isel(chosen)
@@ -132,7 +132,7 @@ def _reasons(data):
 
 
 def quasi_periodic(datasets) -> pd.DataFrame:
-    """Quasi-periodic motions: both frequencies, and the number of random starts that lead there."""
+    """Return the quasi-periodic motions with both frequencies and the number of random starts."""
     rows = []
     for name, data in extract.damped(datasets, "response").items():
         for k, j in np.argwhere(extract.is_outcome(data, "quasi_periodic").values):
@@ -158,7 +158,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Chaotic motions larger than half of the free resonance, and how long they last."""
+    """Return the chaotic motions larger than half of the free resonance, with their mean lives."""
     rows = []
     for name, data in extract.damped(datasets, "response").items():
         try:
@@ -188,7 +188,7 @@ def chaos(datasets) -> pd.DataFrame:
 
 
 def shares(datasets) -> pd.DataFrame:
-    """Motions to which LISTED of the starts lead somewhere, and the largest share of each."""
+    """Return the motions to which at least LISTED of the starts lead at some value."""
     rows = []
     for stage in MATCHED:
         for name, data in extract.damped(datasets, stage).items():

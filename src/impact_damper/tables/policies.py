@@ -24,10 +24,10 @@ SHOWN = {
     "release_predictions": DAMPER
     | {
         "predicted": "share of releases predicted to reach the goal",
-        "realised": "share that reach it",
-        "within 1 %": "these differ by at most 1 %",
-        "state over settled": "median time by state over that by random phase",
-        "at most half": "ratio at most 1/2",
+        "realised": "share of releases that reach it",
+        "within 1 %": "do both shares agree within 0.01",
+        "state over settled": "median time by state / median time by random phase",
+        "at most half": "is this ratio at most 1/2",
     },
     "release_disturbances": DAMPER
     | {
@@ -42,21 +42,21 @@ SHOWN = {
         "e": DAMPER["e"],
         "rm": DAMPER["rm"],
         "d0 for migration": "best clearance for migration by state",
-        "median cycles": "median time there [cycles]",
+        "median cycles": "median time with it [cycles]",
         "d0 for suppression": "best clearance for suppression",
-        "quiet": "quiet displacement there over the free resonance",
-        "median cycles, suppression": "median time there by state [cycles]",
-        "same": "as good for migration",
+        "quiet": "quiet displacement with it / free resonance",
+        "median cycles, suppression": "median time with it by state [cycles]",
+        "same": "is it as good for migration",
     },
     "release_answers": {
         "W": DAMPER["W"],
         "e": DAMPER["e"],
         "for migration": "best damper for migration by state",
         "median cycles": "its median time [cycles]",
-        "quiet": "its quiet displacement over the free resonance",
+        "quiet": "its quiet displacement / free resonance",
         "for suppression": "best damper for suppression",
         "median cycles, suppression": "its median time by state [cycles]",
-        "quiet, suppression": "its quiet displacement over the resonance",
+        "quiet, suppression": "its quiet displacement / resonance",
         "answer": "is the best for migration the best for suppression",
     },
 }
@@ -67,13 +67,16 @@ POLICIES = {
     "state": "state in the goal's basin",
     "clairvoyant": "future known",
 }
-# Words for the cells of a column; other cells are keys without underscores.
+# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
 CELLS = {"policy": lambda cell: POLICIES.get(cell, cell)}
 SYMBOLS = {"rm": "mass_ratio", "d0": "clearance", "e": "restitution"}
 
 
 def release_policies(datasets) -> pd.DataFrame:
-    """Success, cycles and cost of each policy, and the clairvoyant bound, for each damper and W."""
+    """Return success, cycles and cost of each policy and of the clairvoyant bound, by damper and W.
+
+    The clairvoyant bound is the success of a controller that knows the future.
+    """
     rows = []
     for data, case, damper in _cases(datasets):
         for here in (data.isel(case=case, frequency=k) for k in range(data.sizes["frequency"])):
@@ -95,10 +98,11 @@ def release_policies(datasets) -> pd.DataFrame:
 
 
 def release_predictions(datasets) -> pd.DataFrame:
-    """For each damper and W, whether releases do what the release set predicts.
+    """Return for each damper and W whether the release set predicts releases rightly.
 
-    Also whether the policy by state takes at most half of the time of the paper's policy; "not
-    known" where half of the trials of one of the two do not arrive.
+    A further column says whether the policy by state takes at most half of the time of the paper's
+    policy. It says "not known" if fewer than half of the trials of one of the policies reach the
+    goal.
     """
     rows = []
     for data, case, damper in _cases(datasets):
@@ -121,7 +125,7 @@ def release_predictions(datasets) -> pd.DataFrame:
                     "median by state": state,
                     "median by random phase": settled,
                     "state over settled": ratio,
-                    # an infinite median is above 350 cycles
+                    # an infinite median counts as 350 cycles, which it exceeds
                     "at most half": _yes(state <= min(settled, 350) / 2) if known else "not known",
                 }
             )
@@ -129,7 +133,7 @@ def release_predictions(datasets) -> pd.DataFrame:
 
 
 def release_disturbances(datasets) -> pd.DataFrame:
-    """Success of the policy by state under each disturbance, without margin and with the best."""
+    """Return the success of the policy by state under disturbances, by margin (none and best)."""
     rows = []
     for data, case, damper in _cases(datasets):
         for frequency in data.noisy_frequency.values:
@@ -151,9 +155,10 @@ def release_disturbances(datasets) -> pd.DataFrame:
 
 
 def release_dampers(datasets) -> pd.DataFrame:
-    """For each frequency, restitution and mass ratio the best gap for migration and suppression.
+    """Return the best clearances for migration and suppression, by frequency, e and mass ratio.
 
-    The best gap for suppression is as good for migration if the intervals of the medians overlap.
+    The best clearance for suppression is as good for migration if the intervals of the medians of
+    the cycles overlap.
     """
     rows = []
     for data in datasets.get("release_dampers", {}).values():
@@ -186,7 +191,7 @@ def release_dampers(datasets) -> pd.DataFrame:
 
 
 def release_answers(datasets) -> pd.DataFrame:
-    """For each frequency and restitution the best damper of the map for each purpose, in words."""
+    """Return the best damper of the map for each purpose, by frequency and restitution."""
     rows = []
     for data in datasets.get("release_dampers", {}).values():
         for frequency, restitution in np.ndindex(
@@ -220,7 +225,7 @@ def release_answers(datasets) -> pd.DataFrame:
 
 
 def best_margin(one):
-    """Return the margin with the largest success, of equal ones with the smallest median time."""
+    """Return the margin with the largest success; among equal ones that with the least time."""
     success, cycles = (
         one[name].sel(bound="share").values for name in ("disturbed_success", "disturbed_cycles")
     )
@@ -238,7 +243,7 @@ def _cases(datasets):
 
 
 def _yes(holds):
-    """Return a truth value as a word."""
+    """Return "yes" or "no"."""
     return "yes" if holds else "no"
 
 

@@ -17,7 +17,7 @@ SOURCES = {
     "brennan": "Brennan, Kovacic, Carrella and Waters, J. Sound Vib. 318(4-5), 1250, 2008",
     "hertz": "Johnson, Contact Mechanics, section 11.4, 1985",
 }
-# Why the two numbers differ, which of them is right, and how that is known.
+# Reasons why the two numbers differ, with the one that is right and the evidence.
 REASONS = {
     "contact stiffness": "Both are right: their walls are rigid, ours have r1 = {stiffness:g}. The "
     "difference falls as r1^{order:.2f}; ours extrapolated to rigid walls differs by {limit:.0e}.",
@@ -29,10 +29,10 @@ REASONS = {
     "that the response passes for any damping, and peaks are higher.",
     "direct search": "The closed form is right: a direct search comes as close to it as its "
     "tolerance.",
-    "first order": "The computed peaks are right, motions integrated by SciPy have them: the peaks "
-    "are equal to first order in the cubic force.",
-    "random starts": "Both are right: two random samples, {sigma:+.1f} standard errors of their "
-    "difference apart. 95 % confidence interval of ours: {low:.4f} to {high:.4f}.",
+    "first order": "The computed peaks are right, since motions integrated by SciPy have the same "
+    "peaks; the closed form makes them equal to first order in the cubic force only.",
+    "random starts": "Both are right: they are shares of two random samples and differ by "
+    "{sigma:+.1f} standard errors. 95 % confidence interval of ours: {low:.4f} to {high:.4f}.",
     "one harmonic": "The fold of the branch of exact orbits is right: the closed form keeps one "
     "harmonic, and the jump from the small motion neglects damping.",
     "linear contact": "Hertz is right for elastic bodies: our contact is the linear spring that "
@@ -54,7 +54,7 @@ SHOWN = {
 
 
 def published(datasets) -> pd.DataFrame:
-    """For each comparison: published number, number computed here, difference and explanation."""
+    """Return for each comparison both numbers, their difference and its explanation."""
     rows = []
     for data in datasets.get("published", {}).values():
         for k in range(data.sizes["comparison"]):
@@ -75,7 +75,7 @@ def _row(each, settings):
 
 
 def _explanation(each, theirs, ours, settings):
-    """Return the sentence of REASONS that says why two numbers differ, with its numbers."""
+    """Return the sentence of REASONS on why two numbers differ, with its numbers filled in."""
     reason = extract.meaning("difference_reason", int(each.difference_reason))
     order, error = float(each.difference_order), float(each.difference_error)
     words = {"order": order}

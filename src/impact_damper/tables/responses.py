@@ -60,15 +60,15 @@ SHOWN = {
         "max |Z1|": "displacement max |Z1|",
         "walls before": "walls touched before",
         "walls after": "walls touched after",
-        "least speed of contact": "least speed of contact",
+        "least speed of contact": "least speed at which a contact begins",
     },
 }
-# Words for the cells of a column; other cells are keys without underscores.
+# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
 CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
 
 
 def bands(datasets) -> pd.DataFrame:
-    """Suppression band of each curve, by harmonic balance and by the exact and chaotic motions."""
+    """Return the suppression band of each curve by harmonic balance and by the motions found."""
     designs = extract.damped(datasets, "harmonic_balance")
     responses = extract.damped(datasets, "response")
     rows = []
@@ -85,7 +85,7 @@ def bands(datasets) -> pd.DataFrame:
 
 
 def _balance_band(data):
-    """Columns on the suppression band by harmonic balance."""
+    """Return columns on the suppression band by harmonic balance."""
     lower, upper = data.edge_frequency.values
     lower_event, upper_event = (
         extract.meaning("edge_event", value) for value in data.edge_event.values
@@ -102,7 +102,7 @@ def _balance_band(data):
 
 
 def _existing_band(datasets, name):
-    """Columns on the band by the motions that exist, and on chaotic high motions."""
+    """Return columns on the band by the motions that exist, and on chaotic violent motions."""
     response = datasets["response"][name]
     try:
         free = exact_orbits.free_of(datasets, response)
@@ -135,7 +135,7 @@ def _existing_band(datasets, name):
 
 
 def subharmonic(datasets) -> pd.DataFrame:
-    """One-third subharmonic without the damper, and every stable branch of it with the damper."""
+    """Return the one-third subharmonic without damper, and its stable branches with damper."""
     rows = [
         {"data": name, "damper": "off"}
         | parameter_columns(free, "damping", "linear_frequency")
@@ -164,7 +164,7 @@ def subharmonic(datasets) -> pd.DataFrame:
 
 
 def _stable_part(part):
-    """Number and period of a branch of subharmonics, and the range of W of its stable part."""
+    """Return number, period and range of W of the stable part of a branch of subharmonics."""
     return {
         "branch": f"{part.branch.iloc[0] + 1}",
         "period": part.period.iloc[0],
@@ -175,7 +175,7 @@ def _stable_part(part):
 
 
 def _free_subharmonic(free):
-    """Columns of the free one-third subharmonic, if it exists."""
+    """Return columns on the free one-third subharmonic, if it exists."""
     try:
         part = exact_orbits.subharmonic(free)
     except Missing:
@@ -184,7 +184,7 @@ def _free_subharmonic(free):
 
 
 def orbits(datasets) -> pd.DataFrame:
-    """Branches of periodic orbits: period, ranges of W, stable ranges, ends, numerical errors."""
+    """Return branches of periodic orbits: period, range of W, stable parts, ends and errors."""
     rows = []
     for name, parameters, data in _branches(datasets):
         for branch in range(data.sizes["branch"]):
@@ -219,7 +219,7 @@ def orbits(datasets) -> pd.DataFrame:
 
 
 def _ends_of(data, branch):
-    """Return why a branch ends at both edges, and the number of the branch that it meets there."""
+    """Return the reasons for both ends of a branch, with the number of a branch met there."""
     ends, met = (data[name].values[branch] for name in ("branch_end", "branch_met"))
     names = [extract.meaning("branch_end", end) for end in ends]
     return [
@@ -236,13 +236,13 @@ def _branches(datasets):
 
 
 def _stable_ranges(value, stable):
-    """Ranges of W of the stable parts of a branch, as text."""
+    """Return the ranges of W of the stable parts of a branch, as text."""
     parts = [value[first:last] for first, last in runs_of_true(stable)]
     return ", ".join(f"{part.min():.5g} to {part.max():.5g}" for part in parts)
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Located bifurcations and changes of contact, sorted by branch and forcing frequency."""
+    """Return located bifurcations and changes of contact, sorted by branch and frequency."""
     rows = []
     for name, parameters, data in _branches(datasets):
         for k in range(data.sizes["event"]):

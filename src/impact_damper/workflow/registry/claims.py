@@ -10,7 +10,7 @@ TABLES = (
         "readings",
         "tables.accuracy",
         ("harmonic_balance", "branches", "response", "optimum"),
-        "Optimum clearances and band edges by each model, compared with the motions that exist.",
+        "Optimum clearances and edges of suppression bands by each model and by the exact motions.",
     ),
     Table(
         "claims",
@@ -28,7 +28,7 @@ TABLES = (
             "release_scan",
             "release_policies",
         ),
-        "Every claim of the paper, with its interpretation, the measures that decide it, and the "
-        "verdict computed from the data.",
+        "Every claim of the paper with its interpretation, the numbers that decide it, and the "
+        "verdict computed from them.",
     ),
 )

@@ -44,6 +44,7 @@ TABLES = (
         "harmonic_convergence",
         "tables.design",
         ("harmonic_convergence",),
-        "Harmonics that a balance needs, observed and predicted decrease of errors, cold starts.",
+        "Harmonics that a balance needs for an accuracy, decrease of errors as observed and as "
+        "predicted, and cold starts: Newton's method begun from the solution with one harmonic.",
     ),
 )

@@ -18,7 +18,7 @@ def machines(config, name):
 
 
 TITLE = "Dampers for machines in SI units"
-# Those of `pages.machine.FIGURES`.
+# Names of the figures of a machine's page, the keys of `pages.machine.FIGURES`.
 PAGE = (
     "drawing",
     "response",
@@ -37,7 +37,7 @@ TABLES = (
         "machines",
         "tables.machines",
         ("machines",),
-        "Dampers designed for machines: what to build, what it does over the band, how sure that "
-        "is, and the best tuned absorber of the same mass.",
+        "Dampers designed for machines: the gap to build, displacements over the band, the promise "
+        "and its test, and the best tuned absorber of the same mass.",
     ),
 )

@@ -123,19 +123,20 @@ TABLES = (
         "balance_map",
         "tables.balance_map",
         ("balance_map",),
-        "Number of map cells in which harmonic balance is right or wrong about stability.",
+        "Number of map cells in which harmonic balance is right and wrong about stability.",
     ),
     Table(
         "contact_model",
         "tables.contact",
         ("contact_model",),
-        "Contacts without load by exit rule, and number of map cells with each verdict.",
+        "Contacts without load, and number of map cells by error of the restitution, for both "
+        "rules for the end of a contact.",
     ),
     Table(
         "contact_motions",
         "tables.contact",
         ("contact_model",),
-        "Contacts of simulated motions: load, restitution, and effect of the exit rule.",
+        "Contacts of simulated motions: load, restitution, and effect of the rule for their end.",
     ),
     Table(
         "rigid_limit",
@@ -159,14 +160,14 @@ TABLES = (
         "method_verdicts",
         "tables.integrators",
         ("method_verdicts",),
-        "Loosest tolerance, or smallest number of steps, from which on all verdicts of a method "
-        "are right, or the kind of wrong verdict.",
+        "Loosest tolerance, or smallest number of steps, from which on a method finds the right "
+        "motion, or the kind of its error.",
     ),
     Table(
         "models",
         "tables.accuracy",
         ("accuracy",),
-        "Error and counted work of every method and model on each scene, and the one with the "
-        "least work that meets the required accuracy.",
+        "Error and counted work of every method and model on each test case (scene), and the one "
+        "with the least work that is accurate enough.",
     ),
 )

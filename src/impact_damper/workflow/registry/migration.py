@@ -91,26 +91,28 @@ TABLES = (
         "release_scan",
         "tables.migration",
         ("release_scan",),
-        "Frequencies at which releases of each damped motion lead to which free motions.",
+        "Frequencies at which releases of each damped motion lead to each free motion.",
     ),
     Table(
         "release_policies",
         "tables.policies",
         ("release_policies",),
-        "When to let go of the damper: success and cycles of each policy, with a bound.",
+        "When to switch the damper off: success and cycles of each policy, and the bound of a "
+        "controller that knows the future.",
     ),
     Table(
         "release_predictions",
         "tables.policies",
         ("release_policies",),
-        "Whether releases do what the release set predicts, on releases not used to build it, and "
-        "whether the policy by state takes at most half the time of random release.",
+        "Predictions of the release set, tested with releases that were not used to build it, and "
+        "time of the policy by state compared with release at a random phase.",
     ),
     Table(
         "release_disturbances",
         "tables.policies",
         ("release_policies",),
-        "Noise, delay and a wrong model: success of the policy by state and the best margin.",
+        "Success of the policy by state under noise, delay and a wrong model, with the best "
+        "margin.",
     ),
     Table(
         "release_dampers",

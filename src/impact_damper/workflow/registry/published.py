@@ -20,6 +20,6 @@ TABLES = (
         "published",
         "tables.published",
         ("published",),
-        "Published numbers and closed forms beside ours, and why they differ.",
+        "Published numbers and closed forms beside the numbers computed here, and why they differ.",
     ),
 )

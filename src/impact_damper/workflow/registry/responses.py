@@ -68,8 +68,8 @@ TABLES = (
         "outcomes",
         "tables.motions",
         ("response", "subharmonic", "optimum", "studies", "balance_map"),
-        "Outcomes of all random starts of each file; unresolved motions by the sign of their "
-        "Lyapunov exponent, as far as it is known.",
+        "Number of random starts with each outcome, for each file. The CSV counts unresolved "
+        "motions by the sign of their Lyapunov exponent.",
     ),
     Table(
         "quasi_periodic",
@@ -82,14 +82,14 @@ TABLES = (
         "tables.motions",
         ("response", "optimum"),
         "Motions to which at least 5 % of random starts lead at some Ω or d0: the largest share of "
-        "starts with its 95 % interval, and the bound on the share of a motion that none reached.",
+        "starts with its 95 % interval, and the bound on the share of a motion not seen.",
     ),
     Table(
         "chaos",
         "tables.motions",
         ("response", "branches"),
         "Chaotic motions of the responses that are larger than half of the free resonance, and "
-        "their mean lives with 95 % intervals; no upper end where no run ended.",
+        "their mean lives with 95 % intervals. The upper end is empty where no run ended.",
     ),
     Table(
         "subharmonic",
@@ -101,13 +101,14 @@ TABLES = (
         "orbits",
         "tables.responses",
         ("branches",),
-        "Branches of periodic orbits: range, stable parts, and events at both ends. They begin at "
-        "settled motions and at stable orbits that Newton's method finds in 360 searches from "
-        "random states, or leave another branch where a stable orbit loses its symmetry or doubles "
-        "its period, up to period 4. Point limit: left after 2500 orbits in one direction, or "
-        "6000/n for periods n above 8, among chaotic motions. Lost: Newton's method finds no next "
-        "orbit, where several contacts appear at almost the same frequency. The column `not "
-        "located` of the CSV counts events that were seen between two orbits but not found.",
+        "Branches of periodic orbits: range, stable parts, and events at both ends. A branch "
+        "begins at a settled motion, at a stable orbit that Newton's method found in one of 360 "
+        "searches from random states, or at a point of another branch where a stable orbit up to "
+        "period 4 loses its symmetry or doubles its period. Point limit: the branch was followed "
+        "no further after 2500 orbits in one direction (6000/n for periods n above 8), among "
+        "chaotic motions. Lost: Newton's method found no next orbit, since several contacts "
+        "appear at almost the same frequency. The column `not located` of the CSV counts events "
+        "that lie between two orbits but were not located.",
     ),
     Table(
         "bifurcations",
