@@ -100,7 +100,7 @@ def draw_plane(axes, data):
         saddles = data["saddle_displacement"], data["saddle_velocity"]
         handles += axes.plot(*saddles, **SADDLES, label="unstable orbit")
     turn = float(data["basin_phase"]) / np.pi
-    axes.set_title(rf"{system_words(data)}, phase ${turn:.3g}\pi$", loc="right")
+    axes.set_title(rf"{system_words(data)}, phase ${turn:.3g}\pi$", loc="right", fontsize=7.5)
     axes.set(
         xlabel=axis_label(data["basin_displacement"]),
         ylabel=axis_label(data["basin_velocity"]),

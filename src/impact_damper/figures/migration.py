@@ -1,6 +1,7 @@
 """A run of migration control against time: figures 13, 15 and 16 (figure kind `migration`)."""
 
 import numpy as np
+from matplotlib.colors import to_rgb
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.style import (
@@ -64,9 +65,8 @@ def draw_run(axes, run, span, width):
         each = max(1, round(period / (time[1] - time[0])))
         rows = displacement[: len(displacement) // each * each].reshape(-1, each)
         lows, highs = rows.min(axis=1), rows.max(axis=1)
-        axes.fill_between(
-            time[: rows.size : each], lows, highs, color=BLACK, linewidth=0, alpha=0.6
-        )
+        look = {"facecolor": (*to_rgb(BLACK), 0.25), "edgecolor": BLACK, "linewidth": 0.4}
+        axes.fill_between(time[: rows.size : each], lows, highs, **look)
     else:
         axes.plot(time, displacement, color=BLACK, linewidth=width)
     on, off = (run[name].values[np.isfinite(run[name])] for name in ("on_time", "off_time"))

@@ -16,9 +16,9 @@ from impact_damper.figures.style import (
 from impact_damper.tables.policies import POLICIES
 
 CAPTION = """
-Above: share of trials that reach the non-resonance motion within 350 cycles, with 95 % intervals,
-by four rules of release, whose parameters were chosen in separate trials. Below: median of the
-cycles. Dotted, with grey area: bound reached by a controller that knows state and future.
+Above: share of trials that reach the non-resonance motion within 350 cycles, by four rules of
+release, whose parameters were chosen in separate trials. Below: median of the cycles. Bars: 95 %
+intervals. Dotted, with grey area: bound of a controller that knows state and future.
 """
 
 
@@ -72,8 +72,16 @@ def draw_case(above, below, one):
             above.errorbar(
                 frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look
             )
-        cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5, bound="share").values
-        below.plot(frequency, np.where(np.isfinite(cycles), cycles, np.nan), **look)
+        cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
+        draw_medians(below, frequency + 0.004 * (k - 1.5), cycles, look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03
     above.set(xlim=ends, ylim=(-0.05, 1.05))
     below.set(yscale="log", ylim=(8, 400), xlabel=axis_label(one["frequency"]))
+
+
+def draw_medians(axes, places, cycles, look):
+    """Draw medians and their bounds, shape (n, 3); an infinite upper bound leaves the panel."""
+    cycles = cycles[:, 0], cycles[:, 1], np.minimum(cycles[:, 2], 1e6)
+    median = np.where(np.isfinite(cycles[0]), cycles[0], np.nan)
+    spread = median - cycles[1], cycles[2] - median
+    axes.errorbar(places, median, spread, capsize=1.5, **look)

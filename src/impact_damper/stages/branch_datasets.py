@@ -5,12 +5,15 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS
+from impact_damper.orbits.tori import torus_behind
 
 # A contact that begins with a relative speed below this nearly grazes the wall: the 3/2-power term
 # of the map at grazing matters, and Floquet multipliers are less accurate.
 SLOW = 0.01
 # Two branches meet where the parameter and max |Z1| of an event of both agree so closely.
 SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
+# Numbers of `tori.Torus` that are stored.
+TORUS_NUMBERS = ("angle", "growth", "value", "number", "error", "limit")
 
 
 def _status(orbit):
@@ -74,6 +77,47 @@ def _met(branches, number, edge):
                 if abs(found - size) < SAME_SIZE:
                     return other
     return -1
+
+
+def torus_variables(branches):
+    """Return the variables of dimension `event` that say what splits off at Neimark-Sacker points.
+
+    Of a point that lies on several branches the torus is looked for once.
+
+    Parameters
+    ----------
+    branches : list of Branch
+        With a damper, over the forcing frequency.
+
+    Returns
+    -------
+    dict of numpy.ndarray
+    """
+    known, kinds, numbers = [], [], []
+    for branch in branches:
+        for _, event in branch.events:
+            kind, values = "absent", [np.nan] * len(TORUS_NUMBERS)
+            if event.kind == "neimark_sacker":
+                torus = next((each for point, each in known if _is_same(point, event.point)), None)
+                if torus is None:
+                    torus = torus_behind(event.point)
+                    known.append((event.point, torus))
+                kind, values = torus.kind, [getattr(torus, name) for name in TORUS_NUMBERS]
+            kinds.append(flag("torus_kind", kind))
+            numbers.append(values)
+    table = np.array(numbers).reshape(-1, len(TORUS_NUMBERS)).T
+    columns = {f"torus_{name}": row for name, row in zip(TORUS_NUMBERS, table, strict=True)}
+    return {"torus_kind": np.array(kinds, int)} | columns
+
+
+def _is_same(first, second):
+    """Return whether two points of branches at events are the same."""
+    sizes = (point.orbit.record["maximum_displacement"] for point in (first, second))
+    return (
+        first.orbit.periods == second.orbit.periods
+        and abs(first.value - second.value) < SAME_VALUE
+        and abs(next(sizes) - next(sizes)) < SAME_SIZE
+    )
 
 
 def branches_dataset(branches, back, parameters, title):

@@ -20,7 +20,7 @@ from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.random_search import COUNT, stable_orbits
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import LEAVING, other_branch
-from impact_damper.stages.branch_datasets import branches_dataset, orbit_variables
+from impact_damper.stages.branch_datasets import branches_dataset, orbit_variables, torus_variables
 from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown
 from impact_damper.system.checks import check_span
 from impact_damper.system.families import LINEAR, family_of
@@ -186,7 +186,9 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
         As from `orbit_branch`, for all branches; `seeds`, the number of settled motions, and
         `seeds_lost`, the number of those motions from which Newton's method found no orbit;
         likewise `switches` and `switches_lost` for bifurcations where another branch leaves;
-        `searches` from random states, those that found a stable orbit, and new branches. Mirror
+        `searches` from random states, those that found a stable orbit, and new branches. With a
+        damper for each Neimark-Sacker point what splits off there, `torus_kind`, and the rotation
+        number of a stable torus. Mirror
         images count as one branch. Motions without contacts are left out if there is a damper,
         because they are those of the free oscillator.
 
@@ -240,6 +242,7 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     data = branches_dataset(branches, float, parameters, "Branches of periodic orbits")
     counts = {"seeds": len(seeds), "seeds_lost": lost}
     counts |= searches | {"switches": switches, "switches_lost": unswitched}
+    counts |= torus_variables(branches) if damper is not None else {}
     return data.assign(dataset(counts, {}, parameters, data.attrs["title"]).variables)
 
 

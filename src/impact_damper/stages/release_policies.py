@@ -30,7 +30,7 @@ from impact_damper.system.settling import check_settling
 
 POLICIES = ["settled", "hold", "phase", "state", "clairvoyant"]
 # Margins over the size of the resonance motion.
-MARGINS = (0.0, 0.01, 0.02, 0.04, 0.08)
+MARGINS = (0.0, 0.02, 0.04, 0.08, 0.16)
 # What disturbs the policy by state: error of the measured state over the size of the resonance
 # motion; delay in PHASES-ths of a period; factors of damping and force of the model from which the
 # release set is computed.

@@ -8,6 +8,7 @@ from impact_damper.claims.claim import Missing
 from impact_damper.claims.suppression import high_motions
 from impact_damper.data.datasets import flag
 from impact_damper.data.families import families
+from impact_damper.data.variables.orbits import TORUS
 from impact_damper.data.variables.variable import OUTCOME
 from impact_damper.tables.columns import parameter_columns
 
@@ -22,6 +23,8 @@ MATCHED = ("response", "optimum")
 LISTED = 0.05
 # Outcomes that are not counted one by one.
 OTHERS = ("diverged", "escaped", "at_rest")
+# Torus of an orbit of which another multiplier lies outside the unit circle.
+UNSTABLE_ORBIT = "of_unstable_orbit"
 # An exponent within this number of standard errors of 0 may be 0.
 NEUTRAL = 3.0
 
@@ -49,6 +52,17 @@ SHOWN = {
         "second frequency": "second frequency",
         "its error": "error of the second frequency",
         "rotation number": "rotation number",
+    },
+    "tori": {
+        "data": "curve",
+        "period": "period of the orbit [cycles]",
+        "W": "Neimark-Sacker point at Ω",
+        "angle": "angle of the multiplier [revolutions]",
+        "torus": "torus that splits off",
+        "W of torus": "at Ω",
+        "second frequency": "second frequency there",
+        "limit": "rotation number at the point",
+        "growth": "growth of the amplitude",
     },
     "chaos": {
         "data": "curve",
@@ -81,7 +95,10 @@ STAGES = {
     "studies": "planes of two parameters",
     "balance_map, high run": "starts at violent solutions of (7)",
 }
-CELLS = {"stage": lambda cell: STAGES.get(cell, cell)}
+TORI = {"stable": "stable", "unstable": "unstable", "unknown": "not found out"}
+CELLS = {"stage": lambda cell: STAGES.get(cell, cell), "torus": lambda cell: TORI.get(cell, cell)}
+# Neimark-Sacker points of two branches that agree so closely are one, met by both.
+SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
 
 
 def outcomes(datasets) -> pd.DataFrame:
@@ -155,6 +172,48 @@ def quasi_periodic(datasets) -> pd.DataFrame:
                 }
             )
     return pd.DataFrame(rows)
+
+
+def tori(datasets) -> pd.DataFrame:
+    """Neimark-Sacker points at which a stable orbit loses its stability: the torus behind each."""
+    rows = []
+    for name, data in extract.damped(datasets, "branches").items():
+        met = []
+        for k in np.flatnonzero(~data.torus_kind.isin([TORUS["absent"], TORUS[UNSTABLE_ORBIT]])):
+            event = data.isel(event=k)
+            period = int(data.branch_period[int(event.event_branch)])
+            value, size = float(event.event_value), float(event.event_displacement)
+            if any(
+                n == period and abs(w - value) < SAME_VALUE and abs(z - size) < SAME_SIZE
+                for n, w, z in met
+            ):
+                continue
+            met.append((period, value, size))
+            first = float(event.torus_value) / period
+            rows.append(
+                {"data": name}
+                | parameter_columns(data, "damping", *DAMPER)
+                | {
+                    "period": period,
+                    "W": value,
+                    "max |Z1|": size,
+                    "angle": float(event.torus_angle),
+                    "torus": extract.meaning("torus_kind", int(event.torus_kind)),
+                    "growth": float(event.torus_growth),
+                    "W of torus": float(event.torus_value),
+                    "first frequency": first,
+                    "second frequency": first * float(event.torus_number),
+                    "rotation number": float(event.torus_number),
+                    "its error": float(event.torus_error),
+                    "limit": float(event.torus_limit),
+                    "limit less angle": float(event.torus_limit - event.torus_angle),
+                }
+            )
+    frame = pd.DataFrame(rows)
+    digits = ("W", "angle", "W of torus", "second frequency", "rotation number", "limit")
+    for column in digits if rows else ():
+        frame[column] = frame[column].map(lambda x: f"{x:.8f}" if np.isfinite(x) else "")
+    return frame.sort_values(["data", "W"], kind="stable") if rows else frame
 
 
 def chaos(datasets) -> pd.DataFrame:

@@ -19,6 +19,7 @@ BRANCH_END = {
     "lost": 5,
     "point_limit": 6,
 }
+TORUS = {"absent": 0, "stable": 1, "unstable": 2, "of_unstable_orbit": 3, "unknown": 4}
 
 VARIABLES = {
     # orbits along branches
@@ -155,5 +156,36 @@ VARIABLES = {
     ),
     "walls_after": Variable(
         ("event",), "walls in the order in which orbits after an event touch them"
+    ),
+    # tori behind Neimark-Sacker points
+    "torus_kind": Variable(
+        ("event",),
+        "torus that splits off at a Neimark-Sacker point: a stable one, one that is not, one of an "
+        "orbit with another multiplier outside the unit circle, or not found out",
+        flags=TORUS,
+    ),
+    "torus_angle": Variable(
+        ("event",), "angle in revolutions of the multiplier on the unit circle at the point"
+    ),
+    "torus_growth": Variable(
+        ("event",),
+        "change of the logarithm of the amplitude in a period of the orbit at the point, over the "
+        "square of the amplitude: negative if the torus is stable",
+        quantity="mixed",
+    ),
+    "torus_value": Variable(
+        ("event",),
+        "varied parameter at which a stable torus was run onto",
+        quantity="followed",
+    ),
+    "torus_number": Variable(
+        ("event",), "rotation number of that torus, in revolutions per period of the orbit"
+    ),
+    "torus_error": Variable(
+        ("event",), "difference of that rotation number between parts of the run"
+    ),
+    "torus_limit": Variable(
+        ("event",),
+        "rotation number extrapolated to the Neimark-Sacker point, from two stable tori",
     ),
 }

@@ -78,6 +78,18 @@ TABLES = (
         "Quasi-periodic motions of the responses and their two frequencies, from rotation numbers.",
     ),
     Table(
+        "tori",
+        "tables.motions",
+        ("branches",),
+        "Tori that split off from stable orbits at their Neimark-Sacker points. The growth is the "
+        "change of the logarithm of the amplitude in a period over the square of the amplitude; "
+        "where it is negative the torus is stable. Stable tori were run onto close to the point at "
+        "two Ω, of which the closer one is given; the rotation number is extrapolated to the point "
+        "and must equal the angle of the multiplier. No frequency: the torus was not met at these "
+        "Ω, as its orbit ends, locks or becomes chaotic too soon. Not found out: a grazing is too "
+        "close. Orbits that are unstable on both sides of their point are left out.",
+    ),
+    Table(
         "shares",
         "tables.motions",
         ("response", "optimum"),
