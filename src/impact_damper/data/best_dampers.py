@@ -6,9 +6,9 @@ import numpy as np
 def best_clearances(one):
     """Return the best clearances for two purposes.
 
-    For migration: with the largest share of trials that reach the goal by release by state, of
-    equal ones with the smallest median of the cycles. For suppression: with the smallest quiet
-    motion.
+    The best clearance for migration has the largest share of trials in which release by state
+    reaches the goal; among equal shares, the smallest median of the cycles decides. The best
+    clearance for suppression has the smallest quiet motion.
 
     Parameters
     ----------

@@ -14,14 +14,14 @@ from impact_damper.system.parameters import Damper, Oscillator, pick
 
 SOURCE = "impact-damper"
 
-# Coordinates that hold the phase W T of states, so that a state carries it along.
+# Coordinates with the phase W T of states; a state taken from a dataset keeps them.
 PHASES = ("state_phase", "orbit_phase")
-# Most numbers read at once from an open file.
+# Largest number of values read at once from an open file.
 PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """Variable with the attributes registered for `name`; `dims` replaces its dimensions.
+    """Return a variable with the attributes registered for `name`; `dims` replaces its dimensions.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def dataset(data, coordinates, parameters, title) -> xr.Dataset:
-    """Dataset of registered variables.
+    """Return a dataset of registered variables.
 
     Parameters
     ----------
@@ -86,12 +86,12 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
 
 
 def flag(name, meaning) -> int:
-    """Stored number of a named value of a variable: `flag("outcome", "settled")` is 1."""
+    """Return the stored number of a named value: `flag("outcome", "settled")` is 1."""
     return VARIABLES[name].flags[meaning]
 
 
 def decode(values) -> xr.DataArray:
-    """Return the words that the numbers of a flag variable stand for.
+    """Return the names of the numbers in a flag variable, such as "settled" for 1.
 
     Any variable with the attributes `flag_values` and `flag_meanings` of the CF conventions can be
     decoded, such as `outcome`, `stability` or `event_kind`.
@@ -137,18 +137,18 @@ def decode(values) -> xr.DataArray:
 
 
 def is_settled(motions):
-    """Mask of the motions of a record or dataset whose outcome is "settled"."""
+    """Return which motions of a record or dataset have the outcome "settled"."""
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
 def touches_no_wall(motions):
-    """Mask of the motions of a record or dataset in which the loose mass touches no wall."""
+    """Return in which motions of a record or dataset the loose mass touches no wall."""
     names = ("non_colliding", "drifting")
     return np.isin(motions["outcome"], [flag("outcome", name) for name in names])
 
 
 def parameters_of(data) -> dict:
-    """Parameters from which a dataset was computed."""
+    """Return the parameters from which a dataset was computed."""
     return json.loads(data.attrs["parameters"])
 
 
@@ -160,21 +160,21 @@ def oscillator_of(data) -> Oscillator:
 def damper_of(data, **others) -> Damper:
     """Return the damper that a dataset was computed for.
 
-    `others` gives the fields that are not among the parameters of the dataset because they vary in
-    it, as the clearance does in a sweep.
+    `others` are fields that vary in the dataset, as the clearance does in a sweep, and therefore
+    are not among its parameters.
     """
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 
 def has_damper(data) -> bool:
-    """Whether a dataset is of an oscillator with a damper."""
+    """Return whether a dataset is of an oscillator with a damper."""
     return "mass_ratio" in parameters_of(data)
 
 
 def save(data, path) -> None:
     """Write a dataset to NetCDF; the file appears only when it is complete.
 
-    The attributes of `seal` are added, with which `load` detects that a file was replaced or
+    The attributes that `seal` returns are added. They let `load` detect that a file was replaced or
     damaged.
     """
     with whole_netcdf(path) as part:
@@ -209,7 +209,7 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} was not made by this project")
     sealed = seal(data.variables, path)
     if data.attrs.get("id") != sealed["id"]:
-        held = data.attrs.get("id", "a dataset that `save` did not write: read it with xarray")
+        held = data.attrs.get("id", "a dataset not written by `save`; read it with xarray")
         raise BrokenFileError(f"{path} holds {held}")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written")
@@ -219,7 +219,7 @@ def load(path) -> xr.Dataset:
 
 
 def seal(variables, path) -> dict:
-    """Attributes that identify a file: `id` (stage and name) and `sha256` (digest of its arrays).
+    """Return the attributes that identify a file: `id` (stage and name) and `sha256` (of arrays).
 
     Parameters
     ----------
@@ -232,13 +232,13 @@ def seal(variables, path) -> dict:
 
 
 def _identity(path):
-    """Stage and name of a results file, independent of the location of the results folder."""
+    """Return stage and name of a results file, the same for any location of the results folder."""
     path = Path(path).absolute()
     return f"{path.parent.name}/{path.stem}"
 
 
 def _digest(variables):
-    """SHA-256 digest of all names, dimensions, shapes and values."""
+    """Return the SHA-256 digest of all names, dimensions, shapes and values."""
     digest = hashlib.sha256()
     for name, variable in sorted(variables.items()):
         digest.update(f"{name} {variable.dims} {variable.shape}".encode())

@@ -1,4 +1,7 @@
-"""Text for the ranges that a design found; an end can be the end of the search."""
+"""Text for the ranges that a design found.
+
+An end of a range can be unknown, because the search ended before the range did.
+"""
 
 import numpy as np
 
@@ -30,8 +33,8 @@ def stable_range(data, parameter) -> str:
 def known_range(ends, is_open) -> str:
     """Return the text of a range.
 
-    An end is open if the search stopped before the range ended; the range then extends at least to
-    the number, and "or less" or "or more" follows it.
+    An end is open if the search stopped before the range ended. The range then extends at least to
+    the number, and the text adds "or less" or "or more".
     """
     low, high = (f"{end:.4g}" for end in ends)
     return f"{low}{' or less' * bool(is_open[0])} to {high}{' or more' * bool(is_open[1])}"

@@ -1,4 +1,4 @@
-"""Motions of a sweep, each over all values at which it was found."""
+"""Motions of a sweep, each with all values of the parameter at which it was found."""
 
 from typing import NamedTuple
 
@@ -17,9 +17,9 @@ class Family(NamedTuple):
     outcome : str
         Name of its outcome.
     period : int
-        In forcing periods; 0 if it has none.
+        In cycles; 0 for a motion without a period.
     places : numpy.ndarray of bool, shape (value, motion)
-        Where it stands in the tables of the sweep, once at each value at most.
+        Its places in the tables of the sweep, at most one for each value.
     starts : int
         Random starts that lead to it, at all values together.
     """
@@ -31,13 +31,13 @@ class Family(NamedTuple):
 
 
 def families(data) -> list:
-    """Return the motions of a sweep, those first that most random starts lead to.
+    """Return the motions of a sweep, by descending number of random starts that lead to them.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a sweep of frequency or clearance: its variable `branch` says which motions at different
-        values are the same (`motions.sweep`).
+        Of a sweep of frequency or clearance. Motions at different values with the same `branch` are
+        one motion (`motions.sweep`).
 
     Returns
     -------

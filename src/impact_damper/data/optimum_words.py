@@ -1,16 +1,16 @@
-"""The optimum of a sweep of the clearance in words."""
+"""A sentence on the optimum of a sweep of the clearance."""
 
 from impact_damper.data.datasets import flag
 
 
 def optimum_in_words(sweep) -> str:
-    """Return in words the optimum that a sweep of the clearance found, or that there is none.
+    """Return a sentence on the optimum of a sweep of the clearance, or that it has none.
 
     Parameters
     ----------
     sweep : xarray.Dataset
-        Returned by `stages.optimum.clearance_sweep`. In SI units the words tell the gap, the full
-        play; otherwise the clearance, half of it.
+        Returned by `stages.optimum.clearance_sweep`. In SI units the sentence gives the gap, the
+        full play; otherwise the clearance, half of the gap.
     """
     unit = sweep["clearance"].attrs["units"]
     what, times, end, play = "clearance", 1, "", ""

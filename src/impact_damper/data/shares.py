@@ -14,7 +14,7 @@ QUANTILE = 1.959963984540054
 
 
 def wilson(successes, total):
-    """Share, lower and upper end of Wilson's 95 % interval, shape (3,); NaN if total is 0."""
+    """Return a share and both ends of its Wilson 95 % interval, shape (3,); NaN if total is 0."""
     if total == 0:
         return np.full(3, np.nan)
     share, z = successes / total, ndtri(0.975)
@@ -45,7 +45,7 @@ def wilson_intervals(successes, total):
 
 
 def starts_needed(share) -> int:
-    """Return the least number of trials, all successful, whose interval lies above a share.
+    """Return the least number of trials that, if all succeed, prove a share at 95 % confidence.
 
     The lower end of Wilson's 95 % interval of n successes in n trials is n/(n + QUANTILE^2).
     """
@@ -53,16 +53,16 @@ def starts_needed(share) -> int:
 
 
 def failures_allowed(share, total) -> int:
-    """Return the most failures in a number of trials with which the interval lies above a share.
+    """Return the largest number of failures with which Wilson's interval lies above a share.
 
-    -1 if there are too few trials even without a failure.
+    Return -1 if `total` trials are too few even without a failure.
     """
     lower = wilson_intervals(np.arange(total, -1, -1), total)[:, 0]
     return int(np.sum(lower >= share)) - 1
 
 
 def survival(lives, horizon, times):
-    """Share of runs whose lifetime exceeds each of `times`, with 95 % intervals.
+    """Return the shares of runs whose lifetime exceeds each of `times`, with 95 % intervals.
 
     Lifetimes are known up to the horizon, the time at which all remaining runs are cut off. Since
     no run is cut off earlier, the Kaplan-Meier estimate is the binomial share.
@@ -91,11 +91,12 @@ def survival(lives, horizon, times):
 
 
 def escape_rate(lives, horizon, lead=LEAD):
-    """Rate at which runs end after the time `lead`, per unit time, with its 95 % interval.
+    """Return the rate at which runs end after the time `lead`, with its 95 % interval.
 
-    The rate is the number of runs that end between `lead` and the horizon, divided by the time that
-    all runs together last between them (time at risk). This is the estimate for exponentially
-    distributed lifetimes; the interval is the chi-squared one of a Poisson count.
+    The rate is the number of runs that end between `lead` and the horizon, divided by the sum of
+    the times that all runs last between these two (time at risk). This is the estimate for
+    exponentially distributed lifetimes. The interval is the chi-squared interval of a Poisson
+    count.
 
     Returns
     -------
@@ -112,7 +113,9 @@ def escape_rate(lives, horizon, lead=LEAD):
 
 
 def missed_share(data):
-    """Share of the completed runs in which an integrator misses the contact; NaN without any.
+    """Return the share of completed runs in which an integrator misses the contact.
+
+    NaN where no run was completed.
 
     Parameters
     ----------

@@ -8,7 +8,7 @@ import numpy as np
 
 from impact_damper.data.whole_files import whole
 
-# Significant digits of numbers in files of values, and in tables for people.
+# Significant digits of numbers in CSV and in Markdown files.
 DIGITS, FEW_DIGITS = 6, 4
 LARGE = 1e7
 
@@ -43,7 +43,7 @@ def as_markdown(frame) -> str:
 
 
 def for_people(frame, title, heads, csv_name, cells=None) -> str:
-    """Return the Markdown text of the columns of a table that people read first.
+    """Return the Markdown text of a table with its most important columns.
 
     Parameters
     ----------
@@ -51,13 +51,13 @@ def for_people(frame, title, heads, csv_name, cells=None) -> str:
         Table of strings.
     title : str
     heads : dict of str
-        Keyed by the names of the columns shown: their heads, in words, with symbol and unit. A
-        column that the frame does not have, since its data were not computed, is left out.
+        Heads of the columns shown, with symbol and unit, keyed by the name of the column. A column
+        whose data were not computed is left out.
     csv_name : str
         Name of the file with all columns.
     cells : dict of callable, optional
-        Keyed by column: maps the text of a cell to the words shown. Other cells are shown as
-        `in_words` returns them.
+        Keyed by column: a function from the text of a cell to the text shown. Other cells are shown
+        as `in_words` returns them.
     """
     cells = cells or {}
     shown = frame[[name for name in heads if name in frame]]

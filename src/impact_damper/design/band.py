@@ -1,4 +1,4 @@
-"""Forcing frequencies of a design: the band, the resonances in it, and the frequencies run."""
+"""Forcing frequencies of a design: the band, its resonances, and the grid of frequencies."""
 
 import math
 from collections.abc import Sequence
@@ -11,10 +11,11 @@ from impact_damper.theory.free_oscillator import free_folds, maximum_response
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the frequencies between which the free machine resonates, Hz.
+    """Return the lowest and the highest frequency at which the free machine resonates, Hz.
 
-    From the natural frequency of small vibrations, if the spring has a linear part, to the peak and
-    the folds of the free response by harmonic balance, which a cubic spring bends away.
+    The range contains the natural frequency of small vibrations, if the spring has a linear part,
+    and the peak and the folds of the free response by harmonic balance. A cubic spring moves the
+    peak away from the natural frequency.
     """
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
@@ -22,7 +23,7 @@ def resonance_of(machine) -> tuple[float, float]:
     try:
         found.append(maximum_response(oscillator).frequency)
     except ValueError:
-        pass  # no peak: damped too much, or over the barrier of a softening spring
+        pass  # no peak: heavy damping, or motion over the barrier of a softening spring
     ends = [*machine.scales.to_si(np.array(found), "frequency")]
     if natural or not ends:
         ends.append(natural)
@@ -42,7 +43,7 @@ def checked_band(machine, band, resonance) -> tuple[float, float]:
     Raises
     ------
     TypeError, ValueError
-        If these are not two ascending frequencies that reach into the resonance.
+        If these are not two ascending frequencies, or the band does not contain a resonance.
     """
     if not isinstance(band, Sequence | np.ndarray) or len(band) != 2:
         raise ValueError(f"band = {shown(band)}: must be least and greatest frequency")
@@ -66,10 +67,10 @@ def resonances_within(band, resonance, mass_ratio) -> list[float]:
 
 
 def grid_over(band, count, resonances) -> np.ndarray:
-    """Return frequencies over a band, Hz.
+    """Return `count` frequencies over a band, Hz.
 
-    They are even, but the nearest ones between the ends are moved onto the resonances, at which a
-    lightly damped machine moves most.
+    The frequencies are evenly spaced, except that those nearest to the resonances are moved onto
+    them, since a lightly damped machine moves most there. The ends of the band stay.
     """
     values = np.linspace(*band, count)
     for frequency in resonances:

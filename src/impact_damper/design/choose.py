@@ -1,15 +1,15 @@
-"""The gap that is best in the worst case: over the band, the starts, and a deviation of the gap."""
+"""Choice of the gap whose worst case over band, starts and deviation of the gap is best."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-# Displacement (mm) that stands for a motion that escapes; relative difference of displacements, and
-# difference of shares, that are alike.
+# Displacement (mm) that represents a motion that escapes. Relative difference of displacements, and
+# difference of shares, below which two values count as equal.
 HUGE = 1e6
 ALIKE = 1e-3
-# Digits of a nominal gap, which is to be built, and most digits if it must lie in a narrow range.
+# Significant digits of a nominal gap, and their largest number if it must lie in a narrow range.
 DIGITS, MOST_DIGITS = 3, 9
 
 
@@ -21,11 +21,11 @@ class Choice(NamedTuple):
     gap : float
         mm.
     kind : str
-        "robust" if all gaps within the tolerance are quiet, for the one of these gaps whose worst
-        displacement within the tolerance is least; "needs_tolerance" if only ranges narrower than
-        the tolerance are quiet, for the middle of the widest; "least_worst" if no gap is quiet, or
-        none that can be held, for the gap at which, within the tolerance, most starts end quiet
-        over the band.
+        "robust": all gaps within the tolerance are quiet, and `gap` has the smallest worst
+        displacement within the tolerance. "needs_tolerance": only ranges narrower than the
+        tolerance are quiet, and `gap` is the middle of the widest. "least_worst": no gap is quiet,
+        or only ranges too narrow to be held, and at `gap` most starts within the tolerance and over
+        the band lead to quiet motions.
     """
 
     gap: float
@@ -33,7 +33,7 @@ class Choice(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """Motions over gaps and frequencies.
+    """Comparison of the motions at several gaps and frequencies.
 
     Attributes
     ----------
@@ -44,9 +44,9 @@ class Comparison(NamedTuple):
     numbers : dict of numpy.ndarray, shape (m, n) or (m, n, 2)
         As returned by `summarise`.
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, the largest displacement of a quiet motion, mm.
     share : float
-        Share of starts that must end quiet.
+        Least share of starts that must lead to quiet motions.
     """
 
     gaps: np.ndarray
@@ -62,24 +62,24 @@ class Comparison(NamedTuple):
 
     @property
     def least_share(self) -> np.ndarray:
-        """Least share of quiet starts over the band at each gap, shape (m,)."""
+        """Share of quiet starts at the worst frequency of the band, for each gap, shape (m,)."""
         return self.numbers["start_quiet_share"].min(axis=1)
 
     @property
     def quiet(self) -> np.ndarray:
         """Whether a gap is quiet at all frequencies, shape (m,).
 
-        The share of quiet starts is claimed for each frequency or, with too few starts for a claim,
-        all starts are quiet.
+        At each frequency the interval of the share of quiet starts lies above `share`. With too few
+        starts for this, all starts must lead to quiet motions.
         """
         claimed = self.numbers["start_quiet_interval"][..., 0] >= self.share
         return (claimed | (self.numbers["start_quiet_share"] == 1)).all(axis=1)
 
     def choose(self, tolerance) -> Choice:
-        """Return the nominal gap that is best when the gap deviates by up to a tolerance.
+        """Return the nominal gap that is best if the gap deviates by up to a tolerance.
 
-        Worst displacements are interpolated between the gaps compared. Between two of these a gap
-        is quiet only if both are.
+        Worst displacements are interpolated between the gaps compared. A gap between two of these
+        counts as quiet if both neighbours are quiet.
 
         Parameters
         ----------
@@ -110,7 +110,7 @@ class Comparison(NamedTuple):
         return self.only((self.gaps < low) | (self.gaps > high))
 
     def joined(self, other) -> "Comparison":
-        """Return the comparison of the gaps of this and of another one, of the same task."""
+        """Return the comparison of the gaps of two comparisons of the same task."""
         gaps = np.concatenate([self.gaps, other.gaps])
         order = np.argsort(gaps)
         numbers = {
@@ -125,13 +125,15 @@ class Comparison(NamedTuple):
         return nominal[covered & self._quiet_within(lows, highs)]
 
     def _nominal(self, tolerance):
-        """Return nominal gaps, the ends of their tolerance, and whether these were compared."""
+        """Return nominal gaps, the ends of their tolerances, and whether the comparison covers "
+        "them."""
         nominal = buildable(self.gaps[0], self.gaps[-1])
         lows, highs = nominal * (1 - tolerance), nominal * (1 + tolerance)
         return nominal, lows, highs, (lows >= self.gaps[0]) & (highs <= self.gaps[-1])
 
     def _widest(self):
-        """Return the ends of the widest range of quiet gaps, of equal ones of the quietest."""
+        """Return the ends of the widest range of quiet gaps; among equal widths, of the "
+        "quietest."""
         begins, ends = runs_of(self.quiet)
         widths = np.log(self.gaps[ends] / self.gaps[begins])
         worst = [self.worst[a : b + 1].max() for a, b in zip(begins, ends, strict=True)]
@@ -139,7 +141,7 @@ class Comparison(NamedTuple):
         return self.gaps[begins[k]], self.gaps[ends[k]]
 
     def _quiet_within(self, lows, highs):
-        """Return whether all gaps are quiet between ends, those beside the ends among them."""
+        """Return whether all gaps between two ends, and the next ones outside, are quiet."""
         first = np.searchsorted(self.gaps, lows, side="right") - 1
         last = np.searchsorted(self.gaps, highs, side="left")
         loud = np.concatenate([[0], np.cumsum(~self.quiet)])
@@ -147,7 +149,7 @@ class Comparison(NamedTuple):
 
 
 def buildable(least, most) -> np.ndarray:
-    """Return the numbers of DIGITS digits in a range; its geometric middle if there is none."""
+    """Return the numbers of DIGITS digits in a range, or its geometric middle if it has none."""
     exponents = range(math.floor(math.log10(least)), math.floor(math.log10(most)) + 1)
     first = 10 ** (DIGITS - 1)
     values = [
@@ -167,7 +169,7 @@ def largest_within(gaps, values, lows, highs) -> np.ndarray:
     gaps, values : array, shape (m,)
         Ascending gaps.
     lows, highs : array, shape (n,)
-        Ends; values beyond the gaps are those of the first and of the last gap.
+        Ends. Beyond the first and the last gap the value stays constant.
     """
     ends = np.interp(np.log([lows, highs]), np.log(gaps), values).max(axis=0)
     between = (gaps >= np.reshape(lows, (-1, 1))) & (gaps <= np.reshape(highs, (-1, 1)))
@@ -175,14 +177,14 @@ def largest_within(gaps, values, lows, highs) -> np.ndarray:
 
 
 def _middle(nominal, scores):
-    """Return the middle of the longest run of gaps that are as good as the best."""
+    """Return the middle of the longest run of gaps whose scores equal the best one."""
     begins, ends = runs_of(scores <= scores.min() + ALIKE)
     k = int(np.argmax(ends - begins))
     return float(nominal[(begins[k] + ends[k]) // 2])
 
 
 def middle_gap(first, last) -> float:
-    """Return a gap near the middle of a range, within it, with no more digits than that needs."""
+    """Return a gap inside a range, near its middle, with as few digits as possible."""
     middle = math.sqrt(first * last)
     for digits in range(DIGITS, MOST_DIGITS):
         gap = float(f"{middle:.{digits}g}")

@@ -1,9 +1,9 @@
-"""The basin cliff: the gaps at which starts cease to end quiet, and those at which the orbit ends.
+"""The basin cliff: gaps at which starts cease to lead to quiet motions, and stability of the orbit.
 
 With a contact that loses energy the quiet orbit is smallest close to the gap at which it loses its
-stability, where hardly any start reaches it. At a smaller gap all starts do. Between the two the
-share of quiet starts falls within a few per cent of the gap: the cliff. Beside the quiet orbit the
-motion is chaotic there, for a time only (a transient) or for good (an attractor).
+stability. There hardly any start leads to it, but at a smaller gap all starts do. Between the two
+gaps the share of quiet starts falls within a few per cent of the gap: this is the cliff. The other
+starts lead to chaos, which is a transient or lasts for good (an attractor).
 """
 
 from typing import NamedTuple
@@ -22,14 +22,15 @@ from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.families import family_of
 
-# Bisections of each edge, and number of frequencies, those of least share, at which it is sought.
+# Number of bisections of each edge, and of the frequencies, those with the smallest shares, at
+# which an edge is searched for.
 BISECTIONS, CRITICAL = 4, 2
-# Least width of a range of quiet gaps in which a gap can be held, divided by the gap, unless the
-# tolerance given is closer.
+# Least width, divided by the gap, of a range in which a gap can be held; a closer tolerance of the
+# task reduces it.
 HOLDABLE = 0.01
-# Lives of chaotic motions: gaps, divided by that of the cliff or, at the lower end, the inverse;
-# starts at each; longest run and time before which a motion may still be on its way, in forcing
-# periods; least number of motions that last longer than this time.
+# Lives of chaotic motions. Gaps divided by the gap of the cliff (inverse at the lower end); starts
+# at each gap; longest run, and initial time to be ignored because motions still approach the chaos,
+# in cycles; least number of motions that last longer than this initial time.
 LIFE_GAPS = (0.99, 1.02, 1.06, 1.12, 1.2)
 LIFE_STARTS, LONGEST, LEAD, FEWEST = 32, 3000, 200, 5
 # Least and greatest gap and force of branches of quiet orbits, divided by the nominal values.
@@ -42,14 +43,15 @@ class Edge(NamedTuple):
     Attributes
     ----------
     gap : float
-        mm; the last gap known to be quiet, after the comparison at the frequencies at which the
-        next one is least quiet. NaN without such a range.
+        mm; the last gap known to be quiet. NaN if no range of gaps is quiet. The bisections test a
+        gap only at the frequencies at which the next gap of the comparison is least quiet.
     beyond : float
-        mm; the first gap known not to be quiet, NaN where the comparison ends before.
+        mm; the first gap known not to be quiet, NaN if all gaps up to the end of the comparison
+        are.
     status : int
         Flag of `cliff_status`.
     frequency : float
-        Hz; that of the least share of quiet starts at `beyond`, NaN if this is NaN.
+        Hz; frequency of the smallest share of quiet starts at `beyond`, NaN if `beyond` is NaN.
     """
 
     gap: float
@@ -64,8 +66,8 @@ NO_EDGE = Edge(np.nan, np.nan, flag("cliff_status", "no_quiet_gap"), np.nan)
 def find_edges(task, comparison, gap, *, workers=1) -> tuple[Edge, Edge]:
     """Return the lower and the upper end of the range of quiet gaps around a gap.
 
-    The comparison brackets each end between two gaps. They are bisected with all starts at the
-    frequencies of least share.
+    The comparison brackets each end between two gaps. Each bracket is bisected, with all starts at
+    the frequencies with the smallest shares.
 
     Parameters
     ----------
@@ -112,8 +114,8 @@ def _bisect(task, comparison, last, beyond, workers):
 def choose_with_edges(task, comparison, *, progress=None, workers=1):
     """Return the choice of a gap and the ends of the range of quiet gaps around it.
 
-    A range that must be held more closely than the tolerance is measured by its ends. If it is
-    narrower than HOLDABLE, no one can hold it: its gaps are left out, and the choice is made again.
+    The ends of a range narrower than the tolerance are located. If the range is narrower than
+    HOLDABLE, a gap cannot be held in it: its gaps are left out, and the choice is made again.
 
     Parameters
     ----------
@@ -145,7 +147,7 @@ def choose_with_edges(task, comparison, *, progress=None, workers=1):
 
 
 def can_be_held(edges, tolerance) -> bool:
-    """Return whether a gap can be held between two edges, when it deviates by a tolerance."""
+    """Return whether a gap that deviates by a tolerance can be held between two edges."""
     low, high = (edge.gap for edge in edges)
     return high - low >= min(HOLDABLE, 2 * tolerance) * np.sqrt(low * high)
 
@@ -153,7 +155,7 @@ def can_be_held(edges, tolerance) -> bool:
 def _recentred(task, choice, edges, limit, workers):
     """Return the choice, moved to the middle of a narrow range of quiet gaps if that is quiet.
 
-    The comparison knows such a range by a few gaps only, which may lie close to an end.
+    The few gaps that the comparison has in such a range may lie close to its end.
     """
     gap = middle_gap(*(edge.gap for edge in edges))
     found = compare(task, [gap], task.grid, limit, task.starts, "middle", workers=workers)
@@ -161,19 +163,18 @@ def _recentred(task, choice, edges, limit, workers):
 
 
 class Lives(NamedTuple):
-    """How long motions last that are not quiet, over the gap.
+    """Lives of motions that are not quiet, at several gaps.
 
     Attributes
     ----------
     gaps : numpy.ndarray, shape (k,)
         mm.
     share : numpy.ndarray, shape (k, 3)
-        Share of starts that end quiet within LONGEST periods, with its interval.
+        Share of starts whose motions become quiet within LONGEST cycles, with its interval.
     rate : numpy.ndarray, shape (k, 3)
-        Rate at which motions become quiet after LEAD periods, per forcing period, with its
-        interval; NaN where fewer than FEWEST last so long. A rate whose interval begins at 0 is
-        that of an attractor, or of a transient whose mean life exceeds the inverse of the upper
-        end.
+        Rate at which motions become quiet after LEAD cycles, per cycle, with its interval; NaN if
+        fewer than FEWEST motions last longer than LEAD. If the interval begins at 0, the chaos is
+        an attractor, or a transient whose mean life exceeds the inverse of the upper end.
     """
 
     gaps: np.ndarray
@@ -182,22 +183,22 @@ class Lives(NamedTuple):
 
 
 def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
-    """Return how long motions that are not quiet last, at gaps across an edge.
+    """Return the lives of motions that are not quiet, at gaps on both sides of an edge.
 
     Parameters
     ----------
     task : Task
     edge : Edge
-        With a gap beyond.
+        Its `beyond` must be known.
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, mm.
     workers, progress
         As in `outcomes.run`.
     """
     outward = 1 if edge.beyond > edge.gap else -1
     gaps = edge.gap * np.array(LIFE_GAPS) ** outward
     cases = [Case(1e-3 * gap, edge.frequency) for gap in gaps]
-    # a transient is certainly chaotic too, so that only the end of the run may stop it
+    # a chaotic transient would be stopped as chaotic, so only the end of the run may stop a motion
     running = {"settling": task.lasting(LONGEST), "workers": workers, "progress": progress}
     records = run(task, cases, LIFE_STARTS, "lives", **running)
     sizes = task.millimetres(records["maximum_displacement"])
@@ -205,7 +206,7 @@ def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
     settled = is_settled(records)
     lives = np.where(quiet & settled, records["periods_run"], LONGEST + 1)
     rates = []
-    # when a motion that goes on without settling became quiet, if it is, is not known
+    # for a motion that becomes quiet without settling, the time at which it does is unknown
     for row, known in zip(lives, settled | ~quiet, strict=True):
         lasting = row[known]
         enough = np.sum(lasting > LEAD) >= FEWEST
@@ -232,9 +233,10 @@ class QuietBranch(NamedTuple):
 
 
 def quiet_orbit(task, gap, frequency, *, workers=1) -> Orbit | None:
-    """Return the smallest quiet orbit that starts reach at a gap (mm) and frequency (Hz), or None.
+    """Return the smallest quiet orbit to which starts lead at a gap (mm) and frequency (Hz).
 
-    It is symmetric, with two contacts in a forcing period.
+    A quiet orbit is symmetric and has two contacts in a cycle. Return None if no start leads to
+    one.
     """
     case = Case(1e-3 * gap, frequency)
     records = run(task, [case], task.starts, "orbit", workers=workers)[0]
@@ -247,7 +249,7 @@ def quiet_orbit(task, gap, frequency, *, workers=1) -> Orbit | None:
 
 
 def quiet_branch(task, gap, frequency, orbit, parameter) -> QuietBranch | None:
-    """Return the branch of a quiet orbit over a parameter, None without an orbit.
+    """Return the branch of a quiet orbit over a parameter; None if there is no orbit.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
-"""Comparisons of gaps: from how many random starts the motions end quiet, over the band.
+"""Comparisons of gaps by the random starts that lead to quiet motions, over the band.
 
-Gaps are first compared coarsely, with few starts at some of the frequencies. The candidates, around
-the best of these, are then run from all starts at all frequencies; a candidate that fails in the
-first starts is not run from the others. A start counts as not quiet only if its motion is not quiet
-after the full time of the task either, that of the unseen starts.
+Gaps are first compared coarsely, with few starts at some of the frequencies. Candidates around the
+best of these gaps are then run from all starts at all frequencies. A candidate that fails with the
+first starts is not run from the others. Runs of a comparison are short: a motion that is not quiet
+at their end is run for the full time of the task before its start counts as not quiet.
 """
 
 from itertools import pairwise
@@ -22,41 +22,42 @@ from impact_damper.design.outcomes import (
 )
 from impact_damper.motions.records import MOTION
 
-# Coarse comparison: most gaps (fewer with few candidates), number of frequencies and of starts.
+# Coarse comparison: largest number of gaps (fewer with few candidates), of frequencies, of starts.
 COARSE_GAPS, COARSE_FREQUENCIES, COARSE_STARTS = 28, 9, 12
-# Starts after which a gap is given up if it can no longer be quiet.
+# Number of starts after which a gap that can no longer be quiet is given up.
 TRIAL = 24
-# Starts of the second look, at frequencies at which the first one leaves a claim open, in all and
-# divided by those of the first look.
+# Starts of both looks together, divided by the starts of the first look. The second look is taken
+# at frequencies at which the first one does not decide.
 SECOND = 3
-# The candidates reach beyond the tolerated deviation from the best gap of the coarse comparison by
+# The candidates cover the tolerated deviation from the best gap of the coarse comparison, times
 # this factor.
 BEYOND = 1.15
-# Largest displacement of a quiet motion, divided by the worst one at the best gap of the coarse
-# comparison. It leaves room for gaps within a tolerance, at which the quiet motion is larger.
+# Quiet limit divided by the worst displacement at the best gap of the coarse comparison. The factor
+# leaves room for gaps within the tolerance, at which the quiet motion is larger.
 ABOVE = 2.5
-# Least share of quiet starts at a candidate beside which further ones are compared.
+# Further candidates are compared beside a candidate with at least this share of quiet starts.
 PROMISING = 0.5
 
 
 def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progress=None):
     """Return the motions at all gaps (mm) and frequencies (Hz).
 
-    The share is claimed in two looks at most: from the starts asked for or, at frequencies at which
-    some of them are not quiet, from SECOND times as many. That one of the two looks claims a share
-    that is not there has a chance below 5 %. A gap is given up as soon as more starts at one of the
-    frequencies are not quiet than the second look allows. So the numbers of gaps that are not quiet
-    come from fewer starts.
+    The share of quiet starts is tested in at most two looks: with `starts` starts and, at
+    frequencies at which some of these are not quiet, with SECOND times as many. The probability
+    that one of the looks wrongly confirms the share is below 5 %. A gap is given up as soon as more
+    starts at one of the frequencies are not quiet than the second look allows. The numbers for
+    gaps that are not quiet therefore come from fewer starts.
 
     Parameters
     ----------
     task : Task
     gaps, frequencies : array
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, mm.
     starts : int
-        Random starts of the first look at each gap and frequency. Without a failure too few for a
-        claim, they are all that is run, and a gap is given up at the first that is not quiet.
+        Random starts of the first look at each gap and frequency. If they are too few to prove the
+        share even when all are quiet, there is no second look, and one start that is not quiet
+        suffices to give a gap up.
     stream, workers, progress
         As in `outcomes.run`.
 
@@ -96,11 +97,12 @@ def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progre
 
 
 def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
-    """Return motions that are run as long as the unseen starts if they are not quiet before.
+    """Return motions, of which those that are not quiet at first are run for the full time.
 
-    All motions are run with the settling `Task.hurried`. Those not quiet then are run again with
-    that of the task, in turns, until all have been or so many at one case of an owner remain not
-    quiet that the owner is lost: its other motions stay as they are.
+    All motions are run with the settling `Task.hurried`. Motions that are not quiet at the end are
+    run again with the settling of the task, some for each owner at a time. Once more motions than
+    allowed remain not quiet at one case, the owner is lost, and its other motions are not run
+    again.
 
     Parameters
     ----------
@@ -108,11 +110,11 @@ def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
     cases : sequence of Case
     starts : array, shape (cases, count, 4)
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, mm.
     owners : array of int, shape (cases,)
         Number of the gap to which a case belongs.
     allowed : array of int, shape (cases,)
-        Motions that may be not quiet; one more, and the gap of the case is lost.
+        Largest number of motions that may be not quiet; with more, the gap of the case is lost.
     running
         `workers` and `progress` of `outcomes.run`.
 
@@ -136,7 +138,7 @@ def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
 
 
 def _numbers(task, records, counts, limit):
-    """Return the numbers of `summarise` on the first motions of each case, as many as run."""
+    """Return the numbers of `summarise` on the motions that were run, the first of each case."""
     numbers = {}
     for count in np.unique(counts):
         places = np.flatnonzero(counts == count)
@@ -149,17 +151,17 @@ def _numbers(task, records, counts, limit):
 
 
 def _comparison(task, gaps, frequencies, numbers, limit):
-    """Return a comparison from numbers on cases, those of one gap after those of another."""
+    """Return a comparison from numbers on cases, sorted by gap, then by frequency."""
     shape = len(gaps), len(frequencies)
     folded = {name: values.reshape(*shape, *values.shape[1:]) for name, values in numbers.items()}
     return Comparison(gaps, frequencies, folded, limit, task.share)
 
 
 def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STARTS, **running):
-    """Return a comparison of gaps over a whole range, with few starts, and set the limit.
+    """Return a comparison of gaps over a whole range, with few starts, and the quiet limit.
 
-    If the task gives no displacement limit, `limit` is lowered to ABOVE times the displacement that
-    no motion exceeds at the best gap.
+    If the task has no displacement limit, `limit` is lowered to ABOVE times the largest
+    displacement of all motions at the best gap.
 
     Parameters
     ----------
@@ -167,9 +169,9 @@ def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STAR
     span : tuple of float
         Least and greatest gap, mm.
     limit : float
-        Largest displacement of a quiet motion as far as known, mm.
+        Provisional quiet limit, mm.
     most, starts : int
-        Most gaps, and random starts at each gap and frequency.
+        Largest number of gaps, and random starts at each gap and frequency.
     running
         `workers` and `progress` of `outcomes.run`.
 
@@ -191,10 +193,11 @@ def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STAR
 def candidate_comparison(task, coarse, **running) -> Comparison:
     """Return a comparison of the candidates from all starts, with the limit of the coarse one.
 
-    They lie around the best gap of the coarse comparison. The few starts of that one may miss loud
-    motions: if the candidates are not quiet within the tolerance, further ones are compared around
-    the best gap beyond those that are loud. If there is none either, but most starts are quiet at a
-    candidate at all frequencies, a quiet range may lie beside it: further ones are compared there.
+    The candidates lie around the best gap of the coarse comparison. The few starts of the coarse
+    comparison may miss violent motions. Therefore, if no candidate is quiet within the tolerance,
+    further candidates are compared around the best gap beyond the candidates that are not quiet. If
+    that fails too, but most starts are quiet at one candidate at all frequencies, a quiet range may
+    lie beside this candidate, and further ones are compared there.
     """
     tolerance = task.tolerances.get("gap", 0.0)
     gaps = _around(coarse.choose(tolerance).gap, task)
@@ -215,16 +218,16 @@ def candidate_comparison(task, coarse, **running) -> Comparison:
 
 
 def _around(gap, task):
-    """Return the gaps of candidates around a gap, which reach beyond its tolerance."""
+    """Return the gaps of candidates around a gap; they cover more than its tolerance."""
     reach = BEYOND / (1 - task.tolerances.get("gap", 0.0))
     return gap * np.geomspace(1 / reach, reach, task.candidates)
 
 
 def _best_beyond(coarse, found, tolerance):
-    """Return the best gap of the coarse comparison beyond the loud candidates, None without one.
+    """Return the best gap of the coarse comparison beyond the violent candidates, or None.
 
-    All gaps within its tolerance are quiet in the coarse comparison and lie below the first loud
-    candidate or above the last one.
+    All gaps within its tolerance are quiet in the coarse comparison and lie below the first or
+    above the last candidate that is not quiet.
     """
     loud = found.gaps[~found.quiet]
     if not len(loud):
@@ -241,4 +244,4 @@ def _beside_best(found, count):
     """Return gaps between the neighbours of the candidate with the most quiet starts."""
     k = int(np.argmax(found.least_share))
     near = found.gaps[max(k - 1, 0)], found.gaps[min(k + 1, len(found.gaps) - 1)]
-    return np.geomspace(*near, count)[1:-1]  # the ends are compared already
+    return np.geomspace(*near, count)[1:-1]  # the ends have been compared already

@@ -1,4 +1,4 @@
-"""A design at values other than the nominal ones: samples and corners of all tolerances."""
+"""Tests of a design with deviating values: samples and corners of all tolerances."""
 
 import itertools
 from typing import NamedTuple
@@ -12,14 +12,14 @@ from impact_damper.design.choose import Choice
 from impact_damper.design.outcomes import Case, run, summarise
 from impact_damper.design.task import NOMINAL, VARIED, spread
 
-# Samples of the tolerances, a power of 2 for Sobol's sequence; most frequencies and the starts at
-# which each is run.
+# Number of samples of the tolerances, a power of 2 for Sobol's sequence. Largest number of
+# frequencies, and starts, with which each sample is run.
 SAMPLES, SAMPLE_FREQUENCIES, SAMPLE_STARTS = 16, 7, 24
-# Gaps that are tried with all tolerances, and the frequencies and starts at which they are.
+# Number of gaps that are tried with all tolerances, and of frequencies and starts for each gap.
 TRIED, TRIED_FREQUENCIES, TRIED_STARTS = 5, 5, 12
-# Starts that the design has not seen, at the nominal values and at each corner; most corners.
+# New starts, not used by the design, at the nominal values and at each corner; most corners.
 UNSEEN, CORNERS = 1000, 20
-# Chance with which unseen starts of a design that keeps its promise are taken for a breach of it.
+# Probability that new starts wrongly count as a breach of the promise.
 FALSE_ALARM = 0.05
 
 
@@ -33,9 +33,9 @@ class Cloud(NamedTuple):
     worst : numpy.ndarray, shape (m,)
         Largest displacement of all motions over the band, mm.
     share : numpy.ndarray, shape (m, 3)
-        Share of all starts over the band that end quiet, with its 95 % interval.
+        Share of all starts over the band that lead to quiet motions, with its 95 % interval.
     least : numpy.ndarray, shape (m,)
-        Least share at one of the frequencies.
+        Share at the worst frequency.
     starts : int
         Starts at each frequency.
     frequencies : int
@@ -49,10 +49,11 @@ class Cloud(NamedTuple):
     frequencies: int
 
     def keeps(self, share) -> np.ndarray:
-        """Return whether starts agree with a claim that a share ends quiet, shape (m,) of bool.
+        """Return whether starts agree with a claimed share of quiet starts, shape (m,) of bool.
 
-        They do not if fewer do over the band, or at one frequency so many fewer that with the share
-        claimed this happened, at any frequency of any row, with a chance below FALSE_ALARM.
+        They disagree if the share over the band is smaller, or if the share at one frequency is so
+        much smaller that, with the share claimed, the probability of such a frequency in any row is
+        below FALSE_ALARM.
         """
         chance = bdtr(np.rint(self.least * self.starts), self.starts, share)
         agree = chance >= FALSE_ALARM / (self.frequencies * len(self.least))
@@ -62,8 +63,8 @@ class Cloud(NamedTuple):
 def sampled_factors(task) -> np.ndarray:
     """Return the nominal values, then SAMPLES deviations spread over the tolerances.
 
-    They are the first points of Sobol's sequence, scrambled: as many as are evenly spread. Without
-    tolerances only the nominal values are returned.
+    The deviations are the first points of a scrambled Sobol sequence. Without tolerances only the
+    nominal values are returned.
     """
     names = [name for name in VARIED if task.tolerances.get(name)]
     factors = np.ones((SAMPLES + 1 if names else 1, len(VARIED)))
@@ -75,7 +76,7 @@ def sampled_factors(task) -> np.ndarray:
 
 
 def _possible(task, factors):
-    """Return factors with those of the restitution so small that it is at most 1."""
+    """Return factors, those of the restitution reduced where it would exceed 1."""
     place = VARIED.index("restitution")
     factors[:, place] = np.minimum(factors[:, place], 1 / task.restitution)
     return factors
@@ -112,7 +113,7 @@ def run_cloud(task, gap, factors, frequencies, starts, limit, stream, **running)
     starts : int
         Random starts at each frequency.
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, mm.
     stream, running
         `stream`, `settling`, `workers` and `progress` of `outcomes.run`.
     """
@@ -134,7 +135,7 @@ def run_cloud(task, gap, factors, frequencies, starts, limit, stream, **running)
 def sample_tolerances(task, gap, frequency, limit, **running) -> Cloud:
     """Return the motions at samples and corners of all tolerances.
 
-    They are run at some frequencies of the band, `frequency` (Hz) among them.
+    The motions are run at some frequencies of the band, one of which is `frequency` (Hz).
     """
     few = task.few(SAMPLE_FREQUENCIES, frequency)
     running = {"settling": task.hurried} | running
@@ -145,9 +146,10 @@ def sample_tolerances(task, gap, frequency, limit, **running) -> Cloud:
 def choose_with_tolerances(task, comparison, choice, **running) -> Choice:
     """Return the choice of a robust gap, moved to where all tolerances together do least harm.
 
-    A comparison knows deviations of the gap alone. Of some robust gaps the one is returned with the
-    least worst displacement at samples and corners of all tolerances, as far as their starts agree
-    with the claim; otherwise the one with the most quiet starts at its worst sample.
+    A comparison covers deviations of the gap only. Several robust gaps are therefore run at samples
+    and corners of all tolerances. Among the gaps whose starts agree with the claim, the one with
+    the smallest worst displacement is returned. If there is none, the gap with most quiet starts at
+    its worst sample is returned.
 
     Parameters
     ----------
@@ -182,11 +184,11 @@ def check_unseen(task, gap, limit, **running) -> Cloud:
 
 
 def promise(task, kind, samples, unseen) -> str:
-    """Return what a design promises and whether unseen starts keep to it, a flag of `promise`.
+    """Return the flag of `promise`: what a design promises, and whether new starts confirm it.
 
     A design with a quiet gap promises that at its nominal values, at each frequency, at least
-    `task.share` of the starts end quiet. A robust design promises this within all tolerances,
-    provided that the samples and corners of the tolerances agree.
+    `task.share` of the starts lead to quiet motions. A robust design promises this within all
+    tolerances, provided that the samples and corners of the tolerances agree.
 
     Parameters
     ----------
@@ -194,7 +196,7 @@ def promise(task, kind, samples, unseen) -> str:
     kind : str
         Of `choose.Choice`.
     samples, unseen : Cloud
-        Of the tolerances, and of unseen starts at the nominal values and at corners.
+        Motions at samples of the tolerances, and from new starts at nominal values and corners.
     """
     if kind == "least_worst":
         return "none_made"

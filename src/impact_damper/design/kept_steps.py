@@ -1,4 +1,4 @@
-"""Steps of a design that are kept in files, so that an interrupted design goes on where it was."""
+"""Steps of a design that are kept in files, so that an interrupted design can be continued."""
 
 import hashlib
 import json
@@ -16,8 +16,8 @@ class KeptSteps:
     folder : str or pathlib.Path, optional
         Without a folder nothing is kept.
     made : dict
-        What determines the results. A file made from anything else, or by other sources of this
-        package, is made anew.
+        All inputs of the design. A step is computed again if its file was made from other inputs or
+        by other sources of this package.
     """
 
     def __init__(self, folder, made):
@@ -25,7 +25,7 @@ class KeptSteps:
         self.made = json.dumps(made | {"sources": _sources()}, sort_keys=True)
 
     def step(self, name, compute):
-        """Return the dataset of a step: read if it is kept, otherwise computed and kept.
+        """Return the dataset of a step, read from its file or else computed and kept.
 
         Parameters
         ----------

@@ -88,7 +88,7 @@ def comparison_of(data, task) -> Comparison:
 
 
 def cliff_dataset(choice, edges, lives) -> xr.Dataset:
-    """Return the gap chosen, the ends of the quiet gaps, and lives of motions across one of them.
+    """Return the gap chosen, the ends of the quiet gaps, and lives of motions near one end.
 
     Parameters
     ----------
@@ -112,14 +112,14 @@ def cliff_dataset(choice, edges, lives) -> xr.Dataset:
 
 
 def branch_dataset(task, found, parameter) -> xr.Dataset:
-    """Return a branch of quiet orbits, and where their stability ends.
+    """Return a branch of quiet orbits as a dataset, with the ends of their stability.
 
     Parameters
     ----------
     task : Task
     found : cliff.QuietBranch or None
     parameter : str
-        "gap", over which the branch holds its logarithm, or "force".
+        "gap", whose logarithm the branch holds, or "force".
     """
     place, event = f"{parameter}_of_orbit", f"stability_{parameter}_event"
     if found is None:
@@ -168,7 +168,7 @@ def dependence_dataset(dependence) -> xr.Dataset:
 
 
 def deviations_dataset(samples, unseen, promise, limit) -> xr.Dataset:
-    """Return samples of the tolerances and unseen starts, two clouds, and the promise.
+    """Return samples of the tolerances, motions from new starts, and the promise as a dataset.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def deviations_dataset(samples, unseen, promise, limit) -> xr.Dataset:
     promise : str
         Flag of `promise`.
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, mm.
     """
     values = {"promise": flag("promise", promise), "promised_displacement": limit}
     for prefix, cloud in (("sample", samples), ("corner", unseen)):
@@ -190,7 +190,7 @@ def deviations_dataset(samples, unseen, promise, limit) -> xr.Dataset:
 
 
 def maps_dataset(forces, dampers) -> xr.Dataset:
-    """Return the operating range over frequency and force, and over gap and restitution.
+    """Return the maps over frequency and force, and over gap and restitution, as a dataset.
 
     Parameters
     ----------

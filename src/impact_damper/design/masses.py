@@ -1,4 +1,4 @@
-"""Dampers of other masses for the same machine and band: what more mass brings, and its costs."""
+"""Dampers of other masses for the same machine and band, with their displacements and forces."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -11,11 +11,11 @@ from impact_damper.design.screen import gap_span
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.performance.costs import measured_costs
 
-# Masses divided by the nominal mass; most frequencies of their reduced design, gaps and starts of
-# its coarse comparison, and most starts of its last one.
+# Masses divided by the nominal mass. Of the reduced design for each: largest number of frequencies,
+# gaps and starts of the coarse comparison, and largest number of starts of the last comparison.
 MASSES = (0.5, 0.7, 1.4, 2.0)
 FREQUENCIES, GAPS, COARSE_STARTS, STARTS = 5, 20, 8, 24
-# Forcing periods over which the force of a motion that is not periodic is measured.
+# Cycles over which the contact force of a motion that is not periodic is measured.
 WATCHED = 100
 
 
@@ -31,7 +31,7 @@ class Alternative(NamedTuple):
     worst : float
         Largest displacement over the band, the starts and the tolerated deviation of the gap, mm.
     share : float
-        Least share of starts that end quiet at one of the frequencies and gaps.
+        Share of starts that lead to quiet motions, at the worst frequency and gap.
     force : float
         Largest contact force of the largest motions at the nominal gap, N; NaN after an escape.
     """
@@ -44,7 +44,7 @@ class Alternative(NamedTuple):
 
 
 def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
-    """Return a reduced design for each mass of MASSES that is not above that of the machine."""
+    """Return a reduced design for each mass of MASSES up to the mass of the machine."""
     found = []
     for factor in MASSES:
         mass = factor * task.mass
@@ -61,13 +61,13 @@ def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
 
 
 def judge(task, gap, limit, **running) -> Alternative:
-    """Return a damper with its worst displacement and least share over the band and the tolerance.
+    """Return the worst displacement and least share of a damper over band and tolerance.
 
     Parameters
     ----------
     task : Task
     gap, limit : float
-        Gap and largest displacement of a quiet motion, mm.
+        Gap and quiet limit, mm.
     running
         `workers` and `progress` of `outcomes.run`.
     """
@@ -96,14 +96,14 @@ def _largest_force(task, case, record):
 
 
 def is_best(masses, costs) -> np.ndarray:
-    """Return which of several dampers no other one betters: the Pareto front.
+    """Return which of several dampers are on the Pareto front: none other is better in all costs.
 
     Parameters
     ----------
     masses : array, shape (m,)
     costs : array, shape (m, k)
-        Quantities to be small, such as worst displacement and contact force; NaN where one is not
-        known because motions escape, which is worse than any number.
+        Quantities that should be small, such as worst displacement and contact force. NaN where
+        motions escape, which counts as worse than any number.
 
     Returns
     -------

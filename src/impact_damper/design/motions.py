@@ -1,4 +1,4 @@
-"""The motions of a chosen damper over the band: sizes, peaks, impacts, forces and losses."""
+"""Motions with the damper chosen, over the band: sizes, peaks, impacts, forces and losses."""
 
 import numpy as np
 import xarray as xr
@@ -14,9 +14,9 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.performance.costs import measured_costs, pressure_costs
 from impact_damper.system.packed import FREQUENCY
 
-# Samples in a forcing period, and periods over which a motion that is not periodic is measured.
+# Samples in a cycle, and cycles over which a motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
-# Variables over the frequency, and the costs that they hold.
+# Variables over the frequency, with the costs that they hold.
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
     "contact_force_by_frequency": ("contact_force", "force"),
@@ -29,10 +29,10 @@ COSTS = {
 
 
 def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
-    """Return, for each frequency of the band, the largest motion that starts reach, and its costs.
+    """Return the largest motion to which starts lead at each frequency of the band, with its costs.
 
-    Motions of the machine alone, in which the loose mass touches no wall, are kept apart unless
-    random starts lead to them: they need a loose mass that does not drift at all.
+    Motions in which the loose mass touches no wall are listed apart unless random starts lead to
+    them, since they require a loose mass that does not drift at all.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     response : xarray.Dataset
         Of `frequency_response` with this gap at the frequencies of the task, in SI units.
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, mm.
     contact : HertzContact or None
     """
     sizes = response["maximum_displacement"].values
@@ -74,7 +74,7 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
 def _measured(task, case, size, state, periods, contact):
     """Return the measurements of one motion, keyed by registered name.
 
-    `size` is its largest displacement (mm) as far as known, `state` that at the strobe.
+    `size` is its largest displacement found so far (mm), `state` its state at the strobe.
     """
     if not np.isfinite(size):
         unknown = ("motion_rms", "motion_peak_mean", "motion_peak_high", "pressure_by_frequency")

@@ -1,7 +1,8 @@
 """The operating range of a design: maps over two parameters, with the edges of the quiet orbit.
 
-A map shows where starts lead, cell by cell. The edges, on which the quiet orbit folds, loses its
-symmetry or turns to a torus, bound the region in which it is stable; it need not be reached there.
+A map counts in each cell the starts that lead to quiet motions. On the edges the quiet orbit folds,
+loses its symmetry or meets a Neimark-Sacker point. They bound the region in which the orbit is
+stable; starts need not lead to it there.
 """
 
 from typing import NamedTuple
@@ -15,11 +16,11 @@ from impact_damper.edges.maps import map_edges
 from impact_damper.orbits.shooting import shoot
 from impact_damper.system.bounds import RESTITUTION_RANGE
 
-# Most cells along each axis of a map (fewer for a task with few candidates), starts in a cell;
-# ratio of the gap to the nominal one; least restitution.
+# Largest number of cells along each axis of a map (fewer for a task with few candidates), and
+# starts in a cell. Largest ratio of a gap to the nominal one; least restitution.
 CELLS, CELL_STARTS = 11, 12
 GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
-# Most cells along each axis of the grid on which edges are found.
+# Largest number of cells along each axis of the grid on which edges are found.
 EDGE_CELLS = 14
 # Edges that are kept, in the words of `edges.curves.Edge.kind`.
 KINDS = ("fold", "symmetry_breaking", "neimark_sacker")
@@ -32,7 +33,7 @@ class Map(NamedTuple):
     ----------
     first, second : numpy.ndarray, shapes (m,), (n,)
     share, worst : numpy.ndarray, shape (m, n)
-        Share of starts that end quiet, and largest displacement of all motions, mm.
+        Share of starts that lead to quiet motions, and largest displacement of all motions, mm.
     """
 
     first: np.ndarray
@@ -44,7 +45,7 @@ class Map(NamedTuple):
 def map_forces(task, gap, limit, shares, **running) -> Map:
     """Return the motions over frequency (Hz) and `shares`, multiples of the nominal force.
 
-    The largest displacement of a quiet motion grows in proportion to the force.
+    The quiet limit is proportional to the force.
     """
     frequencies, shares = task.few(CELLS), np.asarray(shares)
     place = VARIED.index("force")
@@ -71,12 +72,12 @@ def map_dampers(task, gap, frequency, limit, **running) -> Map:
 
 
 def _with(place, factor):
-    """Return nominal factors but for one."""
+    """Return the nominal factors with one of them replaced."""
     return tuple(factor if k == place else 1.0 for k in range(len(VARIED)))
 
 
 def _map(task, first, second, cells, stream, running):
-    """Return the motions in the cells of a map, each with its displacement limit."""
+    """Return the motions in the cells of a map, each with a quiet limit of its own."""
     cases, limits = zip(*cells, strict=True)
     running = {"settling": task.hurried} | running
     records = run(task, cases, CELL_STARTS, stream, **running)
@@ -92,13 +93,13 @@ class Curves(NamedTuple):
     Attributes
     ----------
     values : numpy.ndarray, shape (n, 2)
-        Points of all edges, one edge after the other, at which stability really ends.
+        Points of all edges, one edge after the other, that bound a stable region.
     kind : numpy.ndarray of int, shape (n,)
         Flag of `edge_kind`.
     number : numpy.ndarray of int, shape (n,)
         Number of the edge of each point.
     lost : int
-        Changes of stability between cells of the grid for which no edge was found.
+        Number of changes of stability between cells of the grid for which no edge was found.
     """
 
     values: np.ndarray
@@ -121,7 +122,7 @@ def force_curves(task, gap, frequency, orbit, shares) -> Curves:
     orbit : Orbit or None
         Quiet orbit at the nominal values.
     shares : sequence of float
-        Least and greatest multiple of the force are its ends.
+        Multiples of the force; the edges are searched for between the least and the greatest.
     """
     place = VARIED.index("force")
     count = min(EDGE_CELLS, 2 * task.candidates - 2)
@@ -152,7 +153,7 @@ def damper_curves(task, gap, frequency, orbit) -> Curves:
 
 
 def _curves(family, orbit, values, axes):
-    """Return the edges of the branch of an orbit; none without an orbit near the given one."""
+    """Return the edges of the branch of an orbit; none if no orbit is found near the given one."""
     if orbit is None:
         return NO_CURVES
     symmetric, _ = shoot(family(*values), orbit.state, 1, orbit.phase, symmetric=True)

@@ -1,8 +1,8 @@
-"""Where random starts lead: quiet motions and others, for many gaps and frequencies at once.
+"""Quiet motions and others from random starts, for many gaps and frequencies at once.
 
-A motion is quiet if its largest displacement is at most a displacement limit, whether it is
-periodic or not. Of a motion that has not settled only the peaks of some periods are known, which
-later ones exceed: it is quiet if LATER times its largest displacement is within the limit.
+A motion is quiet if its largest displacement is at most the quiet limit, whether it is periodic or
+not. A motion that has not settled is known only for some cycles, and later peaks may be larger. It
+is quiet if LATER times its largest displacement is at most the limit.
 """
 
 from typing import NamedTuple
@@ -16,10 +16,11 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, CHAOTIC, NON_COLLIDING, SETTLED
 from impact_damper.motions.start_states import random_starts
 
-# Outcomes of motions that go on as they are, and that say for certain what a motion is.
+# Outcomes of motions that repeat or rest for good, and outcomes that are certain.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST)
 CERTAIN = (*LASTING, CHAOTIC)
-# What starts are drawn for. Each has starts of its own, so that a choice and its check share none.
+# Purposes for which starts are drawn. Each purpose has its own random stream, so that no start is
+# used both for a choice and for its check.
 STREAMS = (
     "screening",
     "coarse",
@@ -37,7 +38,7 @@ STREAMS = (
     "deviations",
     "candidates_beyond",
 )
-# Cases whose starts a thread draws at once.
+# Number of cases for which a thread draws starts at once.
 DRAWN = 4
 
 
@@ -59,10 +60,10 @@ def draw_starts(task, cases, count, stream, *, workers=1):
     count : int
         Random starts in each case.
     stream : str
-        Of STREAMS. Each case has starts of its own, drawn with the seed of the task, the stream and
-        the place of the case.
+        One of STREAMS. The starts of a case are drawn with the seed of the task, the stream and the
+        index of the case.
     workers : int
-        Threads, in which the free motions are found that say how wide the starts are.
+        Threads. They find the free motions that determine the range of the starts.
     """
     states, stop = np.empty((len(cases), count, 4)), np.zeros(1, bool)
 
@@ -86,7 +87,7 @@ def run_starts(task, cases, starts, *, settling=None, workers=1, progress=None):
     cases : sequence of Case
     starts : array, shape (cases, count, 4)
     settling : Settling, optional
-        In place of that of the task.
+        In place of the settling of the task.
     workers, progress
         As in `ensemble.settle`.
 
@@ -137,16 +138,16 @@ def summarise(task, records, limit) -> dict:
     task : Task
     records : array of records.MOTION, shape (cases, starts)
     limit : float
-        Largest displacement of a quiet motion, mm.
+        Quiet limit, mm.
 
     Returns
     -------
     dict of numpy.ndarray, shape (cases,)
-        `start_count`, `start_quiet_share` and, with (cases, 2), its interval; `worst_displacement`
-        and `median_displacement` of the motions reached (mm); `quiet_time_median` and
-        `quiet_time_late`, the forcing periods until quiet motions that settle have settled (NaN if
-        none does); `chaotic_share`; `uncertain_share`, that of the motions that are neither settled
-        nor certainly chaotic.
+        `start_count`, `start_quiet_share` and `start_quiet_interval`, shape (cases, 2);
+        `worst_displacement` and `median_displacement` of the motions, mm; `quiet_time_median` and
+        `quiet_time_late`, the cycles in which quiet motions settle (NaN if none settles);
+        `chaotic_share`; `uncertain_share` of the motions that are neither settled nor certainly
+        chaotic.
     """
     size = task.millimetres(records["maximum_displacement"])
     count = size.shape[1]

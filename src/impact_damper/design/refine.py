@@ -1,8 +1,9 @@
-"""The smallest stable quiet orbit over the gap, found exactly, and what its size depends on.
+"""The smallest stable quiet orbit over the gap, found exactly, and derivatives of its size.
 
 At each gap Newton's method gives the orbit, and the variational equations give the derivatives of
-its largest displacement and of the modulus of its largest multiplier. The displacement is least
-where its derivative by the gap changes sign or, if that is beyond, where the modulus reaches 1.
+its largest displacement and of the modulus of its largest multiplier. The displacement is smallest
+where its derivative with respect to the gap changes sign or, if the modulus reaches 1 before, at
+that end of stability.
 """
 
 from typing import NamedTuple
@@ -36,13 +37,14 @@ class BestOrbit(NamedTuple):
     gap, displacement, modulus : float
         mm, mm, and modulus of its largest Floquet multiplier; NaN if there is none.
     edge : float
-        Least gap above at which the modulus reaches 1, mm; NaN if the orbits of the map end before.
+        Smallest gap above `gap` at which the modulus reaches 1, mm; NaN if the orbits of the map
+        end before.
     status : str
-        Flag of `best_orbit_status`: "smooth" if the displacement has a minimum, "kink" if two of
-        its peaks are equal there, "stability_ends" if the orbit ceases to be stable before,
-        "range_ends" if it is smallest at the first or last gap with an orbit in the map,
-        "not_refined" if no orbit was found between gaps of the map, which the numbers then belong
-        to; "absent" without a stable orbit.
+        Flag of `best_orbit_status`. "smooth": the displacement has a minimum over the gap. "kink":
+        a minimum at which two peaks of the motion are equal. "stability_ends": the orbit is
+        smallest where it ceases to be stable. "range_ends": it is smallest at the first or last gap
+        of the map with an orbit. "not_refined": no orbit was found between gaps of the map, and the
+        numbers hold at a gap of the map. "absent": there is no stable orbit.
     """
 
     frequency: float
@@ -59,8 +61,8 @@ NO_ORBIT = BestOrbit(np.nan, np.nan, np.nan, np.nan, np.nan, "absent")
 def refine(task, grid, stable) -> BestOrbit:
     """Return the smallest stable quiet orbit of a map.
 
-    Its frequency is the one, of those with a stable quiet orbit, at which the machine alone moves
-    most.
+    It is searched for at one frequency: among those with a stable quiet orbit, the one at which the
+    machine alone moves most.
 
     Parameters
     ----------
@@ -96,12 +98,14 @@ class _Column:
         }
 
     def at(self, x) -> Sensitivity:
-        """Return the orbit at x with its derivatives; Newton's guess follows the nearest tangent.
+        """Return the orbit at x with its derivatives.
+
+        Newton's method starts on the tangent to the branch at the nearest orbit of the map.
 
         Raises
         ------
         ArithmeticError
-            If no orbit is found, or it is at a fold.
+            If no orbit is found, or if the orbit lies at a fold.
         """
         if x in self.found:
             return self.found[x]
@@ -121,16 +125,17 @@ class _Column:
         return self.found[x]
 
     def slope(self, x):
-        """Return the derivative of the largest displacement by the clearance."""
+        """Return the derivative of the largest displacement with respect to the clearance."""
         return self.at(x).displacement_slopes[CLEARANCE]
 
     def excess(self, x):
-        """Return by how much the modulus exceeds 1, and its derivative by x."""
+        """Return the modulus minus 1, and its derivative with respect to x."""
         found = self.at(x)
         return found.modulus - 1, found.modulus_slopes[CLEARANCE] * np.exp(x)
 
     def smallest(self, row):
-        """Return the x of the smallest stable orbit near the smallest one of the map, and how."""
+        """Return the x of the smallest stable orbit near the smallest one of the map, and a "
+        "status."""
         here = self.x[row]
         step = 1 if self.slope(here) < 0 else -1
         if row + step not in self.orbits:
@@ -168,12 +173,12 @@ class _Column:
 
 
 class Dependence(NamedTuple):
-    """Changes of an orbit in per cent, if a parameter of machine or damper grows by 1 per cent.
+    """Changes of an orbit, per cent, when a parameter of machine or damper grows by 1 per cent.
 
     Attributes
     ----------
     names : list of str
-        The parameters; the mass is that of the damper.
+        The parameters; "mass" is the mass of the damper.
     displacement, modulus : numpy.ndarray, shape (n,)
         Changes of the largest displacement and of the modulus of the largest multiplier; NaN
         without an orbit or where it has no derivative.
@@ -185,7 +190,7 @@ class Dependence(NamedTuple):
 
 
 def dependence(task, orbit) -> Dependence:
-    """Return the exact relative derivatives of an orbit of the damper of a task, or of None."""
+    """Return the exact relative derivatives of an orbit; NaN if there is no orbit."""
     names = [SAID.get(name, name) for name in DESIGN]
     missing = np.full(len(names), np.nan)
     if orbit is None:

@@ -1,4 +1,4 @@
-"""A restitution that is free within a range: its best value by coarse comparisons of gaps."""
+"""Choice of a restitution that is free within a range, by coarse comparisons of gaps."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,7 +16,7 @@ from impact_damper.design.task import Task
 from impact_damper.machine.machine import describe_si
 from impact_damper.system.bounds import shown
 
-# Restitutions that are tried, evenly over the range.
+# Number of restitutions that are tried, evenly spaced over the range.
 COUNT = 5
 
 
@@ -41,24 +41,24 @@ class Trials(NamedTuple):
 
 
 def best_of(worst, kinds) -> int:
-    """Return the index of the best kind of choice and, of these, the least worst displacement.
+    """Return the index of the smallest worst displacement among those of the best kind of choice.
 
     Parameters
     ----------
     worst : array, shape (n,)
     kinds : array, shape (n,)
-        Flags of `tried_choice`, which ascend from the best kind on.
+        Flags of `tried_choice`; the best kind has the smallest number.
     """
     return int(np.lexsort((worst, kinds))[0])
 
 
 def try_restitutions(task, ends, **running) -> Trials:
-    """Return the best gap for restitutions between two ends, with the few starts of a first look.
+    """Return the best gap for several restitutions, by coarse comparisons.
 
     Parameters
     ----------
     task : Task
-        Its restitution has no effect.
+        Its restitution is ignored.
     ends : tuple of float
         Least and greatest restitution.
     running
@@ -80,7 +80,7 @@ def try_restitutions(task, ends, **running) -> Trials:
 
 
 def free_restitution(given, restitution, folder, running):
-    """Return the restitution to design with and, if it is free, a dataset of those tried.
+    """Return the restitution of a design and, if it is free, a dataset of those tried.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def free_restitution(given, restitution, folder, running):
     restitution : float or sequence of 2 floats
         A value, which is returned with an empty dataset, or the ends of a range.
     folder : str, pathlib.Path or None
-        Where the dataset is kept.
+        Folder in which the dataset is kept.
     running : dict
         `workers` and `progress` of `outcomes.run`.
 

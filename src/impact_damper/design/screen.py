@@ -1,10 +1,10 @@
 """First look at a design: the machine alone, rules for the gap, and exact quiet orbits.
 
-The screening uses the cheapest model that answers a question. Harmonic balance gives the response
-without the damper; the flight rule and, for a linear machine, the slow invariant manifold give the
-range of gaps; a few motions give quiet orbits, and Newton's method follows them over gap and
-frequency with their multipliers. Only the verification that comes next runs motions from many
-starts.
+The screening answers each question with the cheapest model. Harmonic balance gives the response
+without the damper. The flight rule and, for a linear machine, the slow invariant manifold give the
+range of gaps. A few motions give quiet orbits, and Newton's method follows these orbits over gap
+and frequency with their multipliers. Motions from many starts are run only later, by the
+comparisons.
 """
 
 from typing import NamedTuple
@@ -18,38 +18,38 @@ from impact_damper.literature.slow_invariant_manifold import VibroImpactAbsorber
 from impact_damper.orbits.quiet_orbits import dominant_root, is_symmetric_pair, quiet_orbits
 from impact_damper.system.packed import CLEARANCE
 
-# Gaps of the map of quiet orbits: the greatest, divided by that of rule (18) at the lowest
-# frequency; and number.
+# Gaps of the map of quiet orbits: the largest gap, divided by the gap of rule (18) at the lowest
+# frequency, and the number of gaps.
 MOST_GAP, GAPS = 1.95, 40
 # Gap of the flight rule divided by that of rule (18), near e = 1 (`theory.straight_flight`).
 FLIGHT = 1.14
-# Random starts, gaps, divided by that of the flight rule, and frequencies from which quiet orbits
-# are first reached.
+# First search for quiet orbits: random starts, gaps divided by the gap of the flight rule, and
+# number of frequencies.
 SEEDED = 16
 SEED_GAPS = (0.3, 0.5, 0.7, 0.9, 1.05)
 SEED_FREQUENCIES = 5
-# Shortest step between neighbours of the map, as a share of their distance.
+# Shortest step between neighbours of the map, as a fraction of their distance.
 SHORTEST = 0.25
 
 
 class Screening(NamedTuple):
-    """What the first look finds.
+    """Result of the screening.
 
     Attributes
     ----------
     rule_gap, manifold_gap : float
-        Gap by the flight rule at the worst frequency of the task, and by the slow invariant
-        manifold at the resonance, mm. The latter is NaN unless the spring is linear and contacts
-        lose energy.
+        Gap by the flight rule at the worst frequency of the task, and gap by the slow invariant
+        manifold at the resonance, mm. `manifold_gap` is NaN unless the spring is linear and
+        contacts lose energy.
     gaps : numpy.ndarray, shape (m,)
         Gaps of the map of quiet orbits, mm.
     displacement, modulus : numpy.ndarray, shape (m, n)
-        Over gaps and the frequencies of the task: largest displacement of the quiet orbit (mm), and
-        its largest multiplier of half a period in modulus; NaN where no quiet orbit was found.
+        Largest displacement of the quiet orbit (mm), and modulus of its largest multiplier over
+        half a period, at each gap and frequency of the task; NaN where no quiet orbit was found.
     best : BestOrbit
         The smallest stable quiet orbit.
     limit : float
-        Largest displacement of a motion that counts as quiet as far as known, mm.
+        Provisional quiet limit, mm.
     motions : int
         Number of motions that were run.
     """
@@ -65,13 +65,13 @@ class Screening(NamedTuple):
 
 
 def gap_span(task) -> tuple[float, float]:
-    """Return the least and the greatest gap that are looked at, mm."""
+    """Return the least and the greatest gap that a design considers, mm."""
     rules = [task.rule_gap(f) for f in task.grid]
     return 1e3 * LEAST_GAP * min(rules), 1e3 * MOST_GAP * max(rules)
 
 
 def screen(task, *, workers=1, progress=None) -> Screening:
-    """Take the first look at a task.
+    """Return the result of the screening of a task.
 
     Parameters
     ----------
@@ -122,11 +122,11 @@ def screen(task, *, workers=1, progress=None) -> Screening:
 
 
 def _limit(task, best):
-    """Return the largest displacement of a quiet motion as far as the orbits tell, mm.
+    """Return the provisional quiet limit, mm: the displacement limit of the task, if it has one.
 
-    If the task gives none: the geometric mean of the displacements of the machine alone and of the
-    best orbit at its frequency, so that a motion is quiet if it lies, on a logarithmic scale,
-    nearer to the orbit. Without an orbit, half of the machine's own displacement.
+    Otherwise the limit is the geometric mean of the displacements of the machine alone and of the
+    best orbit at its frequency: a motion is quiet if, on a logarithmic scale, it is nearer to the
+    orbit. Without an orbit the limit is half of the displacement of the machine alone.
     """
     if task.displacement_limit is not None:
         return 1e3 * task.displacement_limit
@@ -137,7 +137,7 @@ def _limit(task, best):
 
 
 def _manifold_gap(task):
-    """Return the gap (m) of least response at the natural frequency by the manifold, or NaN."""
+    """Return the gap (m) of smallest response at the natural frequency by the manifold, or NaN."""
     machine = task.machine
     if machine.cubic_stiffness or not machine.linear_stiffness or task.restitution == 1:
         return np.nan

@@ -1,4 +1,4 @@
-"""Stiffness of the contact of a damper that is to be designed, from radius and materials."""
+"""Contact stiffness of a damper before its design, from radius and materials."""
 
 from impact_damper.design.task import Task
 from impact_damper.machine.hertz import HertzContact
@@ -11,14 +11,14 @@ TYPICAL = 2000.0
 def contact_stiffness_of(machine, mass, band, stiffness, contact):
     """Return the contact stiffness given or, without one, the stiffness of a contact after Hertz.
 
-    It is that of an impact at the speed with which the loose mass crosses the gap of the flight
-    rule in half a forcing period, at the middle of the band.
+    Hertz's contact is evaluated at the speed with which the loose mass crosses the gap of the
+    flight rule in half a cycle, at the middle of the band.
 
     Parameters
     ----------
     machine : Machine
     mass, band
-        As of `design.task.Task`.
+        As in `design.task.Task`.
     stiffness : float, str, pint.Quantity or None
         N/m.
     contact : HertzContact or None
@@ -26,7 +26,7 @@ def contact_stiffness_of(machine, mass, band, stiffness, contact):
     Returns
     -------
     float, str or pint.Quantity
-        N/m; `stiffness` as it is if it is given.
+        N/m; `stiffness` unchanged if it is given.
 
     Raises
     ------

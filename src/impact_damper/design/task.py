@@ -1,4 +1,4 @@
-"""What a damper is designed for: machine, mass, band of frequencies, tolerances and confidence."""
+"""A design task: machine, loose mass, band of frequencies, tolerances and confidence."""
 
 import math
 from collections.abc import Mapping
@@ -30,22 +30,22 @@ from impact_damper.theory.free_oscillator import balance_amplitudes
 VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
-# Least gap that is looked at, divided by that of rule (18).
+# Least gap that a design considers, divided by the gap of rule (18).
 LEAST_GAP = 0.3
-# Comparisons run motions for LEAST_PATIENCE forcing periods, or for PATIENT times the time in which
-# a free vibration decays by the factor e if that is longer.
+# Comparisons stop a chaotic motion after LEAST_PATIENCE cycles, or after PATIENT times the time in
+# which an unforced vibration decays by the factor e if that is longer.
 PATIENT, LEAST_PATIENCE = 5, 100
-# They stop motions that have not settled after LONG times this time, LEAST_LIMIT periods at least.
+# They stop every other motion after LONG times this time, but not before LEAST_LIMIT cycles.
 LONG, LEAST_LIMIT = 6, 600
-# Forcing periods over which motions that have not settled are measured. Over 50 periods the peaks
-# of chaos spread by a factor of two, and shares would depend on this chance.
+# Cycles over which motions that have not settled are measured. Over 50 cycles the largest peak of
+# chaos varies by a factor of two, so that shares would depend on chance.
 WATCHED = 100
-# Largest displacement of chaos in the long run, divided by that over the periods watched.
+# Largest displacement of chaos in a long run, divided by the largest one in the cycles watched.
 LATER = 1.5
 
 
 def spread(values, count) -> np.ndarray:
-    """Return at most `count` of some values, evenly spread, the first and the last among them."""
+    """Return at most `count` of the values, evenly spread, including the first and the last."""
     return values[np.unique(np.linspace(0, len(values) - 1, count).round().astype(int))]
 
 
@@ -70,16 +70,17 @@ class Task:
     candidates : int
         Number of gaps that are compared.
     starts : int
-        Random start states at each gap and frequency.
+        Random starts at each gap and frequency.
     tolerances : dict
         Largest relative deviations, keyed by names of VARIED.
     displacement_limit : float or None
-        Largest displacement of a quiet motion, m. None for the one that the screening finds.
+        Quiet limit, the largest displacement of a quiet motion, m. If None, the screening finds
+        one.
     share : float
-        Share of starts that must end quiet, claimed at 95 % confidence.
+        Least share of starts that must lead to quiet motions, at 95 % confidence.
     seed : int
     settling : Settling
-        Motions that have not settled are watched for WATCHED forcing periods at least.
+        Motions that have not settled are watched for at least WATCHED cycles.
 
     Raises
     ------
@@ -188,10 +189,10 @@ class Task:
     def hurried(self) -> Settling:
         """Settling for comparisons of many gaps: shorter runs, a few decay times of the machine.
 
-        A share after fewer periods is smaller, because slow motions are not yet quiet: those of the
-        candidates are run on (`compare.run_until_sure`).
+        After fewer cycles a share is smaller, because slow motions are not yet quiet. Therefore
+        `compare.run_until_sure` continues the motions that are not quiet.
         """
-        # forcing periods in which a free vibration decays by the factor e
+        # cycles in which an unforced vibration decays by the factor e
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, self.settling.patience))
         limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, self.settling.limit))
@@ -204,7 +205,7 @@ class Task:
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Frequencies over the band, Hz: even, but for `resonances`."""
+        """Frequencies over the band, Hz: evenly spaced, except for `resonances`."""
         return grid_over(self.band, self.frequencies, self.resonances)
 
     @cached_property
@@ -221,7 +222,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return some frequencies of `grid`, evenly spread, and all resonances and others."""
+        """Return some evenly spread frequencies of `grid`, all resonances, and `others`, Hz."""
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(spread(self.grid, count), [self.worst_frequency, *resonances, *others])
 
@@ -235,9 +236,9 @@ class Task:
         return replace(self.settling, patience=periods, limit=periods)
 
     def rule_gap(self, frequency) -> float:
-        """Return the gap (m) by rule (18): the force F moves the loose mass alone by half of it.
+        """Return the gap (m) by rule (18), m2 w^2 (gap/2) = F for a force of the amplitude F.
 
-        With m2 W^2 d0 = F the impacts take place in phase with the force.
+        The force alone would move the loose mass with half of this gap as amplitude.
         """
         force = self.machine.oscillator(frequency).forcing_amplitude(
             self.scales.from_si(frequency, "frequency")
@@ -276,7 +277,7 @@ class Task:
         return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
 
     def _force(self, frequency, varied):
-        """Return the factor of the force, which by a moving base depends on spring and dashpot."""
+        """Return the factor of the force; with a moving base it depends on spring and dashpot."""
         machine = self.machine
         if machine.force is not None or machine.unbalance is not None:
             return varied["force"]
@@ -290,11 +291,11 @@ class Task:
         return pack(*self.system(gap, frequency, factors))
 
     def millimetres(self, displacement):
-        """Return dimensionless displacements in mm, as datasets show them."""
+        """Return dimensionless displacements in mm, the unit of datasets."""
         return 1e3 * self.scales.to_si(displacement, "displacement")
 
     def describe(self) -> dict:
-        """Return the values of the task beside those of the machine, keyed by name, in SI units."""
+        """Return the values of the task except those of the machine, keyed by name, in SI units."""
         kept = ("mass", "restitution", "contact_stiffness", "frequencies", "candidates", "starts")
         found = {name: getattr(self, name) for name in (*kept, "share", "seed")}
         return found | {

@@ -1,4 +1,4 @@
-"""The conclusion of a design in sentences, each number from its datasets."""
+"""The conclusion of a design in sentences; each number comes from its datasets."""
 
 import numpy as np
 
@@ -39,13 +39,13 @@ def conclusion(task, kind, data) -> list[str]:
     kind : str
         Of `choose.Choice`.
     data : xarray.Dataset
-        Of `stages.machines.design_damper`, but for the conclusion.
+        Result of `stages.machines.design_damper` before the conclusion is added.
     """
     gap = float(data["design_gap"])
     tolerance = task.tolerances.get("gap", 0.0)
     edges = data["cliff_gap"].values
     ends = gap * (1 - tolerance), gap * (1 + tolerance)
-    # the cliff is known more finely than the gaps compared, from which the kind follows
+    # the cliff is located more finely than the spacing of the gaps that decided the kind
     narrow = edges[0] > ends[0] or edges[1] < ends[1]
     numbers = {
         "gap": gap,
@@ -77,44 +77,47 @@ def _percent(share, digits=3):
 
 
 def _moves(size):
-    """Return how far the machine moves (mm), or that it escapes."""
+    """Return the words "moves up to ... mm", or that the machine escapes."""
     return f"moves up to {size:.3g} mm" if np.isfinite(size) else "escapes over its barrier"
 
 
 def _worst(kind, data):
-    """Return how far the machine moves in the largest motion that starts reach."""
+    """Return a sentence on the largest motion to which starts lead."""
     size, limit = float(data["reached_displacement"].max()), float(data["displacement_limit"])
     if kind == "least_worst":
         k = int(np.argmax(data["reached_displacement"].values))
         return f"the machine {_moves(size)} at {float(data['frequency'][k]):.4g} Hz"
     if size <= limit:
-        return f"In none of the motions that starts reached does it move more than {size:.3g} mm."
+        return f"In no motion from the starts tried does it move more than {size:.3g} mm."
     if float(data["reached_quiet_share"].min()) < 1:
-        return f"Some starts do not end quiet: in the largest motion the machine {_moves(size)}."
+        return (
+            "Some starts do not lead to quiet motions: in the largest motion the machine "
+            f"{_moves(size)}."
+        )
     return (
-        "All random starts ended quiet, but there is a larger motion, which slow changes of the "
-        f"frequency or the force lead to, or starts on motions without the damper: in it the "
-        f"machine {_moves(size)}."
+        "All random starts lead to quiet motions, but slow changes of the frequency or the force, "
+        "or starts on motions without the damper, lead to a larger motion, in which the machine "
+        f"{_moves(size)}."
     )
 
 
 def _untouched(data, gap):
-    """Return the motion of the machine alone inside the gap, where it is not quiet."""
+    """Return sentences on motions in which the machine moves less than half the gap."""
     limit = float(data["displacement_limit"])
     size = float(np.fmax.reduce(data["untouched_displacement"].values))
     texts = []
     if gap / 2 > limit:
         texts.append(
             "At rest in the middle of the gap the loose mass is first touched when the machine "
-            f"moves half the gap, {gap / 2:.3g} mm: until then the damper does nothing."
+            f"moves half the gap, {gap / 2:.3g} mm: until then the damper has no effect."
         )
     if size > limit:
         room = gap / 2 - size
         texts.append(
-            f"At some frequencies the machine without the damper moves less than that, up to "
-            f"{size:.3g} mm. A loose mass that lies still within {room:.2g} mm of the middle of "
-            f"the gap ({_percent(2 * room / gap, 2)} of it) when the machine starts is then not "
-            "touched, and the machine moves as without the damper until the loose mass drifts; one "
+            "At some frequencies the machine without the damper moves less than that, up to "
+            f"{size:.3g} mm. If the loose mass then lies at rest within {room:.2g} mm of the "
+            f"middle of the gap ({_percent(2 * room / gap, 2)} of it), it is not touched, and "
+            "the machine moves as without the damper until the loose mass drifts. A loose mass "
             "that begins at an end of the gap is touched at once. No random start led to this "
             "motion."
         )
@@ -122,21 +125,21 @@ def _untouched(data, gap):
 
 
 def _sureness(data):
-    """Return what unseen starts did."""
+    """Return a sentence on the test with new starts."""
     share, sizes = data["corner_share"].values, data["corner_displacement"].values
     corners = len(share) - 1
     text = (
-        f"Checked with {UNSEEN} random starts that the design had not seen: "
-        f"{_percent(share[0, 0])} of them end quiet at the nominal values (95 % interval "
+        f"Checked with {UNSEEN} new random starts, which the design had not used: at the nominal "
+        f"values {_percent(share[0, 0])} of them lead to quiet motions (95 % interval "
         f"{_percent(share[0, 1])} to {_percent(share[0, 2])})"
     )
     if corners:
         worst = share[1:, 0].min()
         least = "all" if worst == 1 else f"at least {_percent(worst)}"
         text += (
-            f", and {least} in each of {corners} further checks "
-            "with all values off by their whole tolerance, up or down; in the worst of these "
-            f"motions the machine {_moves(sizes.max())}"
+            f", and {least} in each of {corners} further checks, in which all values were off by "
+            "their whole tolerance, up or down. In the worst of these motions the machine "
+            f"{_moves(sizes.max())}"
         )
     return text + "."
 
@@ -155,7 +158,10 @@ def _margins(data, gap):
             quiet.append(f"{way} to {edge:.4g} mm")
     texts = []
     if found:
-        texts.append(f"The cliff, beyond which fewer starts end quiet, lies {' and '.join(found)}.")
+        texts.append(
+            "The cliff, beyond which fewer starts lead to quiet motions, lies "
+            f"{' and '.join(found)}."
+        )
     if quiet:
         texts.append(
             f"Gaps are quiet at least {' and '.join(quiet)}: no gap beyond was compared, and no "
@@ -171,7 +177,7 @@ def _margins(data, gap):
 
 
 def _lives(data):
-    """Return where chaos beside the quiet motion changes from a transient to an attractor."""
+    """Return sentences on gaps at which chaos is a transient and at which it lasts."""
     if "life_rate" not in data:
         return ""
     passing, lasting = [], []
@@ -185,14 +191,14 @@ def _lives(data):
     found = []
     if passing:
         found.append(
-            f"Across the cliff, motions that are not quiet after {LEAD} cycles become so, "
+            f"Near the cliff, motions that are not quiet after {LEAD} cycles become quiet, "
             f"on average, after another {', '.join(passing)}."
         )
     if lasting:
         gaps, rates = zip(*lasting, strict=True)
         found.append(
-            f"{'Not so' if passing else 'Beyond the cliff, motions do not become quiet'} at "
-            f"{', '.join(gaps)} mm: none did within {LONGEST} cycles; this chaos lasts for good, "
+            f"{'Motions' if passing else 'Beyond the cliff, motions'} do not become quiet at "
+            f"{', '.join(gaps)} mm: none did within {LONGEST} cycles. This chaos lasts for good, "
             f"or more than {_rounded(1 / max(rates))} cycles on average."
         )
     return " ".join(found)
@@ -204,18 +210,18 @@ def _rounded(count):
 
 
 def _amplitudes(data):
-    """Return the forces between which the quiet orbit is stable."""
+    """Return a sentence on the forces between which the quiet orbit is stable."""
     stable = stable_range(data, "force")
     if not stable:
         return ""
     return (
-        f"The damper needs an excitation within a range: at {float(data['branch_frequency']):.4g} "
-        f"Hz its quiet orbit is stable from {stable} times the nominal one."
+        f"The damper works for a range of excitations: at {float(data['branch_frequency']):.4g} "
+        f"Hz its quiet orbit is stable from {stable} times the nominal excitation."
     )
 
 
 def _help(task, data):
-    """Return what would help where no gap is quiet."""
+    """Return a sentence on what would help if no gap is quiet."""
     texts = []
     good = data["other_share"].values >= task.share
     if good.any():
@@ -231,26 +237,26 @@ def _help(task, data):
         texts.append(f"at {frequency:.4g} Hz alone, a gap of {gap:.3g} mm with restitution {e:.2g}")
     if not texts:
         return (
-            "No mass up to twice this one, and no gap and restitution tried, makes starts end "
-            "quiet over the band."
+            "With no mass up to twice this one, and no gap and restitution tried, do the starts "
+            "lead to quiet motions over the band."
         )
     return f"What would help: {'; or '.join(texts)}."
 
 
 def _restitutions(data):
-    """Return which restitution does best, where it is free within a range."""
+    """Return a sentence on the best restitution, if it is free within a range."""
     if "tried_restitution" not in data:
         return ""
     *others, last = (f"{value:.3g}" for value in data["tried_restitution"].values)
     k = best_of(data["tried_displacement"].values, data["tried_choice"].values)
     return (
         f"Of the restitutions {', '.join(others)} and {last}, each with its best gap, "
-        f"{float(data['tried_restitution'][k]):.3g} does best, by few starts."
+        f"{float(data['tried_restitution'][k]):.3g} is best, by a comparison with few starts."
     )
 
 
 def _competition(data):
-    """Return how far the machine would move with the best tuned absorber of the same mass."""
+    """Return a sentence on the best tuned absorber of the same mass."""
     sizes = data["competitor_displacement"].sel(force_share=1.0).max("frequency", skipna=False)
     built = sizes.sel(detuning=0.0).drop_sel(competitor="bare")
     if not np.isfinite(built).any():

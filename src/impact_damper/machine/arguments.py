@@ -20,8 +20,8 @@ NOTE = """
 With a `Machine` in place of the oscillator, and a `MachineDamper` in place of the damper, all
 arguments and the result are in SI units: see `Machine`.
 """
-# Names of numbers in errors and warnings of the dimensionless functions, each with its name for a
-# machine and its quantity. Mass ratios stay ratios.
+# Numbers in errors and warnings of the dimensionless functions: the name of each, its name for a
+# machine, and its quantity. Mass ratios stay ratios.
 TOLD = {inner: (name, kind) for name, (inner, kind) in FOLLOWED.items() if inner != "mass_ratio"}
 TOLD |= {
     "frequencies": ("frequencies", "frequency"),
@@ -38,13 +38,13 @@ TOLD_NUMBER = re.compile(rf"\b({'|'.join(TOLD)})((?:\[\d+\])?) = (\[[^\]]*\]|{NU
 def takes_machine(function):
     """Return a function that also takes a `Machine`, with the other arguments in SI units.
 
-    Arguments are known by their names, which mean the same in all functions: `frequency` and
-    `frequencies` (Hz), `state` and `loose` (m, m/s), `displacement` (m), `velocity` (m/s),
-    `clearances` (m, on each side), `radius` (m; of speeds as in the scales of the machine), `start`
+    An argument is converted by its name, which has the same meaning in all functions: `frequency`
+    and `frequencies` (Hz), `state` and `loose` (m, m/s), `displacement` (m), `velocity` (m/s),
+    `clearances` (m, on each side), `radius` (m for displacements; speeds are scaled alike), `start`
     (s), `damper`, `parameter` with `span`, `motions`. Each number may be text with units or a
-    quantity of pint; `mass_ratio` is a ratio for a machine too. The dataset is returned by `in_si`;
-    a single number is a clearance on each side, in m. Numbers in errors and warnings are in SI
-    units. With an `Oscillator` nothing is converted.
+    quantity of pint. `mass_ratio` stays a ratio. A dataset that the function returns is converted
+    by `in_si`; a single number that it returns is a clearance on each side, in m. Numbers in errors
+    and warnings are in SI units. With an `Oscillator` nothing is converted.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def _called(function, machine, given):
     arguments = dict(given)
     damper = arguments.get("damper")
     parameter = arguments.get("parameter", "frequency")
-    # If several frequencies are given, the force must hold for all of them.
+    # The force of a moving base depends on the frequency; several frequencies need one formula.
     fixed = "frequency" in arguments and not ("span" in arguments and parameter == "frequency")
     single = machine.check_frequency("frequency", arguments["frequency"]) if fixed else None
     arguments["oscillator"] = machine.oscillator(single)
@@ -95,7 +95,7 @@ def _called(function, machine, given):
 
 
 def _told_in_si(message, scales):
-    """Return a message with its numbers in SI units, where it says `name = number`."""
+    """Return a message in which each `name = number` is converted to SI units."""
 
     def told(match):
         name, quantity = TOLD[match[1]]
@@ -109,7 +109,10 @@ def _told_in_si(message, scales):
 
 
 def _damper(machine, damper, swept):
-    """Return a damper in the scales of a machine, or, to sweep its gap, its other arguments."""
+    """Return a damper in the scales of a machine.
+
+    For a sweep of the gap (`swept`), return its arguments without the clearance.
+    """
     if damper is None:
         return None
     if not isinstance(damper, MachineDamper):
@@ -133,7 +136,7 @@ def _span(machine, parameter, span):
 
 
 def _each(name, values, convert):
-    """Return a converted number, or those of a sequence; errors name the place in the sequence."""
+    """Return a number or a sequence, converted; errors name the place in the sequence."""
     if np.ndim(getattr(values, "magnitude", values)) == 0:
         return convert(name, values)
     return [convert(f"{name}[{place}]", value) for place, value in enumerate(values)]
@@ -157,7 +160,7 @@ def _clearances(machine, name, values):
 
 
 def _state(machine, name, values):
-    """Return a state in the scales of a machine; one of a dataset keeps its phase."""
+    """Return a state in the scales of a machine; a state from a dataset keeps its phase."""
     labelled, values = values, getattr(values, "values", values)
     if isinstance(labelled, xr.DataArray):
         units = labelled.attrs.get("units")

@@ -18,7 +18,7 @@ from impact_damper.system.parameters import Damper
 @names_arguments
 @dataclass(frozen=True, kw_only=True)
 class MachineDamper:
-    """A loose mass in a gap of a machine, in SI units; `Machine.damper` makes and checks it.
+    """A loose mass in a gap of a machine, in SI units; made and checked by `Machine.damper`.
 
     Each value is a number in the SI unit, text with units, or a quantity of pint. The contact is
     given as `contact_stiffness` or as `contact`.
@@ -34,13 +34,13 @@ class MachineDamper:
     contact_stiffness : float or None
         Stiffness of the contact, N/m.
     contact : HertzContact or None
-        Contact after Hertz. The stiffness of the linear spring that stands for it depends on the
-        speed of impact, and `hertz_stiffness` finds it for a motion.
+        Contact after Hertz. It is replaced by a linear spring whose stiffness depends on the speed
+        of impact; `hertz_stiffness` finds this stiffness for a motion.
 
     Raises
     ------
     TypeError, ValueError
-        If a value is out of range or missing, or two exclude each other.
+        If a value is missing or out of range, or both contact arguments are given.
     """
 
     mass: float = physical("mass", above=0)
@@ -64,10 +64,11 @@ class MachineDamper:
         return self.gap / 2
 
     def check_for(self, machine):
-        """Raise ValueError, with what is allowed in SI units, if a machine cannot have the damper.
+        """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
-        The gap must be larger than the static play: the compression of the contacts on both sides
-        by the force that accelerates the loose mass with the machine at its static deflection.
+        The gap must be larger than the static play. This is the compression of the contacts on both
+        sides under the force that accelerates the loose mass together with the machine when the
+        static force acts on both.
         """
         scales = machine.scales
         clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")

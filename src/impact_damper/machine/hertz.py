@@ -58,7 +58,7 @@ class Impact(NamedTuple):
     duration : float
         s.
     stiffness : float
-        Stiffness of the linear spring with the same largest compression, N/m.
+        Stiffness of the linear spring that is compressed as far in this impact, N/m.
     """
 
     compression: float
@@ -83,8 +83,8 @@ class HertzContact:
     Attributes
     ----------
     radius : float
-        Radius R of the loose mass where it touches, m; 1/R is the sum of the curvatures if the
-        wall is curved too.
+        Radius R of the loose mass where it touches the wall, m. If the wall is curved too, 1/R is
+        the sum of the curvatures.
     loose, wall : Material
         Materials of the loose mass and of the walls; `wall` is `loose` if it is not given.
 
@@ -115,12 +115,12 @@ class HertzContact:
 
     @classmethod
     def of_ball(cls, radius, **material):
-        """Return the contact of a ball and walls of the same `Material`, given by its arguments."""
+        """Return the contact of a ball and walls of one material, with arguments of `Material`."""
         return cls(radius, Material(**material))
 
     @property
     def modulus(self) -> float:
-        """E*, Pa."""
+        """Effective modulus E*, Pa."""
         compliances = [
             (1 - each.poissons_ratio**2) / each.youngs_modulus for each in (self.loose, self.wall)
         ]
@@ -128,13 +128,13 @@ class HertzContact:
 
     @property
     def coefficient(self) -> float:
-        """K of the force K q^(3/2), N/m^1.5."""
+        """Coefficient K of the force K q^(3/2), N/m^1.5."""
         return 4 / 3 * self.radius**0.5 * self.modulus
 
     def pressure(self, force) -> float:
         """Return the largest pressure p0 = (6 F E*^2/(pi^3 R^2))^(1/3), Pa, under a force F, N.
 
-        Johnson, equation 4.24. The mean pressure is 2/3 of it.
+        From Johnson, equation 4.24. The mean pressure is 2/3 of p0.
         """
         return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
 
@@ -144,8 +144,8 @@ class HertzContact:
         Returns
         -------
         str
-            "yes" if p0 is at least YIELD times the yield strength of one material; else "unknown"
-            if a yield strength is not given; else "no".
+            "yes" if p0 is at least YIELD times the yield strength of one material. Otherwise
+            "unknown" if a yield strength is not given, and "no" if both are.
         """
         strengths = [each.yield_strength for each in (self.loose, self.wall)]
         if any(each is not None and pressure >= YIELD * each for each in strengths):
@@ -155,9 +155,10 @@ class HertzContact:
     def impact(self, speed, mass) -> Impact:
         """Return the elastic impact of two bodies.
 
-        The kinetic energy mass speed^2/2 is stored at the largest compression q, (2/5) K q^(5/2).
-        A linear spring stores the same energy at the same compression if its stiffness is
-        (4/5) K sqrt(q); its largest force is then 4/5 of Hertz's, and it lasts 6.7 % longer.
+        At the largest compression q the elastic energy (2/5) K q^(5/2) equals the kinetic energy
+        mass speed^2/2. A linear spring of the stiffness (4/5) K sqrt(q) stores the same energy at
+        the same compression. Its largest force is 4/5 of Hertz's, and the impact lasts 6.7 %
+        longer.
 
         Parameters
         ----------

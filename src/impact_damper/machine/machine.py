@@ -12,19 +12,20 @@ from impact_damper.system.names import names_arguments
 from impact_damper.system.parameters import Oscillator
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
-# Largest damping ratio with which the force by a moving base may be swept over frequency.
+# Largest damping ratio for which the force of a moving base is approximated over a range of
+# frequencies.
 LIGHT = 0.02
 
 
 @names_arguments
 @dataclass(frozen=True, kw_only=True)
 class Machine:
-    """A mass on a spring and a dashpot, and what excites it; all in SI units.
+    """A mass on a spring and a dashpot with its excitation, in SI units.
 
     Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
     the fields hold numbers. The restoring force at the deflection x is
-    linear_stiffness x + cubic_stiffness x^3. Either the damping ratio or the damping is given, and
-    one excitation.
+    linear_stiffness x + cubic_stiffness x^3. Give either the damping ratio or the damping, and one
+    excitation.
 
     The public functions of the package that take an oscillator take a machine too. Their
     frequencies are then in Hz, states in m and m/s, and the datasets they return in mm, Hz, N, m/s
@@ -33,27 +34,28 @@ class Machine:
     Attributes
     ----------
     mass : float
-        kg, without that of a damper.
+        kg, without the loose mass of a damper.
     linear_stiffness, cubic_stiffness : float
         N/m and N/m^3. A negative cubic stiffness softens the spring.
     damping_ratio : float
-        Share of the critical damping of the machine with its linear stiffness, below 1.
+        Damping divided by the critical damping for the linear stiffness, below 1.
     damping : float
         Coefficient of the dashpot, N s/m.
     force : float
-        Amplitude of a harmonic force, N; 0 for a free decay.
+        Amplitude of a harmonic force, N; 0 for an unforced decay.
     base_displacement, base_acceleration : float
-        Amplitude of a harmonic motion of the base, m or m/s^2, for a linear spring. Displacements
-        are then those in space, not relative to the base: the loose mass of a damper feels no
-        force from the base. The force on the machine by spring and dashpot has the amplitude
-        A sqrt(k^2 + c^2 w^2) for the displacement A of the base, a/w^2 with the acceleration a.
+        Amplitude of a harmonic motion of the base, m or m/s^2; the spring must be linear. All
+        displacements are then measured in space and not relative to the base, because the loose
+        mass of a damper feels no force from the base. Spring and dashpot exert a force of amplitude
+        A sqrt(k^2 + c^2 w^2) on the machine, with the displacement A of the base; A = a/w^2 if the
+        acceleration a is given.
     unbalance : float
         Mass times eccentricity of a rotating unbalance, kg m; its force is unbalance w^2.
 
     Raises
     ------
     TypeError, ValueError
-        If a value is out of range or missing, or two exclude each other.
+        If a value is missing or out of range, or if two values exclude each other.
 
     Examples
     --------
@@ -127,16 +129,16 @@ class Machine:
 
     @property
     def natural_frequency(self) -> float:
-        """Frequency of small free vibrations without damping, Hz; 0 without linear stiffness."""
+        """Frequency of small unforced, undamped vibrations, Hz; 0 without linear stiffness."""
         return math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
 
     @cached_property
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The length is the geometric mean of the static deflection and the displacement at resonance,
-        so that quiet motions, violent motions and useful gaps are all of the order 1. In these
-        scales omega_l^2 + |k3| = 1. Without a force the static deflection is replaced by the
+        The length is the geometric mean of the static deflection and the displacement at resonance.
+        With this length quiet motions, violent motions and useful gaps are all of the order 1. In
+        these scales omega_l^2 + |k3| = 1. Without a force the static deflection is replaced by the
         deflection at which the linear and the cubic part of the spring's force are equal, or by
         1 mm if the spring has only one part.
         """
@@ -145,7 +147,7 @@ class Machine:
         return Scales(length, math.sqrt(self.mass / (stiffness + cubic * length**2)), self.mass)
 
     def _static_deflection(self):
-        """Return the deflection (m) under the force; for an unbalance, its ratio to the mass."""
+        """Return the deflection under the force, m; for an unbalance, unbalance over mass."""
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
             return static_deflection(self.force, stiffness, cubic)
@@ -159,10 +161,10 @@ class Machine:
 
     @property
     def resonant_displacement(self) -> float:
-        """Static deflection times m w/c: the displacement at resonance, m, of a linear machine.
+        """Displacement of a linear machine at resonance, m: the static deflection times m w/c.
 
-        A hardening spring has a smaller one. w^2 is the stiffness at the static deflection
-        divided by the mass.
+        With a hardening spring the displacement is smaller. w^2 is the stiffness at the static
+        deflection divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -182,10 +184,10 @@ class Machine:
         Parameters
         ----------
         frequency : float, optional
-            Forcing frequency, Hz. With a moving base the force of the oscillator holds for this
-            frequency alone. Without a frequency it is A (k + c^2 w^2/(2 k)), with A = a/w^2 for
-            `base_acceleration`, which differs from A sqrt(k^2 + c^2 w^2) by a share of
-            (2 damping_ratio w/w0)^4/8.
+            Forcing frequency, Hz. With a moving base the force of the oscillator then holds for
+            this frequency alone. Without this argument the force is approximated by A (k + c^2
+            w^2/(2 k)), with A = a/w^2 for `base_acceleration`. Its relative error is (2
+            damping_ratio w/w0)^4/8.
 
         Raises
         ------
@@ -204,9 +206,9 @@ class Machine:
         )
 
     def forcing(self, frequency=None) -> tuple[float, float, float]:
-        """Return the parts F, U and V of the force's amplitude F + U w^2 + V/w^2.
+        """Return F (N), U (kg m) and V (N/s^2) of the amplitude F + U w^2 + V/w^2 of the force.
 
-        In N, kg m and N/s^2; argument as of `oscillator`.
+        The argument is as for `oscillator`.
         """
         if self.force is not None:
             return self.force, 0.0, 0.0
@@ -227,7 +229,7 @@ class Machine:
         return self.base_displacement * stiffness, self.base_displacement * softness, 0.0
 
     def check_frequency(self, name, value) -> float:
-        """Return a forcing frequency in Hz, or raise an error that names what is allowed."""
+        """Return a forcing frequency in Hz, or raise an error that names the allowed range."""
         bounds = self.scales.range_to_si(FREQUENCY_RANGE, "frequency")
         return check_si(name, value, "frequency", **bounds, why=FREQUENCY_RANGE["why"])
 
@@ -241,14 +243,14 @@ class Machine:
         gap : float, str or pint.Quantity, optional
             Full play of the loose mass from wall to wall, m.
         clearance_each_side : float, str or pint.Quantity, optional
-            In place of `gap`, half of it: from the centred loose mass to either wall, m.
+            Half of the gap, from the centred loose mass to either wall, m; in place of `gap`.
         contact
             The other arguments of `MachineDamper`: restitution, contact_stiffness or contact.
 
         Raises
         ------
         TypeError, ValueError
-            If a value is out of range, by itself or for this machine.
+            If a value is out of range, in general or for this machine.
         """
         if (gap is None) == (clearance_each_side is None):
             raise ValueError(
@@ -269,7 +271,7 @@ class Machine:
 
 
 def check_fit(machine, damper):
-    """Raise TypeError or ValueError unless these are a machine and a damper that fits it."""
+    """Raise TypeError or ValueError unless the damper is one that fits the machine."""
     if not isinstance(machine, Machine):
         raise TypeError(f"machine = {shown(machine)}: must be a Machine")
     if not isinstance(damper, MachineDamper):

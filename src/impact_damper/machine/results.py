@@ -1,7 +1,7 @@
 """Convert datasets to SI units, and back.
 
-The registry of variables says which physical quantity a variable is. Numbers that mix quantities,
-such as the distance between two states, stay in the scales of the machine.
+The registry of variables names the physical quantity of each variable. Numbers that combine several
+quantities, such as the distance between two states, stay in the scales of the machine.
 """
 
 import json
@@ -17,8 +17,8 @@ from impact_damper.machine.units import QUANTITIES
 # Quantities of the components of a state.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
-# Parameters in which branches of orbits are followed: the name of each for a machine, its name in
-# the equations, and its quantity.
+# Parameters in which branches of orbits are followed, keyed by the name for a machine: the name in
+# the equations, and the quantity.
 FOLLOWED = {
     "frequency": ("frequency", "frequency"),
     "damping": ("damping", "damping"),
@@ -33,13 +33,13 @@ FOLLOWED = {
 
 
 def shown_variable(name, values, dims=None):
-    """Return a registered variable whose values are in the unit in which datasets show them.
+    """Return a registered variable with values in the unit used by datasets of machines.
 
     Parameters
     ----------
     name : str
     values : array_like
-        In mm for displacements, else in the SI unit of the quantity of the variable.
+        In mm for displacements, otherwise in the SI unit of the variable's quantity.
     dims : sequence of str, optional
         In place of the registered dimensions.
     """
@@ -61,11 +61,10 @@ def in_si(data, machine, damper=None):
     Returns
     -------
     xarray.Dataset
-        Each variable in the unit that its attribute `units` names: mm, m/s, Hz, s, N and others.
-        States are in m and m/s, so that they can be handed on to functions. Clearances are those on
-        each side, as their long names say. The attribute `machine` holds machine and damper in SI
-        units, with `gap` as the full play, `scales` the scales, and `parameters` what was computed,
-        dimensionless.
+        Each variable has the unit in its attribute `units`: mm, m/s, Hz, s, N and others. States
+        are in m and m/s, so that functions accept them. Clearances are on each side, as their long
+        names say. The attribute `machine` holds machine and damper in SI units, with `gap` as the
+        full play; `scales` holds the scales, and `parameters` the dimensionless parameters.
     """
     made = {"machine": describe_si(machine, damper), "scales": machine.scales._asdict()}
     converted = _each(data, lambda values, unit: values * unit, machine.scales)
@@ -78,7 +77,7 @@ def in_si(data, machine, damper=None):
 
 
 def from_si(data, machine):
-    """Return a dataset made by `in_si` in the scales of its machine again."""
+    """Return a dataset that `in_si` made, converted back to the scales of its machine."""
     return _each(data, lambda values, unit: values / unit, machine.scales)
 
 
@@ -99,11 +98,11 @@ def _each(data, convert, scales):
 
 
 def _quantity(name, data):
-    """Return the quantity registered for a variable; of a followed value, that of the parameter."""
+    """Return the quantity of a variable; for a followed value, the quantity of the parameter."""
     quantity = VARIABLES[name].quantity
     if quantity != "followed":
         return quantity
-    # a sweep names its parameter by its coordinate
+    # the coordinate of a sweep is its parameter
     swept = "clearance" if "clearance" in data.coords else "frequency"
     parameter = parameters_of(data).get("parameter", swept)
     return next(kind for inner, kind in FOLLOWED.values() if inner == parameter)

@@ -1,7 +1,7 @@
 """Scales of length, time and mass between SI units and the dimensionless equations.
 
-Section 2.1 of Chatterjee, Mallik and Ghosh (1995) has the equations; they hold for any scales
-of length and time; the scale of mass is the mass of the machine.
+The equations of section 2.1 of Chatterjee, Mallik and Ghosh (1995) hold for any scales of length
+and time. The scale of mass is the mass of the machine.
 """
 
 import math
@@ -30,7 +30,7 @@ class Scales(NamedTuple):
     def unit(self, quantity) -> float:
         """Return the SI value of the dimensionless 1 of a quantity.
 
-        The dimensionless frequency W is angular, its SI value in Hz is W w0/(2 pi).
+        The dimensionless frequency W is angular; its value in Hz is W w0/(2 pi).
 
         Parameters
         ----------
@@ -57,7 +57,7 @@ class Scales(NamedTuple):
 def static_deflection(force, linear, cubic) -> float:
     """Return the deflection x > 0 at which linear x + |cubic| x^3 equals a force, all in SI units.
 
-    The only real root of the cubic equation, in hyperbolic form.
+    The cubic equation has one real root, computed here in hyperbolic form.
     """
     cubic = abs(cubic)
     if cubic == 0:

@@ -24,7 +24,7 @@ class Quantity(NamedTuple):
     length, time, mass : int
         Exponents of the dimensions.
     shown : str
-        Unit in datasets, if not `unit`.
+        Unit in datasets, if it differs from `unit`.
     factor : float
         Value of 1 `unit` in the unit of datasets, such as 1000 for m in mm.
     """
@@ -42,7 +42,7 @@ class Quantity(NamedTuple):
         return self.shown or self.unit or "1"
 
 
-# Keyed by name; `Variable.quantity`, in the registry of variables, is one of these names.
+# Keyed by name. The field `quantity` of a registered variable is one of these names.
 QUANTITIES = {
     "number": Quantity(""),
     "mass": Quantity("kg", mass=1),
@@ -66,8 +66,8 @@ QUANTITIES = {
     "power": Quantity("W", length=2, time=-3, mass=1),
     "impulse_noise": Quantity("N^2 s", length=2, time=-3, mass=2),
 }
-# A text may hold a number and units with powers only: pint would also evaluate an expression,
-# however long that takes.
+# Text may hold only a number and units with powers. pint would evaluate any expression, which could
+# take arbitrarily long.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
@@ -77,23 +77,23 @@ LONGEST_TEXT = 80
 def si_value(name, value, quantity) -> float:
     """Return a physical quantity as a number in its SI unit.
 
-    Frequencies are in Hz. Angular ones with a unit ("188 rad/s", "1800 rpm") are converted with
-    their factor of 2 pi, which pint by itself leaves out.
+    Frequencies are in Hz. Angular frequencies with a unit ("188 rad/s", "1800 rpm") are divided by
+    2 pi, which pint by itself does not do.
 
     Parameters
     ----------
     name : str
         Name of the argument, for messages.
     value : float, str, pint.Quantity or xarray.DataArray
-        A number in the SI unit; or a text with units; or a quantity of any registry of pint; or a
-        single value of a dataset, in the unit of its attributes.
+        A number in the SI unit, text with units, a quantity of any registry of pint, or a single
+        value of a dataset in the unit of its attribute `units`.
     quantity : str
         A key of QUANTITIES.
 
     Raises
     ------
     TypeError, ValueError
-        If the value is none of these, not finite, or of another dimension.
+        If the value is none of these, not finite, or of another quantity.
     """
     value = _from_dataset(value)
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
@@ -120,7 +120,7 @@ def si_value(name, value, quantity) -> float:
 
 
 def wrong_unit(value, quantity) -> str:
-    """Return what is wrong with the unit of a value, in brackets, or nothing if that is unknown.
+    """Return a remark in brackets on the wrong unit of a value, or "" if the unit is not wrong.
 
     `value` and `quantity` are as of `si_value`.
     """
@@ -137,7 +137,7 @@ def wrong_unit(value, quantity) -> str:
 
 
 def _from_dataset(value):
-    """Return a single value of a dataset as text with its units, other values as they are."""
+    """Return a single value of a dataset as text with its unit; return other values unchanged."""
     if getattr(value, "ndim", None) != 0 or hasattr(value, "magnitude"):
         return value
     units = getattr(value, "attrs", {}).get("units")
@@ -148,7 +148,7 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return the value of a unit in an SI unit, or None if unknown or of another dimension."""
+    """Return the factor from a unit to an SI unit; None if unknown or of another quantity."""
     import pint
 
     registry = _registry()
@@ -170,7 +170,7 @@ def _registry():
 
 
 def check_si(name, value, quantity, *, above=None, least=None, most=None, why="") -> float:
-    """Return a physical quantity in its SI unit, or raise an error that names the bounds in it.
+    """Return a physical quantity in its SI unit, or raise an error with the bounds in that unit.
 
     Raises
     ------
