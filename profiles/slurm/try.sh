@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # The smoke run on a Slurm of one node, against a local run: the same bytes, or it fails.
 #   make slurm, or profiles/slurm/try.sh [PATH OF SNAKEMAKE]
+# Another run on the same Slurm, with results in this folder and no comparison:
+#   profiles/slurm/try.sh PATH-OF-SNAKEMAKE TARGETS --configfile FILE
 # Slurm is set up for this alone, in namespaces of its own (processes, network, mounts), and goes
 # with them: nothing outside is changed, and no other Slurm is touched.
 set -euo pipefail
@@ -76,6 +78,12 @@ sinfo
 [[ $(sinfo --noheader --format=%t) == idle ]] ||
     stop "the node does not come up: $(grep -h -E 'error|fatal' "$SLURM_TRIAL"/*.log | tail -n 5)"
 
+if (($# > 1)); then
+    "$snakemake" --profile profiles/slurm "${@:2}"
+    echo "Jobs of Slurm:"
+    squeue --noheader --states=all --format=%T | sort | uniq --count
+    exit
+fi
 run() {
     "$snakemake" --directory "$SLURM_TRIAL/$1" --configfile config/smoke.yaml "${@:2}"
 }

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import solve_ivp
+from scipy.spatial import cKDTree
 from scipy.stats import binom
 
+from impact_damper.attraction.boundary import saddles, stable_manifold
 from impact_damper.data.shares import wilson
 from impact_damper.migration.choice import HOLDS, expected_cycles
 from impact_damper.migration.clairvoyant import clairvoyant, earliest
@@ -182,6 +184,25 @@ def test_depth_tells_where_free_motions_of_scipy_settle(free):
         assert (attractors.owner[nearest] == 0) == (depth > 0)
         told += 1
     assert told > 15
+
+
+def test_depth_is_the_distance_from_the_stable_manifold_to_a_cell():
+    """At W = 1.7 only two motions exist, and the basins meet at the manifold of one saddle."""
+    free = free_case(CUBIC, 1.7, 32, Settling(), 1)
+    grid, half = free.releases.depth, free.releases.half
+    even = np.linspace(-0.5, 0.5, 9)[:, None] * half
+    starts = np.stack(np.meshgrid(*even.T), axis=-1).reshape(-1, 2)
+    (saddle,) = saddles(free.p, starts, [1], 0.0)
+    spacing = 0.2 * 2 * half / grid.shape[1]
+    pieces, complete = stable_manifold(saddle, 1e-9, half, spacing, 3 * half)
+    assert complete
+    states = np.random.default_rng(2).uniform(-1, 1, (4000, 2)) * half
+    found = np.array([depth_of(grid, half, 0, x, v) for x, v in states]) / free.releases.cell
+    scale = np.array([1, 1.7]) * free.releases.cell
+    away = cKDTree(np.concatenate(pieces) / scale).query(states / scale)[0]
+    close = np.abs(found) < 20
+    apart = np.abs(np.abs(found) - away)[close]
+    assert close.sum() > 1500 and np.median(apart) < 0.5 and np.mean(apart < 1) > 0.93
 
 
 def test_nothing_is_deep_beyond_the_grid(free):
