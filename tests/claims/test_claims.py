@@ -169,7 +169,7 @@ REFUTED = {
     "11": copy("branches", "figure_10", "figure_05c"),
     "12": share("figure_13", "quiet", 0.1),
     "13": share("figure_15", "quiet", 0.0),
-    "14": each(("figure_13", "figure_15"), lambda name: scale("migration", name, within_share=0.1)),
+    "14": scale("migration", "figure_15", within_share=0),
     "15": renamed("response", "figure_10", restitution=0.2),
     "16": scale("branches", "figure_05a", orbit_displacement=30),
     "17": scale("branches", "figure_05c", orbit_displacement=10),
@@ -188,11 +188,11 @@ DIFFERENCES = {
     "4": scale("harmonic_balance", "figure_03b", reduction=0.5),
     "6": assign("response", "figure_05b", outcome=flag("outcome", "chaotic")),
     "8": scale("collisions", "figure_05a", colliding=0.995),
-    "9": scale("optimum", "0.215_0.12_1.0", optimum_displacement=2),
-    "12": share("figure_13", "unsettled", 0.1),
-    "14": scale("migration", "figure_13", within_share=0.8),
+    "9": scale("optimum", "0.215_0.12_1.0", quiet_displacement=1.5, optimum_displacement=1.5),
+    "11": scale("optimum", "0.215_0.12_0.75", quiet_displacement=1.5),
+    "14": scale("migration", "figure_13", within_share=0.4),
     "18": put("branches", "figure_08", damped_branches("figure_08", 0.107, third=0.8)),
-    "19": early(1),
+    "19": scale("migration", "figure_16", reached_share=0.9),
 }
 
 
@@ -419,7 +419,7 @@ def test_release_phase_decides_in_the_nearest_range_of_all_scans(data):
     values = BY_NUMBER["13"].evidence(data)
     assert (values["quiet_first"], values["quiet_last"]) == (1.65, 1.8)
     assert (values["unsettled_first"], values["unsettled_last"]) == (1.5, 1.8)
-    assert values["quiet_there"] == pytest.approx(0.8)
+    assert values["quiet_most"] == pytest.approx(0.8)
 
 
 def test_release_scans_of_another_damper_tell_nothing(data):

@@ -231,7 +231,8 @@ def motion():
 
 def collisions():
     data = {"beyond_wall": [0.2, 0.0], "colliding": [1.0, 1.0], "longest_wait": [9.0, 90.0]}
-    return dataset(data, {"ball": ["literal", "within_gap"]}, parameters(), "made up")
+    made = parameters(**damper(0.12, 2.0), starts=2000)
+    return dataset(data, {"ball": ["literal", "within_gap"]}, made, "made up")
 
 
 def sweep(damping, mass_ratio, restitution=1.0):
@@ -240,9 +241,10 @@ def sweep(damping, mass_ratio, restitution=1.0):
     rule = 1 / (mass_ratio * frequency**2)
     best = rule * (1.05 - 0.5 * (1 - restitution))
     flatness = 0.1 + (1 - restitution)
+    steepness = 1.5 - 4 * (1 - restitution)
     clearance = np.linspace(0.5, 1.5, 101) * best
     data = {
-        "quiet_displacement": 0.02 + 0.1 * np.abs(clearance / best - 1),
+        "quiet_displacement": 0.02 * (1 + steepness * np.abs(clearance / best - 1)),
         "optimum_clearance": best,
         "optimum_displacement": 0.02,
         "rule_clearance": rule,
@@ -300,6 +302,10 @@ def migration(frequency, subharmonic_share):
     counts = np.zeros((len(kinds), len(destinations)), int)
     counts[kinds.index("unsettled")] = np.rint(10 * shares[0, :, 0])
     reached = np.full(4, flag("trial_outcome", "reached"))
+    # run k is switched k times, and arrives after the last time
+    destination = np.full((4, 4), FREE_MOTION["none"])
+    destination[np.tril_indices(4, -1)] = FREE_MOTION["resonance"]
+    destination[np.diag_indices(4)] = FREE_MOTION["non_resonance"]
     data = {
         "damped_kind": [DAMPED_MOTION["unsettled"], DAMPED_MOTION["quiet"]],
         "damped_period": np.array([0, 1]),
@@ -307,6 +313,7 @@ def migration(frequency, subharmonic_share):
         "release_share": shares,
         "destination_count": counts,
         "trial_outcome": reached,
+        "destination": destination,
         "switchings": np.array([1, 2, 3, 4]),
         "damper_time": np.full(4, 50.0),
         "total_time": np.array([60.0, 120.0, 180.0, 300.0]),
@@ -320,9 +327,8 @@ def migration(frequency, subharmonic_share):
         "damped_motion": kinds,
         "free_motion": destinations,
     }
-    return dataset(
-        data, coordinates, parameters(**damper(0.12, 2.0), frequency=frequency), "made up"
-    )
+    made = parameters(**damper(0.12, 2.0), frequency=frequency, releases=240)
+    return dataset(data, coordinates, made, "made up")
 
 
 def release_scan(frequency, subharmonic_share):

@@ -101,6 +101,18 @@ def covered(part, lower=-np.inf, upper=np.inf):
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
+def coexisting(part, column):
+    """Total width in W in which pieces with different values in a column overlap."""
+    values = [ranges(same) for _, same in part.groupby(column)]
+    ends = np.unique([end for each in values for end in np.ravel(each)])
+    middle = (ends[1:] + ends[:-1]) / 2
+    count = sum(
+        np.any([(lower < middle) & (middle < upper) for lower, upper in each], axis=0)
+        for each in values
+    )
+    return float(np.sum(np.diff(ends)[count > 1])) if values else 0.0
+
+
 def crossings(part, frequency) -> pd.DataFrame:
     """Interpolate pieces at frequencies; one row for each frequency and piece that contains it."""
     frequency = np.atleast_1d(np.asarray(frequency, float))

@@ -1,11 +1,27 @@
-"""Policies of migration as evidence for claims 13, 14 and 19."""
+"""Shares of releases, and policies of migration, as evidence for claims 12, 13, 14 and 19."""
 
 import numpy as np
 
 from impact_damper.claims import extract
-from impact_damper.data.datasets import damper_of, oscillator_of
+from impact_damper.data.datasets import damper_of, flag, oscillator_of
+
+# Least share of releases or runs that shows that something can happen.
+LEAST = 0.01
 
 SHARES = ("state", "hold", "phase", "settled", "clairvoyant")
+
+
+def release_shares(case, kind, free_motion):
+    """For each damped motion of a kind, the share of its releases that lead to a free motion."""
+    rows = case.damped_kind.values == flag("damped_kind", kind)
+    return case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
+
+
+def extreme_share(case, kind, free_motion, choose):
+    """Least or largest of `release_shares` (`choose`: min or max); NaN if there are none."""
+    shares = release_shares(case, kind, free_motion)
+    shares = shares[np.isfinite(shares)]
+    return float(choose(shares)) if len(shares) else np.nan
 
 
 def by_policy(datasets, case):

@@ -15,6 +15,7 @@ from impact_damper.claims import (
     motions,
     optimum,
     phases,
+    release,
     slips,
     subharmonic,
 )
@@ -27,7 +28,8 @@ MODULES = (
     phases,  # 7
     optimum,  # 9, 11
     subharmonic,  # 10, 18
-    migration,  # 12, 13, 14, 19
+    release,  # 12, 13
+    migration,  # 14, 19
     contact,  # 15
     slips,  # S1 to S6
 )

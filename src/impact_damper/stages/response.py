@@ -138,7 +138,7 @@ def collisions(
     starts=2000,
     radius=None,
     seed=1995,
-    periods=200,
+    periods=2000,
     tolerance=1e-9,
 ):
     """Count the random starts that lead to a collision, in the whole ball and within the gap.

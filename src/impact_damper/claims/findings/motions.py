@@ -1,6 +1,9 @@
 """Findings on motions, optimum, contact and subharmonic: claims 5, 6, 8 to 11, 15 and 18."""
 
-from impact_damper.claims.findings.words import between, number, part_of, percent
+import math
+
+from impact_damper.claims.findings.words import between, listed, number, part_of, percent
+from impact_damper.data.table_files import in_words
 
 
 def quiet_contacts(two, skew, **others):
@@ -13,72 +16,118 @@ def quiet_contacts(two, skew, **others):
     )
 
 
-def high_and_chaotic(more, fewest, error, widest, **others):
+def high_and_chaotic(more, fewest, fewest_in, harmonic, coexisting, widest, **others):
     """Return the finding on claim 6."""
-    few = "" if fewest > 2 else f", though some stable violent orbits have only {number(fewest)}"
-    ranges = "The chaotic ranges are narrow: the widest"
-    if widest > 0.1:
-        ranges = "But the chaotic ranges are not narrow: one"
+    few = ""
+    if not fewest > 2:
+        few = f"; but in {in_words(fewest_in)} stable violent orbits have only {number(fewest)}"
+    apart = "Regions of different contact number overlap by at most"
+    if coexisting > 0.005:
+        apart = (
+            "Regions of different contact number are not separated: stable violent orbits with "
+            "different numbers coexist over up to"
+        )
+    narrow = "narrow" if widest <= 0.1 else "not narrow"
     return (
-        f"Of the violent motions {percent(more)} have more than two contacts a cycle{few}. "
-        f"Harmonic balance differs from the stable violent orbits by {percent(error)} in the "
-        f"median. {ranges} is {number(widest, 2)} wide in W."
+        f"Of the violent motions, chaotic ones included, {percent(more)} have more than two "
+        f"contacts a cycle{few}. The amplitude |a| of harmonic balance differs from the first "
+        f"harmonic of the stable violent orbits by {percent(harmonic)} in the median. {apart} "
+        f"{number(coexisting, 2)} in W. The chaotic ranges are {narrow}: the widest is "
+        f"{number(widest, 2)} wide in W."
     )
 
 
-def first_collisions(literal, within_gap, beyond_wall, wait, **others):
+def first_collisions(literal, within_gap, starts, clearances, beyond_walls, waits, **others):
     """Return the finding on claim 8."""
+    least = "for each at least " if min(literal, within_gap) < 1 else ""
     return (
-        f"For the least favourable damper {part_of(literal, 'random starts')} in the ball lead to "
-        f"a collision; the first comes after {number(wait)} cycles at the latest. Up to "
-        f"{percent(beyond_wall)} of these starts lie beyond a wall; of the starts within the gap "
-        f"{percent(within_gap)} lead to a collision."
+        f"For the dampers of figure 5, with d0 = {listed(map(number, clearances))}, "
+        f"{least}{part_of(literal, 'random starts', starts)} in the ball lead to a collision, and "
+        f"{least}{part_of(within_gap, 'random starts', starts)} in the part of the ball within the "
+        f"gap. Of the starts in the ball {listed(map(percent, beyond_walls))} lie beyond a wall. "
+        "Starts within the gap have their first collision after at most "
+        f"{listed(map(number, waits))} cycles."
     )
 
 
-def optimum(least, most, dampings, spread, displaced, **others):
+def optimum(least, most, dampings, rule_least, rule_most, spread, rise_least, rise, displaced,
+            **others):  # fmt: skip
     """Return the finding on claim 9."""
+    but = " But if" if rise > 0.2 else " If"
     return (
         f"For {number(dampings)} values of h the numerical optimum of d0 lies "
-        f"{between(least, most)} above (19). The least max |Z1| varies by {percent(spread)} over "
-        f"rm, and 10 % away from the optimum d0 max |Z1| is at most {percent(displaced)} of the "
-        "free resonance."
+        f"{between(least, most)} above the optimum by (7), and {between(rule_least, rule_most)} "
+        f"above (19). The least max |Z1| varies by {percent(spread)} over rm.{but} d0 is changed "
+        f"by 10 % from the optimum, max |Z1| rises by {between(rise_least, rise)} in the worse "
+        f"direction. It then is at most {percent(displaced)} of the free resonance."
     )
 
 
-def reappearance(light, light_anywhere, light_ratio, heavy, ratio, **others):
+def reappearance(
+    light, light_anywhere, light_ratio, narrow_ratio, narrow_width, heavy, ratio, heavy_ratio,
+    low_damping, low_ratio, **others,
+):  # fmt: skip
     """Return the finding on claim 10."""
     within = "no stable motion whose period is a multiple of 3 is left in the band"
     if light != 0:
         within = (
-            "stable motions whose period is a multiple of 3 are left in the band over a range of "
-            f"W {number(light, 2)} wide"
+            "stable motions whose period is a multiple of 3 are left in the band over up to "
+            f"{number(light, 2)} in W"
         )
     outside = ""
     if light_anywhere != 0:
         outside = (
-            "; in the range of W of the free subharmonic such motions are left over "
-            f"{number(light_anywhere, 2)} in W, with at most {percent(light_ratio)} of its "
-            "amplitude"
+            " Between the folds of the free subharmonic such motions are left over up to "
+            f"{number(light_anywhere, 2)} in W"
+        )
+        outside += (
+            "."
+            if math.isnan(light_ratio)
+            else f", with at most {percent(light_ratio)} of its amplitude."
+        )
+        if not math.isnan(narrow_ratio):
+            outside += (
+                f" A branch that is stable over only {number(narrow_width, 1)} in W has up to "
+                f"{percent(narrow_ratio)}."
+            )
+    below = ""
+    if heavy_ratio > ratio:
+        below = f"; outside the band, between the folds, they have up to {percent(heavy_ratio)}"
+    other = "leaves no such motion in its band"
+    if low_damping != 0:
+        other = (
+            f"leaves such motions at {part_of(low_damping, 'frequencies')} of its band, with up to "
+            f"{percent(low_ratio)} of the free amplitude"
         )
     return (
-        f"With rm = 0.12 and 0.25 {within}{outside}. With rm = 0.4 such motions exist in the band "
-        f"over {number(heavy, 2)} in W, with at most {percent(ratio)} of the amplitude of the "
-        "free subharmonic."
+        f"For h = 0.215, with rm = 0.12 and 0.25, {within}.{outside} With rm = 0.4 such motions "
+        f"exist in the band over {number(heavy, 2)} in W, with at most {percent(ratio)} of the "
+        f"amplitude of the free subharmonic{below}. For h = 0.107 the damper of figure 8 {other}."
     )
 
 
-def restitution(band, amplitude, most, clearance, step, flat, **others):
+def restitution(
+    band, amplitude, most, clearance_least, clearance, step, step_mass_ratio, step_from, step_to,
+    rising, flat, absolute, **others,
+):  # fmt: skip
     """Return the finding on claim 11."""
     sizes = between(amplitude, most, lambda value: number(value, 2))
-    steadily = f"and falls to {percent(step)} or less at each step to a lower e"
+    marginal = ", which is more than marginal" if most > 1.5 else ""
+    steadily = f"each step to a lower e lowers it, to {percent(step)} or less"
     if step > 1:
-        steadily = f"but on the way it rises by up to {percent(step - 1)} at a step to a lower e"
+        only = "in one case" if rising == 1 else f"in {rising} cases, the worst"
+        steadily = (
+            f"only {only}, from e = {number(step_from)} to {number(step_to)} with rm = "
+            f"{number(step_mass_ratio)}, it rises, by {percent(step - 1)}"
+        )
+    flatter = "falls to at most" if flat <= 1 else "changes to up to"
     return (
-        f"With e = 0.75 the band is at least {number(band, 2)} times as wide as with e = 1, and "
-        f"max |Z1| in it is {sizes} times as large. The optimum d0 at the lowest e is at most "
-        f"{percent(clearance)} of the optimum at the highest e, {steadily}. The range of d0 near "
-        f"the optimum becomes at least {number(flat, 2)} times as wide at each step."
+        f"For rm = 0.25 and d0 = 1 the band with e = 0.75 is at least {number(band, 2)} times as "
+        f"wide as with e = 1, and max |Z1| in the elastic band {sizes} times as large{marginal}. "
+        f"The optimum d0 at the lowest e is {between(clearance_least, clearance)} of the optimum "
+        f"at e = 1; {steadily}. At each step the relative rise of max |Z1| at 10 % from the "
+        f"optimum d0 {flatter} {percent(flat)} of its value before; in units of Z1 the rise "
+        f"changes to at most {percent(absolute)}."
     )
 
 
@@ -86,21 +135,26 @@ def contact_model(high, low, realised, duration, **others):
     """Return the finding on claim 15."""
     only = "only " if duration < 1.2 else ""
     return (
-        f"Walls that cannot pull would return up to {percent(high)} more than e for the e of the "
-        f"figures, and {percent(low)} more for e = 0.3. In the quiet motions of figure 10 "
-        f"the ratio of speeds at a contact differs from e by {percent(realised)}. The contact at "
-        f"e = 0.3, whose length is the paper's reason, is {only}{number(duration)} times "
-        "as long as at e = 1."
+        "With walls that cannot pull, the coefficient of restitution would exceed e by up to "
+        f"{percent(high)} for the e of the figures, and by {percent(low)} for e = 0.3. In the "
+        "quiet motions of figure 10 the ratio of the speeds after and before a contact differs "
+        f"from e by at most {percent(realised)}. The paper's reason is the longer contact; at e = "
+        f"0.3 a contact is {only}{number(duration)} times as long as at e = 1."
     )
 
 
-def subharmonic_by_damping(low, high, fall, relative, unchanged, unchanged_high, **others):
+def subharmonic_by_damping(
+    low, high, fall, relative, relative_low, relative_high, unchanged, unchanged_high, starts,
+    starts_high, **others,
+):  # fmt: skip
     """Return the finding on claim 18."""
+    nearly = " nearly the same," if abs(relative - 1) < 0.05 else ""
     return (
         "Averaged over random starts and W, the damper lowers the amplitude of the subharmonic "
         f"by {number(low, 2)} at h = 0.107 and by {number(high, 2)} at h = 0.215: {number(fall)} "
-        f"times as much, and {number(relative, 4)} times as much relative to the free amplitude. "
-        "A stable subharmonic of at least 95 % of the free amplitude remains over "
-        f"{percent(unchanged)} of the range at h = 0.107 and over {percent(unchanged_high)} at h "
-        "= 0.215."
+        f"times as much. Relative to the free amplitude the falls are{nearly} "
+        f"{percent(relative_low)} and {percent(relative_high)}. Of the starts {percent(starts)} "
+        f"and {percent(starts_high)} still lead to a subharmonic. However few they are, a stable "
+        f"one of at least 95 % of the free amplitude remains over {percent(unchanged)} of its "
+        f"range at h = 0.107, and over {percent(unchanged_high)} at h = 0.215."
     )

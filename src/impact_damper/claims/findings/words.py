@@ -45,3 +45,9 @@ def between(low, high, form=percent) -> str:
     """Both ends of a range, or one of them if they look the same."""
     ends = [form(low), form(high)]
     return ends[0] if ends[0] == ends[1] else f"{ends[0].removesuffix(' %')} to {ends[1]}"
+
+
+def listed(items) -> str:
+    """Words as a list in a sentence, such as "1.7, 1.85 and 1.95"."""
+    *most, last = items
+    return f"{', '.join(most)} and {last}" if most else last
