@@ -39,11 +39,13 @@ def high_and_chaotic(more, fewest, fewest_in, harmonic, coexisting, widest, **ot
 
 def first_collisions(literal, within_gap, starts, clearances, beyond_walls, waits, **others):
     """Return the finding on claim 8."""
-    least = "for each at least " if min(literal, within_gap) < 1 else ""
+    ball, gap = (
+        f"{'' if share == 1 else 'at least '}{part_of(share, 'random starts', starts)}"
+        for share in (literal, within_gap)
+    )
     return (
         f"For the dampers of figure 5, with d0 = {listed(map(number, clearances))}, "
-        f"{least}{part_of(literal, 'random starts', starts)} in the ball lead to a collision, and "
-        f"{least}{part_of(within_gap, 'random starts', starts)} in the part of the ball within the "
+        f"{ball} in the ball lead to a collision, and {gap} in the part of the ball within the "
         f"gap. Of the starts in the ball {listed(map(percent, beyond_walls))} lie beyond a wall. "
         "Starts within the gap have their first collision after at most "
         f"{listed(map(number, waits))} cycles."
