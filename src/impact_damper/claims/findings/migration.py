@@ -31,7 +31,7 @@ def release_phase(
     decides = ""
     if not math.isnan(quiet_first):
         decides = (
-            " Of the frequencies scanned, its phase of release decides between the two from W = "
+            " Among the frequencies scanned its phase of release decides between both from W = "
             f"{number(quiet_first, 4)} to {number(quiet_last, 4)}, where "
             f"{between(quiet_least, quiet_most)} of the phases lead to the non-resonance branch."
         )

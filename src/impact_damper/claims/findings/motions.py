@@ -61,7 +61,7 @@ def optimum(least, most, dampings, rule_least, rule_most, spread, rise_least, ri
         f"{between(least, most)} above the optimum by (7), and {between(rule_least, rule_most)} "
         f"above (19). The least max |Z1| varies by {percent(spread)} over rm.{but} d0 is changed "
         f"by 10 % from the optimum, max |Z1| rises by {between(rise_least, rise)} in the worse "
-        f"direction. It then is at most {percent(displaced)} of the free resonance."
+        f"direction. Max |Z1| is then at most {percent(displaced)} of the free resonance."
     )
 
 
