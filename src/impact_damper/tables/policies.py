@@ -119,7 +119,7 @@ def release_predictions(datasets) -> pd.DataFrame:
                 | {
                     "W": float(here.frequency),
                     "predicted": predicted,
-                    "realised": realised,
+                    **_bounded("realised", here.realised_share),
                     "right for": float(shares.agreeing_share),
                     "within 1 %": _yes(abs(predicted - realised) <= 0.01),
                     "median by state": state,
