@@ -55,7 +55,7 @@ def test_an_orbit_that_repeats_sooner_is_told_and_not_followed():
     steady = steady_motion(OSCILLATOR, damper, 2.0, (0.05, 0, 0.9, 0.5))
     assert int(steady.period) == 1
     state = steady.state.values
-    with pytest.warns(UserWarning, match="period = 3: .* repeats sooner"):
+    with pytest.warns(UserWarning, match="period = 3: .* already repeats"):
         periodic_orbit(OSCILLATOR, damper, 2.0, state, period=3)
     with pytest.raises(ArithmeticError, match="period = 3: .* repeats after a divisor"):
         orbit_branch(OSCILLATOR, damper, 2.0, state, period=3, span=(1.9, 2.1))

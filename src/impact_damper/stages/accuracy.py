@@ -1,11 +1,10 @@
 """Error and counted work of every method and model on a test case (scene), at several settings.
 
-Errors are taken against a reference: a run in 80-bit arithmetic by a program that is not among
-those compared. Work is counted in floating-point operations. No method can follow a chaotic motion
-to its end. For such a motion, averages with their standard errors are compared, and the reference
-is a longer run (LONGER) of the Taylor series at its tightest tolerance. The contacts of a method
-then count as missed or invented if its number of contacts per period differs too much from that of
-the reference (CONTACTS_OFF, SURE).
+The reference is a run in 80-bit arithmetic by an independent program. Work is counted in
+floating-point operations. No method can follow a chaotic motion to its end. For such a motion
+averages are compared, with their standard errors, and the reference is a longer run (LONGER) of the
+Taylor series at its tightest tolerance. A method then misses or invents contacts if its number of
+contacts per cycle differs too much from the number of the reference (CONTACTS_OFF, SURE).
 """
 
 import numpy as np
@@ -30,10 +29,10 @@ from impact_damper.system.parameters import describe
 
 # Length of the reference run of a chaotic motion, divided by the length of the compared runs.
 LONGER = 4
-# Slow integrators run a chaotic motion with this number of their tolerances, the loosest ones.
+# Number of tolerances, the loosest ones, with which slow integrators run a chaotic motion.
 SHORT = 1
-# Contacts per period of a chaotic motion are right if they differ from the reference's by at most
-# the share CONTACTS_OFF of the latter plus SURE standard errors of the compared run.
+# The number of contacts per cycle of a chaotic motion is right if it differs from the number of the
+# reference by at most the fraction CONTACTS_OFF plus SURE standard errors of the compared run.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
@@ -103,7 +102,7 @@ def integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     rivals = [(label, *name_and_mode(label)) for label in COMPARED["accuracy"] if label != "taylor"]
-    # without walls there are no contacts to locate, so that both modes are the same
+    # without walls there are no contacts to locate, and both modes are the same
     for mode in (False, True) if scene.damper is not None else (False,):
         for label, name, locate in rivals:
             if locate == mode:
@@ -199,12 +198,12 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which contacts begin if the run of the reference were on a model's orbit.
+    """Return the times at which contacts would begin if the reference were on a model's orbit.
 
-    Each contact in the last period of the reference is matched to the nearest contact of the orbit,
-    and the time between both is added to the reference's contacts of all periods. The times are NaN
-    if two reference contacts are matched to the same one. If the orbit has another number of
-    contacts per period, only the length of the returned array has a meaning.
+    Each contact in the last cycle of the reference is matched to the nearest contact of the orbit.
+    The difference of their times is added to the corresponding contacts of the reference in all
+    cycles. The times are NaN if two contacts of the reference have the same match. If the orbit has
+    another number of contacts per cycle, only the length of the result has a meaning.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

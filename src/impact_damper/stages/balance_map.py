@@ -1,11 +1,11 @@
-"""Map of where single-term harmonic balance fails: its verdicts compared with the exact motions.
+"""Map of the errors of single-term harmonic balance, compared with the exact motions.
 
 A cell of the map is one forcing frequency and one value of a parameter. Two questions are answered
-in each cell. Quiet: is the solution of (7) with the smallest amplitude |a| stable, according to the
-slow flow (17) and according to the Floquet multipliers of the exact orbit? High: is there a stable
-solution of at least half the free resonance amplitude, and which motion does a simulation started
-from this solution reach? Harmonic balance describes elastic contact only: for e < 1 its verdict for
-e = 1 is taken.
+in each cell. Quiet: is the solution of (7) with the smallest amplitude |a| stable by the slow flow
+(17), and is the exact orbit stable by its Floquet multipliers? High: is there a stable solution of
+at least half the amplitude of the free resonance, and to which motion does a simulation lead that
+starts from this solution? Harmonic balance describes elastic contact only: for e < 1 its verdict
+for e = 1 is taken.
 """
 
 from dataclasses import replace
@@ -32,14 +32,14 @@ from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, NEAR, balance_cells
 
-# Up to CHECKED chaotic high motions are run again with LONG times the patience (`Settling`), to see
-# whether the chaos lasts.
+# At most CHECKED chaotic high motions are run again with LONG times the patience (`Settling`),
+# which shows whether the chaos lasts.
 CHECKED = 50
 LONG = 10
 
 
 class _Row(NamedTuple):
-    """System of one row of a map, and the forcing frequencies of its cells."""
+    """Oscillator, damper and forcing frequencies of one row of a map."""
 
     oscillator: Oscillator
     damper: Damper
@@ -49,7 +49,7 @@ class _Row(NamedTuple):
 def balance_map(
     parameter, values, frequency_ratios, fixed, *, settling=None, workers=1, progress=None
 ):
-    """Compare harmonic balance with exact motions as functions of frequency and one parameter.
+    """Compare harmonic balance with exact motions over frequency and one parameter.
 
     Parameters
     ----------
@@ -71,9 +71,9 @@ def balance_map(
     Returns
     -------
     xarray.Dataset
-        In each cell (map_value, frequency_ratio), for the quiet and for the high motion: the
-        verdict of harmonic balance, the exact result, and a class for the pair of both. For each
-        map_value: the frequencies at which the branch of quiet orbits ends.
+        For each (map_value, frequency_ratio), and for the quiet and the high motion: the verdict of
+        harmonic balance, the exact result, and a flag that combines both. For each map_value: the
+        frequencies at which the branch of quiet orbits ends.
 
     Raises
     ------
@@ -173,7 +173,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Return a record of the motion reached in each cell, "absent" where no start state exists."""
+    """Return a record of the motion of each cell; its outcome is "absent" where no start exists."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -186,7 +186,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _long(parameters, starts, kinds, settling, workers):
-    """Run some chaotic high motions, evenly spread over the cells, for longer; return outcomes."""
+    """Return the outcomes of longer runs of some chaotic high motions, spread over the cells."""
     cells = np.flatnonzero(kinds == flag("high_run_motion", "high_chaotic"))
     outcome = np.full(kinds.size, flag("high_long_outcome", "absent"))
     if len(cells):
@@ -220,7 +220,7 @@ def _kinds(records, resonance):
 def _truth(orbits):
     """Return the flag `quiet_orbit` of each cell.
 
-    It is "absent" only beyond a located end of the branch of orbits, otherwise "unresolved".
+    A cell without an orbit is "absent" beyond a located end of the branch, otherwise "unresolved".
     """
     values = orbits.multiplier
     columns = np.arange(values.shape[1])

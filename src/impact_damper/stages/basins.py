@@ -17,14 +17,14 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 from impact_damper.system.settling import check_settling
 
-# Half width of the plane over the largest displacement and speed of the free motions, if not given,
-# and of the region in which stable manifolds are followed.
+# Half widths, over the largest displacement and speed of the free motions: of the plane, if none
+# are given, and of the region in which stable manifolds are followed.
 WIDTH, REACH = 1.5, 3.0
-# States on each axis of the grids from which attractors and unstable orbits are searched for.
+# Number of states on each axis of the grids from which attractors and unstable orbits are searched.
 SEARCHED, NEWTON = 24, 16
-# Unresolved states of which the motions are run until they settle, to find further attractors.
+# Number of unresolved states whose motions are run until they settle, to find further attractors.
 TRIED = 64
-# Places of the loose mass over which a plane is averaged: shares of the clearance.
+# Places of the loose mass over which a plane is averaged, as fractions of the clearance.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 CELLS_RANGE = {"least": 2, "most": 10**4}
 STROBE = math.pi / 2
@@ -44,11 +44,10 @@ def basins(
     workers=1,
     progress=None,
 ):
-    """Find the motion that each state of a plane leads to.
+    """Find the motion to which each state of a plane leads.
 
-    Without a damper a motion is run until it enters a neighbourhood of a stable orbit from which,
-    as is proven for each, all motions tend to the orbit. With a damper each motion is run until it
-    has settled.
+    Without a damper a motion is run until it enters a neighbourhood of a stable orbit in which all
+    motions provably tend to the orbit. With a damper each motion is run until it has settled.
 
     Parameters
     ----------
@@ -57,16 +56,16 @@ def basins(
     frequency : float
         Forcing frequency W, dimensionless.
     displacement, velocity : float, optional
-        Half widths of the plane of Z1 and Z1', dimensionless; without them 1.5 times the largest
+        Half widths of the plane of Z1 and Z1', dimensionless. The default is 1.5 times the largest
         displacement and speed of the motions without a damper.
     cells : int
         States on each axis.
     phase : float
         Phase W T of the forcing at which the states are given, radian.
     loose : sequence of float, optional
-        With a damper: Z2 and Z2' of the loose mass in all states. Without it the loose mass is at
-        rest relative to the primary at five places in the gap, one after the other, and each state
-        gets the share of places that lead to each attractor.
+        With a damper: Z2 and Z2' of all states. By default each state is run five times, with the
+        loose mass at rest relative to the primary at five places in the gap, and gets the share of
+        places from which it leads to each attractor.
     settling : Settling, optional
     workers : int
         Threads; the result does not depend on it.
@@ -76,11 +75,11 @@ def basins(
     Returns
     -------
     xarray.Dataset
-        For each state of the grid the number of the attractor, the motion that it leads to, or a
-        negative number with the reason why there is none; for each attractor its period, size,
-        phase, points at this phase, and share of the states. Without a damper also the unstable
-        orbits that Newton's method finds from a grid of states, of the periods of the attractors,
-        and their stable manifolds, which are the boundaries of the basins.
+        For each state of the grid the number of the attractor to which it leads, or a negative
+        number with the reason why it leads to none. For each attractor its period, size, phase,
+        points at the phase of the plane, and share of the states. Without a damper also the
+        unstable orbits that Newton's method finds from a grid of states, with the periods of the
+        attractors, and their stable manifolds, which are the boundaries of the basins.
 
     Raises
     ------
@@ -125,7 +124,7 @@ def basins(
 
 
 def _window(sizes, displacement, velocity):
-    """Return half widths of the plane, shape (2,); `sizes` are those of the free motions."""
+    """Return half widths of the plane, shape (2,); `sizes` belong to the free motions."""
     given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
     return np.array(
         [
@@ -163,14 +162,14 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
 
 
 def free_attractors(p, window, settling, workers=1) -> Attractors:
-    """Return the attractors that a grid of states in a window leads to."""
+    """Return the attractors to which a grid of states in a window leads."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling, workers)
 
 
 def _joined(p, attractors, more):
-    """Return attractors with those of `more` that are new."""
+    """Return attractors together with the new ones among `more`."""
     new = [
         record
         for index, record in enumerate(more.records)
@@ -244,7 +243,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
 
 
 def _attractor_data(p, records, phase, plane):
-    """Return registered variables of the attractors, from those of the plane."""
+    """Return registered variables of the attractors; `plane` holds the variables of the plane."""
     labels = plane["basin_label"]
     if "basin_share" in plane:
         shares = plane["basin_share"].mean(axis=(1, 2))

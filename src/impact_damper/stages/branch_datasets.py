@@ -7,10 +7,10 @@ from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.orbits.tori import torus_behind
 
-# A contact that begins with a relative speed below this nearly grazes the wall: the 3/2-power term
-# of the map at grazing matters, and Floquet multipliers are less accurate.
+# Relative speed at the beginning of a contact below which the contact counts as near grazing. There
+# the 3/2-power term of the map matters, and Floquet multipliers hold for tiny disturbances only.
 SLOW = 0.01
-# Two branches meet where the parameter and max |Z1| of an event of both agree so closely.
+# Two branches meet at an event if its parameter and max |Z1| on both agree within this tolerance.
 SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
 # Numbers of `tori.Torus` that are stored.
 TORUS_NUMBERS = ("angle", "growth", "value", "number", "error", "limit")

@@ -1,6 +1,6 @@
 """Minimum of the largest displacement along a branch of motions over the clearance, for `optimum`.
 
-Between the clearances of the sweep the motion is followed, so that the minimum is exact.
+The motion is followed between the clearances of the sweep, so that the minimum is exact.
 """
 
 from typing import NamedTuple
@@ -37,7 +37,7 @@ class Branch(NamedTuple):
     def follow(self, start, clearance):
         """Follow the motion from the known point nearest to `start` to a clearance.
 
-        Returns what `follow_stable` returns.
+        The result is that of `follow_stable`.
         """
         away = np.abs(self.parameters[:, CLEARANCE] - start)
         k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
@@ -53,8 +53,8 @@ class Branch(NamedTuple):
     def limit(self, clearance, step):
         """Return the next clearance of the sweep in the direction `step` (-1 or 1), and "crossed".
 
-        If the branch ends before that clearance: the end of the branch and "branch_ends". If the
-        sweep has no further clearance: the given clearance and "sweep_ends".
+        If the branch ends before that clearance, return the end of the branch and "branch_ends". If
+        the sweep has no further clearance, return the given clearance and "sweep_ends".
         """
         grid = self.parameters[:, CLEARANCE]
         beyond = grid[grid > clearance][:1] if step > 0 else grid[grid < clearance][-1:]
@@ -67,7 +67,7 @@ class Branch(NamedTuple):
 
 
 def minimum_table(branch):
-    """Return the minimum of max |Z1|, its kind, and the range of clearance near the minimum."""
+    """Return the minimum of max |Z1|, its kind, and the range of clearances near the minimum."""
     if not np.isfinite(branch.displacements).any():
         return {
             "optimum_clearance": np.nan,
@@ -102,8 +102,9 @@ def minimum_table(branch):
 def _kind(branch, best, least, longest):
     """Return "smooth" or "kink" for a minimum.
 
-    When a step away from the minimum is halved, the rise of max |Z1| falls to a quarter at a smooth
-    minimum and to half at a kink. No step exceeds `longest`, because the branch may end beyond.
+    The kind follows from the rise of max |Z1| after a step away from the minimum. When the step is
+    halved, the rise falls to a quarter at a smooth minimum and to half at a kink. No step exceeds
+    `longest`, because the branch may end beyond.
     """
     rises = [
         branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
@@ -115,8 +116,8 @@ def _kind(branch, best, least, longest):
 def _near(branch, best, level, step):
     """Return the clearance where max |Z1| reaches a level on one side of the optimum.
 
-    The second value is "crossed". If the branch or the sweep ends before the level is reached, the
-    end and its event are returned, as from `Branch.limit`.
+    The second value is "crossed". If the branch or the sweep ends before the level is reached,
+    return its end and event as `Branch.limit` does.
     """
     outside, event = best, "crossed"
     while event == "crossed":

@@ -1,8 +1,7 @@
 """Periodic orbits as labelled datasets: one orbit, one branch, or all branches of a response.
 
-A branch is a curve of orbits that is followed while one parameter varies.
-
-Orbits may be stable or not, of any period, and touch the walls in any sequence.
+A branch is a curve of orbits along which one parameter varies. Orbits may be stable or not, of any
+period, and touch the walls in any sequence.
 """
 
 import sys
@@ -27,11 +26,12 @@ from impact_damper.system.families import LINEAR, family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import describe
 
-# `complete_branches` leaves a branch after so many orbits in one direction; one of a period beyond
-# LONG after so many over the period, since it winds through chaos for thousands of orbits.
+# `complete_branches` follows a branch for at most this number of orbits in one direction. For
+# periods beyond LONG a smaller number, divided by the period, holds, since such branches wind
+# through chaos.
 MOST_POINTS, MOST_PERIODS, LONG = 2500, 6000, 8
-# Longest period of branches to which it switches at a bifurcation; doublings follow one another
-# without end.
+# Longest period of branches to which `complete_branches` switches at a bifurcation: period
+# doublings form infinite cascades.
 LONGEST_SWITCHED = 4
 
 
@@ -49,14 +49,14 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
     period : int
         Period n of the orbit in forcing periods.
     phase : float, optional
-        Phase W T of the state, radian. By default that which the state of a dataset carries, pi/2
-        for other states.
+        Phase W T of the state, radian. The default is the phase stored with the state of a dataset,
+        and pi/2 for other states.
 
     Returns
     -------
     xarray.Dataset
-        The orbit as the single point of a dataset as `orbit_branch` returns it; its state is given
-        at a phase where no wall is touched. For each `contact`: wall, times and relative speeds.
+        A dataset as from `orbit_branch` with the orbit as its single point. Its state is given at a
+        phase at which no wall is touched. For each `contact`: wall, times and relative speeds.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
     orbit = _checked_orbit(oscillator, damper, frequency, state, period, phase)
     if orbit.repeats_sooner():
         warnings.warn(
-            f"period = {period}: the orbit found repeats sooner, after a divisor of {period}",
+            f"period = {period}: the orbit found already repeats after a divisor of {period}",
             stacklevel=2,
         )
     log = orbit.contacts
@@ -103,7 +103,7 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
 
 
 def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequency", period=1):
-    """Find the orbit near a state, and follow its branch while one parameter varies.
+    """Find the orbit near a state, and follow its branch over one parameter.
 
     Parameters
     ----------
@@ -130,8 +130,8 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     TypeError, ValueError
         If an argument is out of range.
     ArithmeticError
-        If Newton's method finds no orbit near the state, or one that repeats after a divisor of the
-        period.
+        If Newton's method finds no orbit near the state, or an orbit that repeats after a divisor
+        of the period.
 
     Examples
     --------
@@ -163,10 +163,11 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
 
 
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
-    """Follow, while the frequency varies, every branch of orbits on which a settled motion lies.
+    """Follow every branch of orbits over frequency on which a settled motion lies.
 
-    Stable orbits on none of them are looked for from random states. Where a stable orbit loses its
-    symmetry or doubles its period, the branch that leaves there is followed too, up to period 4.
+    Stable orbits that lie on none of these branches are searched for from random states. Where a
+    stable orbit loses its symmetry or doubles its period, the branch that begins there is followed
+    too, up to period 4.
 
     Parameters
     ----------
@@ -249,7 +250,7 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
 def _follow_others(branches, follow):
     """Follow the branches that leave where a stable orbit loses its symmetry or doubles its period.
 
-    The new branches are appended to the list, and likewise left at their events.
+    The new branches are appended to the list, and branches that begin on them are followed too.
 
     Returns
     -------
@@ -275,7 +276,7 @@ def _follow_others(branches, follow):
 
 
 def _summary(branches, seeds, lost):
-    """Return as text the numbers of motions, branches, orbits, events and ends of branches."""
+    """Return a line with the numbers of motions, branches, orbits, events and ends of branches."""
 
     def listed(names):
         counts = Counter(names)

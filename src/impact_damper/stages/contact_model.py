@@ -1,10 +1,11 @@
-"""Map of the contact model as a function of restitution and load; contacts of simulated motions.
+"""Map of the contact model over restitution and load, and contacts of simulated motions.
 
-Equation (25) gives the dashpot for which a contact has the restitution e, if no other force acts
-and the contact ends at zero penetration. Other forces accelerate the primary mass towards the wall
-by g: the load is G = g/(wn v0), with the natural frequency wn of the contact and the approach speed
-v0. Walls that cannot pull end the contact sooner. The map gives the restitution that is realised
-with load, for both rules for the end. Contacts of simulated motions show the loads that occur.
+Equation (25) gives the dashpot for which a contact has the restitution e if no other force acts and
+the contact ends at zero penetration. Other forces cause an acceleration g of the primary mass
+towards the wall. The load is G = g/(wn v0), with the natural frequency wn of the contact and the
+speed of approach v0. With walls that cannot pull the contact ends sooner. The map gives the
+restitution that a contact has under load, for both rules for its end. Contacts of simulated motions
+show which loads occur.
 """
 
 from dataclasses import replace
@@ -33,10 +34,10 @@ from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# Up to about this |load| the loads of the map are evenly spaced, above it logarithmically.
+# The loads of the map are evenly spaced up to about this |load|, and logarithmically above it.
 LINEAR = 1e-3
-# Variables with one value per logged contact: three indices of the motion that the contact belongs
-# to, and, keyed by the quantity of `logged_contacts`, the names under which they are stored.
+# Variables with one value for each logged contact: three indices of its motion and, keyed by the
+# quantity of `logged_contacts`, the names under which the quantities are stored.
 LOG = ("contact_used", "contact_row", "contact_size")
 LOGGED = {
     "load": "contact_load",
@@ -66,7 +67,7 @@ def contact_model(
     ----------
     oscillator : Oscillator
     damper : Damper
-        Its restitution is replaced by each of those in `used`.
+        Its restitution is replaced by the values in `used`.
     frequencies : sequence of float
         Increasing forcing frequencies W of the motions, dimensionless.
     restitutions, loads : sequence of float
@@ -139,9 +140,10 @@ def contact_map(restitutions, loads):
     Returns
     -------
     dict
-        Variables of the dataset: realised restitution (NaN if the mass is not released), time in
-        contact divided by that of an elastic contact (NaN if the contact does not end), the verdict
-        on each cell (`_verdict`), and impulse and peak of the wall's pull relative to its push.
+        Variables of the dataset: realised restitution (NaN if the loose mass does not leave the
+        wall), time in contact divided by that of an elastic contact (NaN if the contact does not
+        end), the verdict on each cell (`_verdict`), and impulse and largest force of the wall's
+        pull, divided by those of its push.
     """
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, duration = np.empty(shape), np.empty(shape)
@@ -164,7 +166,7 @@ def contact_map(restitutions, loads):
 
 
 def _verdict(found, restitution):
-    """Return the outcome of a contact; if released, a word for the error of its restitution."""
+    """Return the verdict on a contact: the size of its error, or why the loose mass stays."""
     if found.outcome != "released":
         return found.outcome
     error = abs(found.departure / restitution - 1)

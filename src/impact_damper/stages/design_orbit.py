@@ -1,9 +1,8 @@
 """The exact quiet orbit at the design point (peak frequency Wp) of a damper, stable or unstable.
 
-The quiet orbit has the period of the forcing and two contacts per period; harmonic balance
-approximates it to design the damper. It may be unstable, so that no simulation reaches it. With
-heavy damping, motions settle on the quiet orbit, which is then followed down to the damping h of
-the oscillator.
+The quiet orbit has period 1 and two contacts per cycle. Harmonic balance approximates it to design
+the damper. The orbit may be unstable, so that no simulation settles on it. With heavy damping
+motions do settle on it; from there it is followed down to the damping h of the oscillator.
 """
 
 from dataclasses import replace
@@ -42,9 +41,9 @@ def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settl
     Returns
     -------
     xarray.Dataset
-        As from `branches.orbit_branch` with the damping as parameter, from the h of the oscillator
-        up to the heavy one; `design_orbit_status`, whether the orbit was found and followed down to
-        the h of the oscillator; for each `design_start` the outcome of the same start with this h;
+        A branch as from `branches.orbit_branch` over the damping, from the h of the oscillator up
+        to the heavy damping; `design_orbit_status`, whether the orbit was found and followed down
+        to the h of the oscillator; for each `design_start` the outcome of the start with this h;
         and `peak_frequency`.
 
     Raises

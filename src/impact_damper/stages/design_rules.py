@@ -1,9 +1,9 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The optimum refers to the quiet motion, which is symmetric and has the period of the forcing and
-two contacts per period. Newton's method finds its exact orbit, stable or unstable, from the state
-that `theory.straight_flight` predicts. Clearances are given as the ratio rm W^2 d0/f with the
-forcing amplitude f, which is 1 by rule (18), and displacements as W^2 Z1/f.
+The optimum is that of the quiet orbit, which is symmetric and has period 1 and two contacts per
+cycle. Newton's method finds the orbit, stable or unstable, from the state that
+`theory.straight_flight` predicts. Clearances are given as the ratio rm W^2 d0/f, which is 1 by rule
+(18), and displacements as W^2 Z1/f, where f is the forcing amplitude.
 """
 
 import itertools
@@ -30,9 +30,9 @@ SAME = 1e-4
 STEP = 0.02
 MOST_STEPS = 40
 PRECISION = 1e-8
-# A minimum is smooth or a kink. Both are told apart by a small step (CLOSE) away from it: as the
-# step is halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at
-# a kink. KINK lies in between.
+# A minimum is smooth or a kink. A small step (CLOSE) away from the minimum decides: as the step is
+# halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at a kink.
+# KINK lies in between.
 CLOSE, KINK = 1e-3, 0.36
 # Displacement assigned where the motion does not exist, because the search needs a number.
 ABSENT = 1e3
@@ -55,13 +55,14 @@ def design_rules(
     Returns
     -------
     xarray.Dataset
-        For each criterion, the least max |Z1| or the least first harmonic of Z1: rm W^2 d0/f at the
-        optimum, the least value in units of f/W^2, the kind of minimum, and of the motion the
-        stability and the largest modulus of a Floquet multiplier. For each `rule`: the ratio
-        rm W^2 d0/f that it predicts, and by which share max |Z1| there exceeds the least max |Z1|:
+        The criterion is the smallest max |Z1| or the smallest first harmonic of Z1. For each
+        criterion: rm W^2 d0/f at the optimum, the smallest value in units of f/W^2, the kind of
+        minimum, stability, and the modulus of the dominant Floquet multiplier. For each `rule`: the
+        ratio rm W^2 d0/f that it predicts, and the fraction by which max |Z1| there exceeds the
+        smallest max |Z1|. The rules:
 
         - balance, equation (18): 1;
-        - gap_harmonic, pi^2/8: as (18), but the loose mass crosses the gap in straight flight;
+        - gap_harmonic, pi^2/8: (18) for a loose mass that crosses the gap in straight flight;
         - straight_flight: rigid walls, neither damping nor stiffness;
         - elastic: `straight_flight.elastic_ratios`, explicit, absent for e < 1;
         - flight: `straight_flight.Flight` with all corrections.
@@ -128,7 +129,7 @@ class QuietMotion:
     ----------
     oscillator : Oscillator
     damper : Damper
-        Of any clearance.
+        Its clearance is ignored.
     frequency : float
         W.
     """
@@ -172,21 +173,22 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio of a local minimum, downhill from a guess, and the kind of minimum.
+        """Return the ratio at the local minimum reached downhill from a guess, and its kind.
 
         Parameters
         ----------
         criterion : int
-            What is minimised: 0 for max |Z1|, 1 for the first harmonic.
+            0 to minimise max |Z1|, 1 for the first harmonic.
         guess : float
 
         Returns
         -------
         ratio : float
-            NaN if there is no motion at the guess.
+            NaN if there is no orbit at the guess.
         kind : str
-            "smooth" or "kink"; "edge" if the search reaches no minimum in MOST_STEPS steps; "jump"
-            if the motion ends next to the least value; "not_found" without a motion at the guess.
+            "smooth" or "kink"; "edge" if the search finds no minimum in MOST_STEPS steps; "jump" if
+            the orbit ends next to the smallest value; "not_found" if there is no orbit at the
+            guess.
         """
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
@@ -218,8 +220,8 @@ class QuietMotion:
 def first_harmonic(p, y) -> complex:
     """Return the complex amplitude c of Re(c exp(i W T)) in Z1.
 
-    It is computed from samples of one period by the trapezoidal rule. Where Z1 has a kink the error
-    is of second order in the step: below 1e-5 of the contribution of an impact.
+    The integral over one period is computed by the trapezoidal rule. Where Z1 has a kink the error
+    is of second order in the step, below 1e-5 of the contribution of an impact.
 
     Parameters
     ----------

@@ -26,14 +26,14 @@ from impact_damper.stages.response import frequency_response
 from impact_damper.system.settling import Settling
 
 _complete_branches, _response = map(takes_machine, (complete_branches, frequency_response))
-# A sweep changes the frequency at SWEEP (damping ratio x natural frequency)^2 Hz/s, or so fast that
-# it lasts MOST_SWEPT forcing periods.
+# A sweep changes the frequency at SWEEP (damping ratio x natural frequency)^2 Hz/s, or faster if it
+# would last longer than MOST_SWEPT cycles.
 SWEEP, MOST_SWEPT = 4.0, 6000
 # Absorbers are tuned for the largest displacement from ABSORBED[0] times the lowest frequency of
 # band and resonance to ABSORBED[1] times their highest frequency.
 ABSORBED = 0.5, 2.0
-# BARE: variables of the response without the damper, and their names in the dataset of a design.
-# TRANSIENT: variables and dimensions of transients, which get a prefix there.
+# BARE: variables of the response without the damper, with their names in the dataset of a design.
+# TRANSIENT: variables and dimensions of transients, whose names get a prefix in this dataset.
 BARE = {
     "followed_value": "bare_frequency",
     "orbit_displacement": "bare_displacement",
@@ -131,7 +131,7 @@ class DesignSteps(NamedTuple):
 
     def response(self, gap):
         task, span = self.task, self.task.band
-        # unlike those of the many designs compared, motions undecided at the limit are run on
+        # motions undecided at the limit are run further, which the comparisons of gaps do not do
         settling = replace(task.settling, further=Settling().further)
         searched = {"starts": task.starts, "seed": task.seed, "settling": settling}
         searched |= self.running("Response")
@@ -176,8 +176,8 @@ class DesignSteps(NamedTuple):
     def transients(self, gap):
         task, machine = self.task, self.task.machine
         damper = task.damper(1e-3 * gap)
-        # the sweep of a nonlinear machine leads to its large motions only past the natural
-        # frequency
+        # the sweep of a nonlinear machine leads to its large motions only if it extends beyond the
+        # natural frequency
         low = min(task.band[0], task.resonance[0])
         high = max(task.band[1], task.resonance[1])
         span = (high**2 - low**2) / 2
@@ -202,7 +202,7 @@ class DesignSteps(NamedTuple):
 
 
 def _critical(edges, first):
-    """Return the frequency (Hz) at which quiet gaps end first, else that of the worst response."""
+    """Return the frequency (Hz) at which quiet gaps end first, or else of the worst response."""
     known = edges["cliff_frequency"].values[np.isfinite(edges["cliff_frequency"].values)]
     return float(known[-1]) if len(known) else float(first["worst_frequency"])
 

@@ -1,7 +1,7 @@
 """Design of an elastic impact damper by single-term harmonic balance (section 3).
 
-Single-term: the displacements Z1 of the primary mass and Z2, relative to the loose mass, are
-approximated by one harmonic of the forcing, with the amplitudes a and b.
+Single-term means that one harmonic of the forcing, with the amplitudes a and b, approximates the
+displacement Z1 of the primary mass and its displacement Z2 relative to the loose mass.
 """
 
 import numpy as np
@@ -23,8 +23,9 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     """Return the clearance of rule (19) of the paper, d0 = f/(rm Wp^2).
 
     f is the amplitude of the force at the frequency Wp of the peak without the damper. With this
-    clearance and rigid walls harmonic balance has a solution in which the machine does not move at
-    the peak. The clearance of the smallest motion is larger: `clearance_sweep` finds it.
+    clearance and rigid walls harmonic balance has a solution at the peak in which the machine does
+    not move. The clearance of the smallest motion is larger with elastic contact; `clearance_sweep`
+    finds it.
 
     Parameters
     ----------
@@ -54,7 +55,7 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
 
 
 def harmonic_balance(oscillator, damper, frequencies):
-    """Return `harmonic_balance_response`; if there is a damper, with its `suppression_band`."""
+    """Return `harmonic_balance_response`, with a damper joined with its `suppression_band`."""
     response = harmonic_balance_response(oscillator, damper, frequencies)
     if damper is None:
         return response
@@ -63,7 +64,7 @@ def harmonic_balance(oscillator, damper, frequencies):
 
 
 def harmonic_balance_response(oscillator, damper, frequencies):
-    """Frequency response by harmonic balance: every solution, stable or not.
+    """Return the frequency response by harmonic balance: every solution, stable or not.
 
     Parameters
     ----------
@@ -77,12 +78,12 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     -------
     xarray.Dataset
         For each (frequency, free_solution) a motion without the damper. With a damper also, for
-        each (frequency, solution), a solution of (7) or a motion in which the loose mass rests,
-        whose stability follows from the free slow flow because the place of the loose mass is
-        neutral; and for each (frequency, root) a root of (14). Each index of these dimensions is a
-        branch, continuous over frequency from fold to fold, so that
+        each (frequency, solution), a solution of (7) or a motion in which the loose mass rests. The
+        stability of the latter follows from the free slow flow, because any place of the loose mass
+        is an equilibrium. For each (frequency, root) a root of (14). Each index of these dimensions
+        is a branch, continuous over frequency from fold to fold, so that
         `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not exist,
-        entries are NaN or flagged absent; the number of solutions is given for each frequency.
+        entries are NaN or flagged absent. The number of solutions is given for each frequency.
 
     Raises
     ------
@@ -181,7 +182,7 @@ def _solution_table(oscillator, damper, frequencies):
 
 
 def _solution_branches(amplitude, relative, phase, kinds):
-    """Return the branches of solutions with a damper; those at rest come after all others."""
+    """Return the branches of solutions with a damper; motions with the loose mass at rest last."""
     resting = flag("kind", "resting")
     found, begun = [np.empty(len(row), int) for row in kinds], 0
     for chosen in ([row != resting for row in kinds], [row == resting for row in kinds]):

@@ -1,4 +1,4 @@
-"""Harmonic balance with more and more harmonics, compared with the exact periodic orbit.
+"""Harmonic balance with a rising number of harmonics, compared with the exact periodic orbit.
 
 A balance is the system of equations for the coefficients of the harmonics 1, 3, ... N.
 """
@@ -19,7 +19,7 @@ from impact_damper.theory.many_harmonics import Balance
 
 SAMPLES = 2**14
 SAME = 1e-6
-# Errors below this are due to rounding; the fits of the decay leave them out.
+# Errors below this value are due to rounding; fits of the decrease leave them out.
 ROUNDING = 1e-12
 FINEST = 1e-14
 
@@ -35,10 +35,10 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return symmetric motions by harmonic balance, their stability by Hill's method, and errors.
 
-    Newton's method for the first balance starts from a single-term solution: the solution of (7)
+    For the first balance Newton's method starts from a single-term solution: the solution of (7)
     for e = 1 with the smallest |a|, or without a damper the free solution with the largest |a|. For
-    each further balance it starts from the last balance that converged, and for the exact orbit
-    from the last one of all.
+    each further balance it starts from the last balance that converged. For the exact orbit it
+    starts from the balance with most harmonics.
 
     Parameters
     ----------
@@ -49,8 +49,8 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     harmonics : sequence of int
         Increasing odd numbers N, each the highest of the harmonics 1, 3, ... N.
     cold : sequence of int
-        Those of `harmonics` for which Newton's method is also started directly from the single-term
-        solution (cold start).
+        Values in `harmonics` for which Newton's method is also started directly from the
+        single-term solution (cold start).
 
     Returns
     -------
@@ -208,7 +208,10 @@ def errors(data, solutions, exact):
 
 
 def _farthest(values, references):
-    """Pair values and references with the least sum of distances; return the largest distance."""
+    """Return the largest distance of pairs of values and references, paired as closely as possible.
+
+    The pairing has the smallest sum of distances.
+    """
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)

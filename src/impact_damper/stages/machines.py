@@ -1,8 +1,8 @@
-"""Design of an impact damper for a machine: the gap, what it does, how sure that is, what it costs.
+"""Design of an impact damper for a machine: the gap, its effect, its tests and its costs.
 
-The steps follow each other from cheap to costly: a first look by exact orbits (`design.screen`), a
-comparison of gaps from many starts over the band (`design.compare`), the gap (`design.choose`) and
-the cliff beside it (`design.cliff`), then motions, deviations, other masses, transients and tuned
+Cheap steps come first: the screening by exact orbits (`design.screen`), a comparison of gaps from
+many starts over the band (`design.compare`), the choice of the gap (`design.choose`) and the cliff
+beside it (`design.cliff`). Then follow motions, deviations, other masses, transients and tuned
 absorbers.
 """
 
@@ -51,30 +51,31 @@ def design_damper(
     band : sequence of 2 floats or str
         Least and greatest forcing frequency, Hz; the resonance of the machine lies between them.
     restitution : float or tuple of 2 floats
-        Coefficient of restitution, 0.05 to 1. Two values are the ends of a range in which it is
-        free: a coarse comparison of gaps at each of five values chooses it.
+        Coefficient of restitution, 0.05 to 1. Two values are the ends of a range from which the
+        design chooses the restitution, by a coarse comparison of gaps at each of five values.
     contact_stiffness : float or str, optional
         Stiffness of the contact, N/m.
     contact : HertzContact, optional
-        Radius and materials of the contact, for its pressure. If no contact stiffness is given, it
-        also determines the stiffness: that of an impact at the speed with which the loose mass
+        Radius and materials of the contact, for its pressure. If no contact stiffness is given,
+        they also determine the stiffness, for an impact at the speed with which the loose mass
         crosses the gap of the flight rule in half a forcing period.
     frequencies : int
         Number of frequencies over the band; the resonances in it are added.
     candidates : int
         Number of gaps that are compared closely.
     starts : int
-        Random initial states of machine and loose mass at each gap and frequency.
+        Random starts (initial states of machine and loose mass) at each gap and frequency.
     tolerances : dict, optional
         Largest relative deviations of gap, restitution, contact_stiffness, stiffness, damping and
         force, such as {"gap": "10 %"}; by default 20 % of the gap.
     displacement_limit : float or str, optional
-        Largest displacement of the machine in a motion that is called quiet, m. Without it the
-        design chooses one, between the smallest motion and that without the damper.
+        Quiet limit: a motion in which the machine moves by at most this displacement, m, is quiet.
+        By default the design chooses a limit between the smallest motion and the motion without the
+        damper.
     share : float
-        Share of the starts that must end quiet, claimed at 95 % confidence.
+        Least share of the starts that must lead to quiet motions, at 95 % confidence.
     seed : int
-        Of the random starts.
+        Seed of the random starts.
     settling : Settling, optional
         How long motions are run, and how accurately.
     workers : int
@@ -87,9 +88,10 @@ def design_damper(
     Returns
     -------
     xarray.Dataset
-        In mm, Hz, N and other units that each variable names in its attribute `units`; `design_gap`
-        is the gap to build, `design_choice` and `promise` (see `decode`) how sure it is. The
-        attribute `conclusion`, a list as JSON, says the same in words. `plot.design` draws it.
+        Each variable has the unit in its attribute `units`, such as mm, Hz or N. `design_gap` is
+        the gap to build; `design_choice` and `promise` say how sure it is (see `decode`). The
+        attribute `conclusion`, a list of sentences as JSON, says the same. `plot.design` draws the
+        design.
 
     Raises
     ------

@@ -1,9 +1,10 @@
 """Verdict on each method at each tolerance: does its motion settle on the right orbit?
 
-A test case (scene) is a start near an orbit. Its truth is computed with the Taylor series that
-locates contacts, at a tolerance of 1e-13: by Newton's method the orbit, if it exists at the
-frequency, and its Floquet multipliers; by integration the motion that the start leads to. One rule
-judges all methods, from strobed states alone: the states at the phase W T = pi/2 of each period.
+A test case (scene) is a start near an orbit. Its truth is computed by the Taylor series with
+located contacts at a tolerance of 1e-13. Newton's method gives the orbit, if it exists at the
+frequency, and its Floquet multipliers; integration gives the motion to which the start leads. The
+same rule judges all methods. It uses only strobed states, the states at the phase W T = pi/2 of
+each cycle.
 """
 
 from typing import NamedTuple
@@ -30,12 +31,12 @@ LABELS = COMPARED["method_verdicts"]
 # Tolerance with which the truth is computed.
 EXACT = 1e-13
 # A motion has settled if its last strobed Z1 and Z1' repeat within REPEATS. A settled motion is on
-# an orbit if one of these states comes within NEAR of the orbit's.
+# an orbit if one of its strobed states is within NEAR of one of the orbit.
 REPEATS, NEAR = 1e-3, 5e-3
 
 
 class VerdictScene(NamedTuple):
-    """A start near an orbit, and the motion that it leads to.
+    """A start near an orbit, and the motion to which it leads.
 
     Attributes
     ----------
@@ -53,7 +54,7 @@ class VerdictScene(NamedTuple):
         Whether the motion settles on the orbit near which it starts.
     scipy_every : int
         SciPy's methods, a hundred times slower, are run at every `scipy_every`-th tolerance only;
-        0: at none.
+        if 0, at none.
     """
 
     parameters: np.ndarray
@@ -87,7 +88,7 @@ def is_on(states, points, period):
 def make_scene(
     oscillator, damper, frequency, *, near, period, offset, periods, orbit_frequency, scipy_every
 ):
-    """Return a `VerdictScene`: a start near an orbit, and the motion that it truly leads to.
+    """Return a `VerdictScene`: a start near an orbit, and the motion to which it truly leads.
 
     Parameters
     ----------
@@ -103,7 +104,7 @@ def make_scene(
     periods : int
         Forcing periods to run.
     orbit_frequency : float
-        Frequency W at which the orbit is searched for; at `frequency` it need not exist any more.
+        Frequency W at which the orbit is searched for; it need not exist at `frequency`.
     scipy_every : int
         As in `VerdictScene`.
 
@@ -131,8 +132,9 @@ def make_scene(
     modulus = abs(multiplier) if found else np.nan
     if stays and not modulus < 1.0:
         raise ValueError(
-            f"periods = {periods}: at W = {frequency:g} the motion must leave the orbit, whose "
-            f"multiplier is {modulus:g}, and has not done so by the rule: more periods are needed"
+            f"periods = {periods}: must be larger, since at W = {frequency:g} the motion leaves "
+            f"the orbit, whose multiplier is {modulus:g}, but is still near it at the end of the "
+            "run"
         )
     return VerdictScene(p, orbit, start, period, periods, modulus, landing, stays, scipy_every)
 
@@ -162,7 +164,7 @@ def right_from(right):
 def _by_resolution(label, scene, tolerances, steps):
     """Return a method's verdict at each tolerance or number of steps, and its `right_from`.
 
-    The latter is described in `verdicts`.
+    `verdicts` describes `right_from`.
     """
     name, locate = name_and_mode(label)
     method, integrator = METHODS[name], integrators()[name]

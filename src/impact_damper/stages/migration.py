@@ -1,7 +1,7 @@
 """Migration control: the controller of figure 17, from the resonance to the non-resonance branch.
 
-The controller switches the damper on and off (release) until the free oscillator, on its resonance
-branch at first, settles on its non-resonance branch. See `migration.controller`.
+At first the free oscillator is on its resonance branch. The controller switches the damper on and
+off (release) until the oscillator settles on its non-resonance branch. See `migration.controller`.
 """
 
 import numpy as np
@@ -38,7 +38,7 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# Forcing periods within which the paper's controller reaches the non-resonance branch.
+# Number of cycles within which, by the paper, its controller reaches the non-resonance branch.
 PAPER_CYCLES = 350
 
 
@@ -69,10 +69,11 @@ def migrate(
     switchings=100,
     settling=None,
 ):
-    """Switch the damper on and off until the oscillator is on its small motion without it.
+    """Switch the damper on and off until the free oscillator is on its small motion.
 
-    One run of the controller of figure 17 of the paper, from the resonance branch: the damper is on
-    until the motion has settled, then off until the free motion has settled, again and again.
+    This is one run of the controller of figure 17 of the paper, from the resonance branch. The
+    damper is on until the motion has settled, then off until the free motion has settled, and so
+    on.
 
     Parameters
     ----------
@@ -102,7 +103,8 @@ def migrate(
     Raises
     ------
     ValueError
-        If the free oscillator has not both period-1 motions, or an argument is out of range.
+        If the free oscillator lacks one of its two motions of period 1, or an argument is out of
+        range.
 
     Examples
     --------
@@ -131,9 +133,9 @@ def migrate(
 
 
 def _example(totals):
-    """Return the number of an example: the first run with the median number of switchings.
+    """Return the number of the run to be drawn: the first with the median number of switchings.
 
-    Only runs that reach the non-resonance branch count; 0 if none does.
+    Only runs that reach the non-resonance branch count. Return 0 if none does.
     """
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
@@ -180,10 +182,10 @@ def trials(
     workers=1,
     progress=None,
 ):
-    """Run the controller many times, and find where releases of damped motions lead.
+    """Run the controller many times, and find the motions to which releases lead.
 
-    After switching on, a violent motion comes first, which has not settled; the time until it
-    settles, its life, is measured as well.
+    After the damper is switched on, a violent transient comes first. The time until it settles, its
+    life, is measured too.
 
     Parameters
     ----------
@@ -194,7 +196,7 @@ def trials(
     releases : int
         Number of releases of each damped motion, and of runs in which the life is measured.
     lifetime : int
-        Forcing periods for which these runs are watched at most.
+        Largest number of forcing periods of the runs that measure the life.
     seed : int
     workers : int
         Threads; the result does not depend on it.
@@ -204,15 +206,16 @@ def trials(
     Returns
     -------
     xarray.Dataset
-        As from `migrate` for each `trial`, with the displacement of the run `example` only; shares
-        of runs that reach the non-resonance branch; for each (damped, release) the free motion that
-        a release leads to, where the first of the damped motions is the one that has not settled
-        yet; for each `run` the life of that motion, and for each `age` the share that survives.
+        For each `trial` the results of `migrate`, but the displacement of the run `example` only;
+        shares of runs that reach the non-resonance branch. For each (damped, release) the free
+        motion to which a release leads; the first damped motion is the violent transient. For each
+        `run` the life of the transient, and for each `age` the share that survives.
 
     Raises
     ------
     ValueError
-        If the free oscillator has not both period-1 motions, or an argument is out of range.
+        If the free oscillator lacks one of its two motions of period 1, or an argument is out of
+        range.
     """
     settling = check_settling(settling)
     check_count("trials", trials, **RUNS_RANGE)

@@ -2,10 +2,10 @@
 
 A passage is a flight without contact whose largest |Z2| is known, where Z2 is the displacement of
 the primary mass relative to the loose mass. If the wall is placed nearer than this |Z2| by some
-depth, a contact begins; if it is placed as much further away, none does. Integrators other than the
-Taylor series find the contact if a step ends beyond the wall, whether they integrate through the
-kink of the force or locate events as SciPy does. Their steps before the contact do not depend on
-the wall, so that one run gives the outcome at all depths.
+depth, a contact begins; if it is placed farther away by the same depth, none does. Integrators
+other than the Taylor series find the contact only if a step ends beyond the wall, whether they
+integrate through the kink of the force or locate events as SciPy does. Their steps before the
+contact do not depend on the wall. One run therefore gives the outcome at all depths.
 """
 
 import math
@@ -28,14 +28,14 @@ OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 
 def _counts(integrator, p, passages, depths, resolution):
-    """Count the contacts that an integrator finds and misses in passages, at each depth.
+    """Return the numbers of contacts that an integrator finds and misses, at each depth.
 
     Returns
     -------
     touching : array of int, shape (depth, outcome)
         Number of passages with each of OUTCOMES if the wall is nearer by the depth.
     spurious : array of int, shape (depth,)
-        Number of contacts reported if the wall is further away by the depth.
+        Number of contacts reported if the wall is farther away by the depth.
     error, steps : float
         Median error of the largest |Z2| and mean number of steps, NaN if all runs failed.
     """
@@ -109,7 +109,7 @@ def missed_contacts(
     implicit_passages,
     seed=1995,
 ):
-    """Count contacts near grazing that each method finds and misses, by depth and tolerance.
+    """Return the numbers of contacts near grazing that methods find and miss.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def missed_contacts(
     radius : float
         Radius of the ball from which the states of the passages at T = 0 are drawn.
     depths : sequence of float
-        Increasing distances by which the wall is nearer than the largest |Z2|, or further away.
+        Increasing distances by which the wall is nearer than the largest |Z2|, or farther away.
     tolerances : sequence of float
         Increasing relative and absolute tolerances of methods with step control.
     steps : sequence of int
@@ -135,13 +135,13 @@ def missed_contacts(
     -------
     xarray.Dataset
         `passage_count` for each (integrator, method_tolerance, depth, contact_outcome). Outcomes:
-        found; unseen (the computed motion passes the wall between the ends of two steps); not
-        reached (the computed motion does not reach the wall, since its error exceeds the depth);
-        failed (the run did not reach its end). `spurious_count`: contacts reported where none
-        exists. `motion_error`, the median error of the largest |Z2|, and `mean_steps` are taken
-        from the passages that did not fail, NaN if all did. `expected_unseen`: the share expected
-        to go unseen if fixed steps h end at random times, the mean of max(0, 1 - b/h) with the time
-        beyond the wall b = 2 sqrt(2 depth/|Z2''|).
+        found; unseen (the computed motion passes the wall and returns within one step); not reached
+        (the computed motion does not reach the wall, since its error exceeds the depth); failed
+        (the run did not reach its end). `spurious_count`: contacts reported where none exists.
+        `motion_error`, the median error of the largest |Z2|, and `mean_steps` are taken from the
+        passages that did not fail, NaN if all did. `expected_unseen`: the share expected to be
+        unseen if fixed steps h end at random times, the mean of max(0, 1 - b/h), where b = 2 sqrt(2
+        depth/|Z2''|) is the time beyond the wall.
 
     Raises
     ------
@@ -183,7 +183,7 @@ def missed_contacts(
 def _count_table(p, passages, totals, depths, tolerances, steps):
     """Return the counts and errors of each integrator at each tolerance or number of steps.
 
-    `totals` holds, for each integrator, how many of the passages (the first ones) it runs.
+    `totals` holds for each integrator the number of passages that it runs, the first ones.
     """
     free, methods, found = free_flight(p), integrators(), []
     for name, total in zip(LABELS, totals, strict=True):
@@ -202,7 +202,7 @@ def _count_table(p, passages, totals, depths, tolerances, steps):
 
 
 def _passage_table(passages, depths, steps, period):
-    """Return time, size and curvature of each passage, and shares expected to go unseen."""
+    """Return time, size and curvature of each passage, and shares expected to be unseen."""
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
     expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps]

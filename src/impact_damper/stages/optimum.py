@@ -1,8 +1,8 @@
 """Largest displacement as a function of the clearance, and its minimum (figures 6, 7 and 11).
 
-The motion is the quiet motion, which has the period of the forcing, is symmetric and has two
-contacts a period. If there are several branches of such motions, the one that exists at the
-clearance nearest to rule (18) is taken.
+The motion is the one on the quiet orbit: it has period 1, is symmetric and has two contacts per
+cycle. If there are several branches of such motions, the branch nearest to the clearance of rule
+(18) is taken.
 """
 
 import numpy as np
@@ -48,8 +48,8 @@ def clearance_sweep(
     ----------
     oscillator : Oscillator
     damper : dict
-        Arguments of `Damper` without the clearance. For a machine a `MachineDamper`, of which the
-        gap is not used.
+        Arguments of `Damper` without the clearance. For a machine a `MachineDamper`, whose gap is
+        ignored.
     frequency : float
         Forcing frequency W, dimensionless.
     clearances : sequence of float
@@ -61,15 +61,15 @@ def clearance_sweep(
     -------
     xarray.Dataset
         For each (clearance, motion) a motion found, as in a frequency response. For each
-        `clearance` max |Z1| of the quiet motion, the largest max |Z1| of all motions that starts
-        reach, and the amplitude |a| of the smallest stable solution of the harmonic balance (7).
-        Scalars: the optimum and the kind of minimum, both for the quiet motion and for (7); the
-        clearances of rules (18) and (19), the latter NaN if the free response has no peak; at the
-        optimum rm W^2 d0/f, with the forcing amplitude f, and the shares of its excess over 1 that
-        two corrections of (18) explain: pi^2/8, the first harmonic for a loose mass in straight
-        flight, and straight flight between walls of this stiffness. For each `edge` an end of the
-        range of clearance in which max |Z1| is within 10 % of its minimum. The attribute `optimum`
-        says in words what the optimum is, or that there is no quiet motion.
+        `clearance` max |Z1| of the quiet motion, the largest max |Z1| of all motions to which
+        starts lead, and the amplitude |a| of the smallest stable solution of the harmonic balance
+        (7). Scalars: the optimum and the kind of minimum, both for the quiet motion and for (7);
+        the clearances of rules (18) and (19), NaN for (19) if the free response has no peak; rm W^2
+        d0/f at the optimum, with the forcing amplitude f; and the fractions of its excess over 1
+        that two corrections of (18) explain. These are pi^2/8, the first harmonic of a loose mass
+        in straight flight, and straight flight between walls of this stiffness. For each `edge` an
+        end of the range of clearances in which max |Z1| is within 10 % of its minimum. The
+        attribute `optimum` is a sentence on the optimum, or says that there is no quiet motion.
 
     Raises
     ------
@@ -199,6 +199,6 @@ def _quiet_table(branch):
 
 
 def _largest(data):
-    """Return, for each clearance, the largest max |Z1| of the motions that starts reach."""
+    """Return the largest max |Z1| of the motions to which starts lead, for each clearance."""
     sizes = np.where(reached(data), data["maximum_displacement"][1], -np.inf)
     return np.max(sizes, axis=1)

@@ -42,10 +42,10 @@ def published(settings, *, seed=1995, settling=None):
     -------
     xarray.Dataset
         For each `comparison`: the published value, the value computed here, the publication, the
-        reason why both differ, the order with which the difference falls, the computed value
+        reason for their difference, the order with which the difference falls, the computed value
         extrapolated to the limit in which the closed form holds, the standard error of the
-        difference if both values are shares of random samples, and the size of the relative
-        difference to be expected.
+        difference if both values are shares of random samples, and the expected size of the
+        relative difference.
 
     Raises
     ------

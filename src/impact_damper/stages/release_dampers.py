@@ -17,11 +17,12 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import check_settling
 
-# Of the policy by state, forcing periods without a state in the goal's basin after which it tries
-# again: soon, or never, so that it may wait for the quiet motion. The better one is judged.
+# Cycles after which the policy by state gives up waiting for a state in the goal's basin and
+# switches the damper off and on again: few, or infinitely many (it then waits for the quiet
+# motion). The better of the two counts.
 WAITS = [Policy(STATE, 5.0), Policy(STATE, math.inf)]
 POLICIES = ["settled", "state"]
-# A motion is quiet below this share of the displacement of the free resonance motion.
+# Quiet limit as a fraction of the largest displacement of the free resonance motion.
 QUIET = 0.5
 
 
@@ -41,7 +42,7 @@ def release_dampers(
     workers=1,
     progress=None,
 ):
-    """Compare dampers by success and time of migration, and by the motions that they leave.
+    """Compare dampers by success and time of migration, and by the sizes of damped motions.
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ def release_dampers(
     frequencies : sequence of float
         Forcing frequencies at which both free motions of period 1 exist.
     mass_ratios, clearances, restitutions : sequence of float
-        Of the dampers of the map; all combinations.
+        Values of the dampers of the map; all combinations are computed.
     cut : dict
         `mass_ratio`, `clearance` and a list `restitutions` of the dampers of the cut.
     trials : int
@@ -63,19 +64,22 @@ def release_dampers(
     workers : int
         Threads; the result does not depend on it.
     progress : str, optional
-        Unused; jobs hand it to every stage.
+        Unused; jobs pass it to every stage.
 
     Returns
     -------
     xarray.Dataset
-        For each damper and policy (the paper's, and release by state) success within 350 forcing
-        periods and the median of the forcing periods until the goal; for each damper max |Z1| of
-        the quiet motion and the largest max |Z1| with the damper on.
+        For each damper and policy (the paper's, and release by state) the share of trials that
+        reach the goal within 350 cycles and the median of the cycles until the goal; for each
+        damper max |Z1| of the quiet motion and the largest max |Z1| with the damper on. A quiet
+        motion here is the smallest settled motion of any period, if max |Z1| is below QUIET times
+        the max |Z1| of the free resonance motion.
 
     Raises
     ------
     ValueError
-        If an argument is out of range, or the free oscillator has not both motions at a frequency.
+        If an argument is out of range, or the free oscillator lacks one of its two motions at a
+        frequency.
     """
     settling = check_settling(settling)
     check_count("trials", trials, **RUNS_RANGE)
@@ -118,14 +122,14 @@ def release_dampers(
 
 
 class _Judge:
-    """Judges dampers at one frequency."""
+    """Computes the results of dampers at one frequency."""
 
     def __init__(self, free, oscillator, frequency, trials, starts, seed):
         self.free, self.oscillator, self.frequency = free, oscillator, frequency
         self.trials, self.starts, self.seed = trials, starts, seed
 
     def dampers(self, dampers):
-        """Return arrays of success, cycles, quiet and largest displacement, one row a damper."""
+        """Return arrays of success, cycles, quiet and largest displacement; rows are dampers."""
         rows = [self._migration(damper) for damper in dampers]
         sizes = self._displacements(dampers)
         return {

@@ -1,8 +1,8 @@
-"""Policies of migration compared: when should the damper be let go of?
+"""Policies of migration compared: when should the damper be switched off?
 
-Each policy of `migration.policies` is tried from the free resonance motion. The numbers of the
-policies are chosen with other random draws than those that they are judged with. Beside them stands
-the clairvoyant bound (`migration.clairvoyant`).
+Each policy of `migration.policies` is tried from the free resonance motion. The parameters of a
+policy are chosen in trials with other random numbers than the trials that measure its success. The
+clairvoyant bound (`migration.clairvoyant`) is computed for comparison.
 """
 
 import math
@@ -31,9 +31,9 @@ from impact_damper.system.settling import check_settling
 POLICIES = ["settled", "hold", "phase", "state", "clairvoyant"]
 # Margins over the size of the resonance motion.
 MARGINS = (0.0, 0.02, 0.04, 0.08, 0.16)
-# What disturbs the policy by state: error of the measured state over the size of the resonance
-# motion; delay in PHASES-ths of a period; factors of damping and force of the model from which the
-# release set is computed.
+# Disturbances of the policy by state. noise: error of the measured state over the size of the
+# resonance motion; delay: in 1/PHASES of a cycle; model: factors of damping and force of the model
+# from which the release set is computed.
 DISTURBANCES = {
     "none": {},
     "noise 0.1 %": {"noise": 0.001},
@@ -49,11 +49,12 @@ DISTURBANCES = {
     "h -5 %, force -1 %": {"model": (0.95, 0.99)},
     "noise 3 %, delay 1/8, h +5 %, force -1 %": {"noise": 0.03, "delay": 2, "model": (1.05, 0.99)},
 }
-# Trials of a policy for each trial with a disturbance, and for each one of the clairvoyant bound.
+# Number of trials of a policy divided by that with a disturbance, and by that of the clairvoyant
+# bound.
 DISTURBED, CLAIRVOYANT = 2, 4
 # Changes of velocity that are tried, in units of the largest speed of the resonance motion.
 IMPULSES = np.linspace(-2, 2, 801)
-# Forcing periods with the damper on before a release that tests the prediction.
+# Cycles with the damper on before a release that tests the prediction.
 TESTED_HOLD = 10
 
 
@@ -80,7 +81,7 @@ def release_policies(
     frequencies : sequence of float
         Forcing frequencies at which both free motions of period 1 exist.
     noisy_frequencies : sequence of float
-        Those of them at which the effect of noise, delay and a wrong model is studied.
+        Frequencies, among `frequencies`, at which noise, delay and a wrong model are studied.
     trials : int
         Trials of each policy; half as many with each disturbance, and a quarter of them for the
         clairvoyant bound.
@@ -93,20 +94,21 @@ def release_policies(
     workers : int
         Threads; the result does not depend on it.
     progress : str, optional
-        Unused; jobs hand it to every stage.
+        Unused; jobs pass it to every stage.
 
     Returns
     -------
     xarray.Dataset
-        For each (case, frequency, policy) success within 350 forcing periods, quantiles of the
-        forcing periods until the goal, and the cost, each with 95 % bounds; predicted and realised
-        shares of the test; the least impulse without a damper; success and median of the forcing
-        periods under noise, delay and a wrong model for each margin.
+        For each (case, frequency, policy) the share of trials that reach the goal within 350
+        cycles, quantiles of the cycles until the goal, and the cost, each with 95 % bounds;
+        predicted and realised shares of the test; the smallest impulse without a damper; success
+        and median of the cycles under noise, delay and a wrong model for each margin.
 
     Raises
     ------
     ValueError
-        If an argument is out of range, or the free oscillator has not both motions at a frequency.
+        If an argument is out of range, or the free oscillator lacks one of its two motions at a
+        frequency.
     """
     settling = check_settling(settling)
     check_count("trials", trials, **RUNS_RANGE)
@@ -172,7 +174,7 @@ def release_policies(
 
 
 def compared(on, free, trials, seed):
-    """Return the policies, and the outcomes of their trials and of the bound, as in POLICIES."""
+    """Return the policies, and the outcomes of their trials and of the bound, in that order."""
     limit = float(PAPER_CYCLES)
     policies = [Policy(SETTLED), *chosen_policies(on, free, trials, limit, [seed, 1])]
     outcomes = [run_trials(on, free, policy, trials, limit, [seed, 0]) for policy in policies]
@@ -202,7 +204,7 @@ def prediction(on, free, count, seed):
 
 
 def impulses(free):
-    """Return the least change of velocity to the goal, at the best phase and as a median."""
+    """Return the smallest change of velocity to the goal: at the best phase, and the median."""
     speed = free.size * free.p[FREQUENCY]
     least = []
     for phase in 2 * math.pi * np.arange(PHASES) / PHASES:
@@ -237,7 +239,7 @@ def under_disturbance(on, models, policy, trials, seed, disturbances=DISTURBANCE
     on : array, shape (packed.COUNT,)
         Packed parameters with the damper.
     models : dict
-        The case with the true release set, and those of `wrong_models`.
+        The case with the true release set, and the cases of `wrong_models`.
     policy : Policy
         The policy by state.
     trials, seed : int

@@ -73,7 +73,7 @@ def release_scan(
     releases : int
         Number of releases of each motion.
     lifetime : int
-        The motion that has not settled is released within this number of forcing periods.
+        Number of forcing periods within which the motion that has not settled is released.
     seed : int
     settling : Settling, optional
     workers, progress
@@ -82,9 +82,9 @@ def release_scan(
     Returns
     -------
     xarray.Dataset
-        For each (frequency, damped) a motion with the damper, first the one that has not settled;
-        for each (frequency, damped, free_motion, bound) the share of its releases that lead to a
-        free motion, or a confidence bound of this share.
+        For each (frequency, damped) a motion with the damper; the first one has not settled. For
+        each (frequency, damped, free_motion, bound) the share of its releases that lead to a free
+        motion, or a confidence bound of this share.
 
     Raises
     ------
@@ -132,4 +132,4 @@ def release_scan(
         "free_motion": DESTINATIONS,
         "bound": BOUNDS,
     }
-    return dataset(data, coordinates, made, "Where releases of the damper lead")
+    return dataset(data, coordinates, made, "Free motions to which releases of the damper lead")

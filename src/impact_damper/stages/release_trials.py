@@ -1,4 +1,4 @@
-"""The free oscillator and the trials that stages of policies of migration share."""
+"""The free oscillator, and trials of policies, for all stages on policies of migration."""
 
 import math
 
@@ -11,7 +11,7 @@ from impact_damper.motions.free_motions import free_motions
 from impact_damper.stages.basins import REACH, free_attractors
 from impact_damper.system.packed import pack
 
-# Phases of the forcing at which the state is looked at.
+# Number of phases in a cycle at which the controller observes the state.
 PHASES = 16
 QUANTILES = [0.5, 0.95]
 
@@ -22,7 +22,7 @@ def free_case(oscillator, frequency, cells, settling, workers) -> FreeCase:
     Raises
     ------
     ValueError
-        If it has not both a non-resonance and a resonance motion.
+        If it lacks the non-resonance or the resonance motion.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)

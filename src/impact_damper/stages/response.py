@@ -38,7 +38,7 @@ def frequency_response(
 ):
     """Find all motions at each frequency, from many starts and from neighbouring frequencies.
 
-    Each motion found is followed to the other frequencies at which it exists.
+    Each motion found is followed to the other frequencies of its branch.
 
     Parameters
     ----------
@@ -48,20 +48,19 @@ def frequency_response(
     frequencies : sequence of float
         Increasing forcing frequencies W, dimensionless.
     starts : int
-        Random initial states at each frequency.
+        Random starts (initial states) at each frequency.
     radius : float, optional
-        The random states are uniform in a ball of this radius around rest, with the loose mass in
-        its gap; 2 in section 3 of the paper. Without it the search is as wide as the motions
-        without the damper: the random states are scaled by these motions, and further starts are
-        placed on them.
+        Radius of a ball around rest in which random starts are uniform, with the loose mass in its
+        gap; 2 in section 3 of the paper. Without this argument random starts are scaled by the
+        motions without the damper, and further starts are placed on these motions.
     seed : int
-        Of the random states.
+        Seed of the random starts.
     settling : Settling, optional
         How long motions are run, and how accurately.
     life_runs : int
-        Runs of each chaotic motion by which it is found out how long it lasts; 0 for none.
+        Runs of each chaotic motion that measure how long it lasts; 0 for none.
     life_periods : int
-        Forcing periods of these runs.
+        Length of these runs in forcing periods.
     workers : int
         Threads; the result does not depend on it.
     progress : str, optional
@@ -71,13 +70,13 @@ def frequency_response(
     -------
     xarray.Dataset
         For each (frequency, motion) a motion: `outcome` (see `decode`), period, contacts, largest
-        |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, `share`, the number of
-        random starts that lead to it, the 95 % interval of the share they are, and mean life if it
-        is chaotic. Motions of one branch are the same motion at different frequencies; frequencies
-        with fewer motions than others are filled up with the outcome `absent`. For each (frequency,
-        start) outcome and length of a run; for each `end` the end of a branch; for each `frequency`
-        how large the starts and the motions without the damper are. `missed_share` bounds the share
-        of starts that lead to a motion which no random start reached, at 95 % confidence.
+        |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, `motion_starts` (number of
+        random starts that lead to it), the 95 % interval of their share, and the mean life of a
+        chaotic motion. Motions of one branch are the same motion at different frequencies. Where a
+        frequency has fewer motions than others, the outcome `absent` fills the rest. For each
+        (frequency, start) outcome and length of a run; for each `end` the end of a branch; for each
+        `frequency` the largest start and the largest motion without the damper. `missed_share`
+        bounds, at 95 % confidence, the share of starts that lead to a motion not found.
 
     Raises
     ------

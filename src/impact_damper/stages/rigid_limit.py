@@ -1,9 +1,9 @@
 """Errors of the rigid-impact model as functions of contact stiffness r1 and frequency.
 
-The exact system has compliant contacts. The orbits of the quiet motion (period 1, two symmetric
-contacts) of both are compared, stable or unstable. The compliant orbit is followed through a grid
-of frequencies and r1. The rigid orbit does not depend on r1 and is followed in frequency; it is
-also computed with corrected walls (`mended`), which account for the penetration at finite r1.
+The exact system has compliant contacts. The quiet orbits (period 1, two symmetric contacts) of both
+systems are compared, stable or unstable. The compliant orbit is followed through a grid of
+frequencies and r1. The rigid orbit does not depend on r1 and is followed in frequency. It is also
+computed with corrected walls (`mended`), which account for the penetration at finite r1.
 """
 
 from dataclasses import replace
@@ -21,7 +21,7 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# Relative errors of max |Z1| for which the dataset gives the stiffness needed.
+# Relative errors of max |Z1| for which the dataset holds the stiffness needed.
 THRESHOLDS = (0.01, 0.1)
 # Largest distance of an orbit's state from the state predicted for it.
 REACH = 0.1
@@ -58,7 +58,7 @@ def rigid_limit(
     Raises
     ------
     ArithmeticError
-        If no start leads to a quiet motion, or it cannot be followed into the grid.
+        If no start leads to a quiet motion, or its orbit cannot be followed into the grid.
     TypeError, ValueError
         If an argument is out of range; the message names it.
     """
@@ -99,7 +99,7 @@ def rigid_limit(
 
 
 def _quiet(oscillator, damper, frequency, starts, seed, settling):
-    """Return the orbit of the quiet motion, reached from random starts, or raise."""
+    """Return the quiet orbit to which random starts lead, or raise an error."""
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
         p = pack(oscillator, damper, frequency)
@@ -107,8 +107,8 @@ def _quiet(oscillator, damper, frequency, starts, seed, settling):
         if orbit is not None:
             return orbit
     raise ArithmeticError(
-        f"frequency = {frequency:g}: no quiet motion, of period 1 with two symmetric contacts, is "
-        f"reached from {starts} starts; more of them or another frequency may help"
+        f"frequency = {frequency:g}: none of {starts} starts leads to a quiet motion, of period 1 "
+        "with two symmetric contacts; more starts or another frequency may help"
     )
 
 
@@ -135,7 +135,7 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
     """Return the grids of compliant and of rigid orbits, and the rigid orbit at `frequency`.
 
     The compliant orbits are followed from the orbit `quiet` at `frequency` and the damper's own r1.
-    The rigid orbits are followed from the one near the compliant orbit of the greatest r1.
+    The rigid orbits are followed from the one nearest to the compliant orbit with the largest r1.
     """
 
     def compliant_at(point, guess):

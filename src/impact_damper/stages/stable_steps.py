@@ -1,9 +1,9 @@
 """The largest steps with which fixed-step methods keep the quiet motion, for each stiffness r1.
 
-The quiet motion has the period of the forcing and two contacts per period. Every run starts on its
-exact orbit and integrates through the kinks of the force with equal steps h, a whole number of them
-in a forcing period. The linear stability of a method limits h omega_c, where the natural frequency
-of an undamped contact is omega_c = sqrt(r1 (1 + 1/rm)).
+The quiet motion has period 1 and two contacts per cycle. Every run starts on the exact quiet orbit
+and integrates through the kinks of the force with equal steps h, a whole number of them in each
+cycle. The linear stability of a method limits h omega_c, where omega_c = sqrt(r1 (1 + 1/rm)) is the
+natural frequency of an undamped contact.
 """
 
 import itertools
@@ -32,23 +32,23 @@ from impact_damper.system.settling import Settling
 from impact_damper.theory.free_oscillator import main_solutions
 
 LABELS = COMPARED["stable_steps"]
-# A run keeps the quiet motion if max |Z1| of every period is within such a share of the exact one.
+# A run keeps the quiet motion if max |Z1| of every cycle is within this fraction of the exact one.
 ACCURACIES = (0.01, 0.1)
-# Orbits are followed in r1: largest factor between neighbouring r1, and largest distance of an
-# orbit's state from the state predicted for it.
+# Orbits are followed in r1. Largest factor between neighbouring r1; largest distance of an orbit's
+# state from the predicted state.
 FACTOR = 10.0**0.0625
 REACH = 0.2
-# Local error allowed in the exact orbits, with which the runs are compared.
+# Local error allowed in the exact orbits, the reference of the runs.
 EXACT = 1e-13
-# A stable step is reported only if at least this number of tested steps, down to the smallest one,
-# keep the quiet motion.
+# A stable step is reported only if at least this number of the smallest steps tested keep the quiet
+# motion.
 CONFIRMED = 4
-# The slope is fitted at r1 from this value on, where contacts are much shorter than a period.
+# The slope is fitted from this r1 on, where contacts are much shorter than a cycle.
 STIFF = 1e3
 
 
 def quiet_state(p):
-    """Return the state at W T = pi/2 of the quiet motion, or None if the run does not reach it.
+    """Return the state at W T = pi/2 of the quiet motion, or None if the run leads elsewhere.
 
     At the start of the run the primary mass is at rest and the loose mass crosses the gap.
     """
@@ -133,7 +133,7 @@ def _verdict(largest, exact, bound):
 def _largest_step(held, tested, steps):
     """Return the largest step that holds together with all smaller tested steps.
 
-    NaN if these steps are fewer than CONFIRMED. `held` tells which steps keep the quiet motion.
+    NaN if these steps are fewer than CONFIRMED. `held` marks the steps that keep the quiet motion.
     """
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)

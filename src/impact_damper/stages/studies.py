@@ -1,9 +1,9 @@
 """Studies: motions from random starts in each cell of a grid of dampers and frequencies.
 
-The cells are numbered in the order of `AXES`, the last axis fastest, and a chunk of a study is a
-range of these numbers. The seed and the number of a cell determine its random starts, so that
-the results do not depend on the division into chunks. Runs are reduced to a few numbers per cell
-as soon as a few cells are computed, so that the memory of a chunk hardly grows with its size.
+The cells are numbered in the order of `AXES`, the last axis fastest. A chunk of a study is a range
+of these numbers. The seed and the number of a cell determine its random starts, so the results do
+not depend on the division into chunks. After every few cells the runs are reduced to a few numbers
+per cell, so the memory of a chunk hardly grows with its size.
 """
 
 import math
@@ -50,7 +50,7 @@ def study_chunk(
     workers=1,
     progress=None,
 ):
-    """Return the motions that random starts lead to in a range of cells of a grid.
+    """Return the motions to which random starts lead, in a range of cells of a grid.
 
     Parameters
     ----------
@@ -67,9 +67,9 @@ def study_chunk(
     Returns
     -------
     xarray.Dataset
-        For each `cell`: largest displacement of all motions that the starts lead to, displacement
-        of the quiet motion (period 1, two symmetric contacts), numbers of random starts that lead
-        to the quiet motion and to each outcome. The coordinates include the axes of the whole grid.
+        For each `cell`: largest displacement of all motions to which the starts lead, displacement
+        on the quiet orbit (period 1, two symmetric contacts), numbers of random starts that lead to
+        the quiet orbit and to each outcome. The coordinates include the axes of the whole grid.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def study_chunk(
         return random_states(starts, radius, damper, [seed, cell]), NO_STARTS
 
     check_count("seed", seed, **SEED_RANGE)
-    # a value out of range is at an end of an axis: check the ends now, not after hours of work
+    # axes are sorted, so a value out of range is at an end: checked now, not after hours of work
     for end in (0, -1):
         _, damper = system([end] * len(AXES))
         if radius is not None:
@@ -124,7 +124,7 @@ def study_chunk(
     made = describe(oscillator, settling) | describe_search(starts, radius, seed)
     made["contact_stiffness"] = contact_stiffness
     coordinates = axes | {"cell": np.arange(first, last), "counted_outcome": list(OUTCOMES)}
-    return dataset(data, coordinates, made, "What random starts come to over a grid")
+    return dataset(data, coordinates, made, "Motions from random starts over a grid")
 
 
 def _condensed(runs, starts):

@@ -19,9 +19,9 @@ def gather_chunks(paths, path) -> None:
     """Write the chunks of a study, in their order, into one file.
 
     The file has the variables of a chunk, with the axes of the grid as dimensions in place of
-    `cell`. It also has, for each mass ratio, frequency and restitution, the clearance of the grid
-    at which the largest displacement is least; and, for each mass ratio and frequency, the
-    clearance of rule (18).
+    `cell`. In addition it has the clearance of the grid with the smallest largest displacement, for
+    each mass ratio, frequency and restitution, and the clearance of rule (18), for each mass ratio
+    and frequency.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def gather_chunks(paths, path) -> None:
 
 
 def _place(file, chunk, first, shape):
-    """Write a chunk to its cells, from cell number `first` on, and return how many they are."""
+    """Write a chunk to its cells, from cell number `first` on, and return their number."""
     count = chunk.sizes["cell"]
     for cells, block in blocks(first, first + count, shape):
         lengths = [index.stop - index.start for index in block]

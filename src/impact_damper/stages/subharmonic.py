@@ -23,11 +23,11 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, check_oscillator, describe
 from impact_damper.system.settling import check_settling
 
-# Margin of the frequencies beyond each end of the free subharmonic, as a share of its width.
+# Margin of the frequencies beyond each end of the free subharmonic, as a fraction of its width.
 BEYOND = 0.1
-# A subharmonic counts as reduced if its max |Z1| is below this share of the free subharmonic's.
+# A subharmonic counts as reduced if its max |Z1| is below this fraction of the free subharmonic's.
 REDUCED = 0.95
-# Motions, or outcomes, to which switching the damper on leads.
+# Motions or outcomes that follow when the damper is switched on.
 SWITCHED_MOTIONS = (
     "quiet",
     "other_period_1",
@@ -78,10 +78,11 @@ def subharmonic_suppression(
         For each (frequency, motion) a motion found, as in a frequency response. For each
         `frequency` max |Z1| of the largest subharmonic without and with the damper (NaN where none
         exists), their ratio, contacts and period of the damped one, and flags for what the damper
-        does to the subharmonic (removed, reduced, unchanged), judged by all damped motions and only
-        by those that starts lead to. For each (frequency, switched_motion) the share of starts on
-        the subharmonic that lead to this motion after switching on. For each `edge` an end of the
-        free subharmonic, for each (subharmonic, edge) an end of a damped branch.
+        does to the subharmonic (removed, reduced, unchanged), judged by all damped motions and by
+        those to which starts lead. For each (frequency, switched_motion) the share of starts on the
+        subharmonic that lead to this motion when the damper is switched on; a quiet motion there
+        has period 1 and two symmetric contacts. For each `edge` an end of the free subharmonic, for
+        each (subharmonic, edge) an end of a damped branch.
 
     Raises
     ------
@@ -151,7 +152,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Where the free subharmonic exists, replace half of the starts (n, m, 4) by `switched_on`.
+    """Replace half of the starts (n, m, 4) by `switched_on`, where the free subharmonic exists.
 
     Return max |Z1| of the free subharmonic, shape (n,), NaN where it does not exist.
     """

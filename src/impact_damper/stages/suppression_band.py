@@ -11,8 +11,8 @@ from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.single_harmonic import check_elastic, impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# Range of frequencies searched for an edge of the band and step of this search, over the peak
-# frequency; and largest error of an edge.
+# Range of frequencies, and step, of the search for an edge of the band, over the peak frequency;
+# largest error of an edge.
 SEARCHED = (0.2, 2.0)
 SEARCH_STEP = 0.005
 EDGE_TOLERANCE = 1e-10
@@ -22,16 +22,16 @@ EDGES = ["lower", "upper"]
 def suppression_band(oscillator, damper):
     """Find the frequencies around the peak at which one quiet motion replaces the resonance branch.
 
-    By harmonic balance, equation (7) of the paper, whose solutions have the amplitude |a|. A
-    frequency belongs to the band if (7) has exactly one stable solution there, and its
-    |a| is below the amplitude of the free resonance branch. The band is the connected
-    range of such frequencies that holds the peak frequency Wp. The free resonance branch
-    is that of `free_oscillator.resonance`: with a hardening spring it ends at the upper fold,
-    and so does the band, at the latest; where the free response has no fold it is the whole
-    curve. Motions in which the loose mass rests do not count, as in the paper.
+    The band is computed by harmonic balance, equation (7) of the paper, whose solutions have the
+    amplitude |a|. A frequency belongs to the band if (7) has exactly one stable solution, and |a|
+    of this solution is below the amplitude of the free resonance branch. The band is the connected
+    range of such frequencies that contains the peak frequency Wp. The free resonance branch is that
+    of `free_oscillator.resonance`. With a hardening spring this branch, and with it the band, ends
+    at the upper fold; where the free response has no fold it is the whole curve. Motions in which
+    the loose mass rests do not count, as in the paper.
 
-    The search goes from Wp in steps of 0.005 Wp down to 0.2 Wp and up to 2 Wp, and the
-    edges are bisected to 1e-10; a gap narrower than a step can be passed over.
+    The search goes from Wp in steps of 0.005 Wp down to 0.2 Wp and up to 2 Wp, and the edges are
+    bisected to 1e-10. An interruption of the band narrower than a step can be missed.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ def suppression_band(oscillator, damper):
     Returns
     -------
     xarray.Dataset
-        For each `edge` (lower, upper) its frequency and what ends the band there; the width of the
-        band; the reduction of |a| at Wp and at the edges; and `break_even_frequency`, above Wp
-        (below with a softening spring), where the quiet motion is no longer smaller than the
-        smallest free one: the end of the band if the end of the resonance branch is disregarded.
-        NaN and a flag where an edge is not found; all NaN, and the status no_peak, if the free
-        response has no peak.
+        For each `edge` (lower, upper) its frequency and the event that ends the band there; the
+        width of the band; the reduction of |a| at Wp and at the edges; and `break_even_frequency`,
+        above Wp (below with a softening spring), beyond which the quiet motion is not smaller than
+        the smallest free motion: the end of the band if the end of the resonance branch is
+        disregarded. NaN and a flag where an edge is not found. All NaN, and the status no_peak, if
+        the free response has no peak.
 
     Raises
     ------
@@ -132,7 +132,8 @@ def _no_band():
 class _Look(NamedTuple):
     """Number of solutions of (7) at a frequency, |a| of the stable ones, and free amplitudes.
 
-    `resonance` is the amplitude of the free resonance branch, `least_free` the smallest free one.
+    `resonance` is the amplitude of the free resonance branch, `least_free` the smallest free
+    amplitude.
     """
 
     count: int
