@@ -86,8 +86,9 @@ TABLES = (
         "where it is negative the torus is stable. Stable tori were run onto close to the point at "
         "two Ω, of which the closer one is given; the rotation number is extrapolated to the point "
         "and must equal the angle of the multiplier. No frequency: the torus was not met at these "
-        "Ω, as its orbit ends, locks or becomes chaotic too soon. Not found out: a grazing is too "
-        "close. Orbits that are unstable on both sides of their point are left out.",
+        "Ω, as its orbit ends, locks or becomes chaotic too soon. Not found out: a grazing or the "
+        "resonance 1:3 is too close. Orbits that are unstable on both sides of their point are "
+        "left out.",
     ),
     Table(
         "shares",
