@@ -128,9 +128,9 @@ def motions(frequency, columns):
     return data
 
 
-def free_branches(damping):
+def free_branches(damping, linear=0.0):
     """Return a resonance branch with a fold at the peak, and a closed subharmonic branch."""
-    peak = PEAKS[damping]
+    peak = LINEAR[linear] if linear else PEAKS[damping]
     rising, falling = np.linspace(0.5, 1, 101) * peak, np.linspace(1, 0.6, 81)[1:] * peak
     beyond = np.linspace(0.6, 1.5, 181)[1:] * peak
     top = 1 / (damping * peak)
@@ -142,7 +142,7 @@ def free_branches(damping):
         branch(curve, np.concatenate(size), stable=stable, contacts=0.0, phase=0.0),
         branch(there, 0.8, contacts=0.0, phase=0.0, period=3),
         folds=[(0, peak, top), (0, 0.6 * peak, 0.5)],
-        parameters=parameters(damping),
+        parameters=parameters(damping, linear),
     )
 
 
@@ -224,7 +224,7 @@ def matched_sweep():
 
 
 def motion():
-    """Return a motion for the slip S3 of the paper, a state of three components."""
+    """Return a motion for S3, a gap of the paper: a state of three components."""
     data = {name: np.zeros(3) for name in ("displacement", "velocity", "relative_displacement")}
     return dataset(data, {"time": np.arange(3.0)}, parameters(frequency=2.0), "made up")
 
@@ -236,17 +236,21 @@ def collisions():
 
 
 def sweep(damping, mass_ratio, restitution=1.0):
-    """Return a clearance sweep with a flat optimum 5 % above the rule, smaller for smaller e."""
+    """Return a clearance sweep with a flat optimum 5 % above the rule, smaller for smaller e.
+
+    The displacement becomes slightly smaller with larger mass ratio.
+    """
     frequency = PEAKS[damping]
     rule = 1 / (mass_ratio * frequency**2)
     best = rule * (1.05 - 0.5 * (1 - restitution))
     flatness = 0.1 + (1 - restitution)
     steepness = 1.5 - 4 * (1 - restitution)
     clearance = np.linspace(0.5, 1.5, 101) * best
+    size = (0.12 / mass_ratio) ** 0.25
     data = {
-        "quiet_displacement": 0.02 * (1 + steepness * np.abs(clearance / best - 1)),
+        "quiet_displacement": 0.02 * size * (1 + steepness * np.abs(clearance / best - 1)),
         "optimum_clearance": best,
-        "optimum_displacement": 0.02,
+        "optimum_displacement": 0.02 * size,
         "rule_clearance": rule,
         "peak_rule_clearance": rule,
         "analytical_optimum": rule,
@@ -354,7 +358,7 @@ def release_scan(frequency, subharmonic_share):
     return dataset(data, coordinates, parameters(**damper(0.12, 2.0)), "made up")
 
 
-LINEAR_OF = {"3a": 1.5, "3b": 1.0, "3c": 0.0}
+LINEAR_OF = {"3a": 1.5, "3b": 1.0, "3c": 0.0, "5a": 0.0}
 
 
 def design_orbit(linear):
@@ -394,6 +398,7 @@ def world():
     return {
         "harmonic_balance": designs,
         "branches": {f"free_h{1000 * h:.0f}": free_branches(h) for h in PEAKS}
+        | {f"free_l{100 * k:.0f}": free_branches(0.215, k) for k in linear.values()}
         | {
             "figure_05a": damped_branches("figure_05a"),
             "figure_05b": damped_branches("figure_05b"),
@@ -402,9 +407,7 @@ def world():
             "figure_10": damped_branches("figure_10", restitution=0.75),
         },
         "design_orbit": {
-            name: design_orbit(LINEAR_OF[name[8:10]])
-            for name in designs
-            if name.startswith("figure_03")
+            name: design_orbit(LINEAR_OF[name[8:10]]) for name in designs if name[8:10] in LINEAR_OF
         },
         "response": responses,
         "motion": {"figure_04": motion()},

@@ -38,12 +38,8 @@ def jobs(config) -> dict:
             found[f"{stage}/{name}"] = Job(_texts({"name": name} | given[name]), needs)
             if record.page:
                 found[f"page/{name}"] = Job(_texts({"name": name}), _needed({stage: [name]}))
-    for chapter, record in CHAPTERS.items():
-        given = {
-            f"figure_{name}": selection.figure_values(config, name)
-            for name in selection.figures_of(config, chapter)
-        }
-        given["tables"] = [table.name for table in record.TABLES]
+    for chapter in CHAPTERS:
+        given = selection.chapter_values(config, chapter)
         needs = _needed(selection.chapter_data(config, chapter))
         found[f"chapter/{chapter}"] = Job(_texts(given), needs)
     return found

@@ -142,13 +142,9 @@ def chunks_of_study(wildcards):
 
 
 def chapter_parameters(chapter):
-    """Parameters of a chapter: the names of its tables, and what each figure draws and states."""
-    tables = [table.name for table in CHAPTERS[chapter].TABLES]
-    drawn = {
-        f"figure_{name}": {f"figure_{name}": selection.figure_values(config, name)}
-        for name in selection.figures_of(config, chapter)
-    }
-    return drawn | {"tables": {"tables": tables}}
+    """Parameters of a chapter, each as {key: value}."""
+    values = selection.chapter_values(config, chapter)
+    return {key: {key: value} for key, value in values.items()}
 
 
 def figure_files(chapter):

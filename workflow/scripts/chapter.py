@@ -5,8 +5,8 @@ from impact_damper.workflow.chapter import draw_figure, make_table
 
 job = Job(snakemake)
 for key, figure in job.given.items():
-    if key != "tables":
+    if key.startswith("figure_"):
         path = job.results / "figures" / key.removeprefix("figure_")
         draw_figure(figure, job.datasets, path)
 for name in job["tables"]:
-    make_table(name, job.datasets, job.results / "tables" / name)
+    make_table(name, job.datasets, job.results / "tables" / name, job.given.get("drawn", ()))

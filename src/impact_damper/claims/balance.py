@@ -1,7 +1,7 @@
-"""Claims 1, 2 and 3, on solutions of harmonic balance (sections 2 and 3, figure 3).
+"""Claims 1 and 2, on solutions of harmonic balance (sections 2 and 3).
 
 Equation (7) is harmonic balance with elastic contacts, equation (14) its limit of rigid walls; a is
-the amplitude of the primary mass. W is the forcing frequency, Wp the peak frequency.
+the amplitude of the primary mass. W is the forcing frequency.
 """
 
 import numpy as np
@@ -10,8 +10,7 @@ import pandas as pd
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.findings import balance as balance_findings
-from impact_damper.claims.suppression import suppression_band
-from impact_damper.data.datasets import flag, is_settled
+from impact_damper.data.datasets import flag
 
 NEAR = 0.1  # largest relative difference of an orbit that agrees with a solution of (7)
 
@@ -57,8 +56,9 @@ def rigid_against_elastic(datasets):
     designs = extract.damped(datasets, "harmonic_balance").values()
     if not designs:
         raise Missing("There is no dataset of the stage harmonic_balance with a damper")
-    errors, alike = [], []
+    errors, alike, pulling = [], [], []
     for design in designs:
+        pulling.append((design.rigid_wall == flag("rigid_wall", "pulls")).any("root").values)
         impacting = design.kind == flag("kind", "impacting")
         pushing = design.rigid_wall == flag("rigid_wall", "pushes")
         elastic = np.sort(design.amplitude.where(impacting).values)
@@ -78,86 +78,15 @@ def rigid_against_elastic(datasets):
             for name in extract.ELASTIC
         ]
     )
-    differences = pairs.difference[~pairs.least]
-    near = differences[differences < NEAR]
+    larger = pairs[~pairs.least]
+    near = larger[larger.difference <= NEAR]
     return {
         "alike": np.mean(alike),
         "error": np.max(errors, initial=0.0) if errors else np.nan,
-        "orbits": len(near) / len(differences) if len(differences) else np.nan,
-        "orbit_error": near.median(),
-    }
-
-
-def quiet_and_high(datasets):
-    """Measures of claim 3: small stable motions around Wp, large ones outside the suppression band.
-
-    They are computed from the solutions of (7) for all omega_l, and from exact orbits.
-    """
-    reach, beside, bands = [], [], []
-    for design in extract.select(datasets, "harmonic_balance", (*extract.CAPTIONS, *extract.RULES)):
-        peak = float(design.peak_frequency)
-        half = exact_orbits.HALF * float(design.peak_amplitude)
-        frequency = design.frequency.values
-        size = np.abs(extract.stable_impacting(design))
-        small = (size < half).any("solution").values
-        gaps = np.abs(frequency[~small] / peak - 1)
-        reach.append(np.min(gaps, initial=np.max(np.abs(frequency / peak - 1))))
-        bands.append(int(design.band_status) == flag("band_status", "found"))
-        lower = float(design.edge_frequency[0]) if bands[-1] else peak
-        below = (frequency > 0.75 * peak) & (frequency < lower)
-        level = exact_orbits.HALF * extract.free_resonance_balance(design)
-        beside.append(np.mean((size > level).any("solution").values[below]))
-    return (
-        {
-            "reach": np.min(reach),
-            "bands": np.mean(bands),
-            "beside": np.min(beside),
-        }
-        | _quiet_and_high_orbits(datasets)
-        | _design_orbits(datasets)
-    )
-
-
-def _design_orbits(datasets):
-    """Measures of claim 3 from the exact quiet orbits of figure 3 at the design point W = Wp."""
-    names = (*extract.CAPTIONS[1:], *extract.RULES)
-    orbits = extract.select(datasets, "design_orbit", names)
-    multipliers = [extract.largest_multiplier(extract.design_point(orbit)) for orbit in orbits]
-    unstable = [orbit for orbit, size in zip(orbits, multipliers, strict=True) if not size < 1]
-    settled = [np.mean(is_settled({"outcome": orbit.design_run_outcome})) for orbit in unstable]
-    return {
-        "designs_stable": np.mean(np.array(multipliers) < 1),
-        "design_multiplier": np.max(multipliers),
-        "design_damping": max(map(extract.stable_from, orbits)),
-        "design_settled": np.max(settled, initial=0.0),
-        "designs": len(orbits),
-    }
-
-
-def _quiet_and_high_orbits(datasets):
-    """Measures of claim 3 for omega_l = 0, from the ranges of W of quiet and violent orbits."""
-    reach, beside, pairs = [], [], []
-    for name in extract.ELASTIC:
-        branches, free = exact_orbits.of_curve(datasets, name)
-        design = extract.get(datasets, "harmonic_balance", name)
-        peak = float(design.peak_frequency)
-        around = [
-            min(peak - lower, upper - peak)
-            for lower, upper in exact_orbits.ranges(exact_orbits.quiet(branches, free))
-            if lower <= peak <= upper
-        ]
-        reach.append(max(around, default=0.0) / peak)
-        lower, edge = 0.75 * peak, suppression_band(datasets, name).lower
-        beside.append(
-            exact_orbits.covered(exact_orbits.high(branches, free), lower, edge) / (edge - lower)
-        )
-        pairs.append(exact_orbits.high_counterparts(design, branches, free))
-    pairs = pd.concat(pairs)
-    return {
-        "orbit_reach": np.min(reach),
-        "orbits_beside": np.min(beside),
-        "truly_stable": pairs.stable.mean(),
-        "multiplier": pairs.multiplier.median(),
+        "pulling": np.mean(np.concatenate(pulling)),
+        "orbits": len(near) / len(larger) if len(larger) else np.nan,
+        "orbits_stable": near.stable.mean(),
+        "orbit_error": near.difference.median(),
     }
 
 
@@ -208,25 +137,33 @@ CLAIMS = (
     ),
     Claim(
         number="2",
-        text="Other impacting solutions of (14) and (7) agree closely.",
+        text="All impacting solutions of (14) and (7) but the smallest agree very closely.",
         source="section 3",
-        interpretation="All roots of (14) with walls that push, except the smallest, are compared "
-        "with the solutions of (7) at the same frequency, where both have equally many. In "
-        "addition the larger solutions of (7) are compared with the first harmonic of the nearest "
-        "exact orbit with two symmetric contacts, stable or not, for the dampers of figures 5 and "
-        "8; branches without any stable part are not known.",
+        interpretation="Roots of (14) with walls that push are compared with the solutions of (7) "
+        "at the same W, for all designs of figures 3, 5 and 8. The smallest |a| at each W is left "
+        "out. Very closely means within 5 %. In addition these solutions of (7) are compared with "
+        "the first harmonic of the nearest exact orbit with two symmetric contacts, stable or not, "
+        "for the dampers of figures 5 and 8. Orbits on branches without any stable part are not "
+        "known.",
         measures=(
             Measure(
                 "alike",
-                "share of frequencies at which (14) and (7) have the same number of solutions",
+                "share of W at which (7) has as many solutions as (14) has roots with walls that "
+                "push",
                 least=0.9,
                 decisive=True,
             ),
             Measure(
                 "error", "largest relative difference of the amplitudes", most=0.05, decisive=True
             ),
+            Measure("pulling", "share of W at which (14) also has roots with walls that pull"),
             Measure(
-                "orbits", "share of the larger solutions of (7) with an orbit within 10 % of a"
+                "orbits",
+                "share of these solutions of (7) with an orbit whose first harmonic is within 10 % "
+                "of a",
+            ),
+            Measure(
+                "orbits_stable", "share of the solutions with such an orbit whose orbit is stable"
             ),
             Measure(
                 "orbit_error",
@@ -235,80 +172,5 @@ CLAIMS = (
         ),
         evidence=rigid_against_elastic,
         finding=balance_findings.rigid_against_elastic,
-    ),
-    Claim(
-        number="3",
-        text="Whatever omega_l, a stable low-amplitude solution exists around Wp; a stable "
-        "high-amplitude one coexists outside the suppression band.",
-        source="section 3, figure 3",
-        interpretation="Low and high amplitudes are read as quiet and violent motions, below and "
-        "above half of the free resonance. Outside the band means from 0.75 Wp to the lower edge "
-        "of the band, since above the band the resonance branch has ended. Judged by the stable "
-        "solutions of (7), for omega_l = 0 also by the stable exact orbits of any period, and for "
-        "the designs of figure 3 by the exact quiet orbit at Wp, followed from heavy damping.",
-        measures=(
-            Measure(
-                "reach",
-                "least distance from Wp, over Wp, to a frequency without a stable quiet solution",
-                least=0.1,
-                decisive=True,
-            ),
-            Measure("bands", "share of designs with a suppression band", least=1, decisive=True),
-            Measure(
-                "beside",
-                "least share of frequencies below the band with a stable violent solution",
-                least=0.5,
-                decisive=True,
-            ),
-            Measure(
-                "beside",
-                "least share of frequencies below the band with a stable violent solution",
-                least=1,
-            ),
-            Measure(
-                "orbit_reach",
-                "least distance from Wp, over Wp, to a frequency without a stable quiet orbit",
-                least=0.1,
-                decisive=True,
-            ),
-            Measure(
-                "orbits_beside",
-                "least share of the range below the band with a stable violent orbit",
-                least=0.5,
-                decisive=True,
-            ),
-            Measure(
-                "orbits_beside",
-                "least share of the range below the band with a stable violent orbit",
-                least=1,
-            ),
-            Measure(
-                "truly_stable",
-                "share of the stable violent solutions of (7) whose nearest symmetric orbit with "
-                "two contacts is stable",
-            ),
-            Measure(
-                "multiplier", "median of the largest Floquet multiplier modulus of these orbits"
-            ),
-            Measure(
-                "designs_stable",
-                "share of the designs of figure 3, by caption and by (19), with a stable exact "
-                "quiet orbit at Wp",
-                least=1,
-                decisive=True,
-            ),
-            Measure(
-                "design_multiplier", "largest Floquet multiplier modulus of these quiet orbits"
-            ),
-            Measure("design_damping", "damping h above which all these quiet orbits are stable"),
-            Measure(
-                "design_settled",
-                "largest share of random starts that settle at a design with an unstable quiet "
-                "orbit",
-            ),
-        ),
-        evidence=quiet_and_high,
-        finding=balance_findings.quiet_and_high,
-        figures=("figure_03b",),
     ),
 )

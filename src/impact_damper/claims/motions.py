@@ -109,18 +109,21 @@ CLAIMS = (
         number="5",
         text="The low-amplitude motion has two symmetric impacts per cycle.",
         source="section 3, figure 4",
-        interpretation="All stable orbits of period 1 below half of the free resonance count, in "
-        "the suppression band of harmonic balance, for the elastic dampers of figures 5 and 8.",
+        interpretation="All stable quiet orbits in the suppression band by (7) count, for the "
+        "elastic dampers of figures 5 and 8, of which omega_l is 0. Motions of other periods that "
+        "exist beside them do not count.",
         measures=(
             Measure(
                 "two",
-                "least share of the band in which such orbits exist, all with two contacts a cycle",
+                "least share of the band by (7) in which such orbits exist, all with two contacts "
+                "a cycle",
                 least=1,
                 decisive=True,
             ),
             Measure(
                 "skew",
-                "largest distance of such an orbit from its mirror image half a cycle later",
+                "largest difference of Z1, Z1', Z2 or Z2' of such an orbit from the mirror image "
+                "half a cycle later",
                 most=1e-6,
                 decisive=True,
             ),

@@ -1,6 +1,6 @@
 """Registry of all claims of Chatterjee, Mallik and Ghosh (1995), and the table of verdicts.
 
-Slips are misprints and gaps of the paper.
+Slips, in the names of the code, are misprints and gaps of the paper.
 """
 
 import re
@@ -8,8 +8,10 @@ import re
 import pandas as pd
 
 from impact_damper.claims import (
+    amplitude,
     balance,
     bands,
+    coexistence,
     contact,
     migration,
     motions,
@@ -22,8 +24,10 @@ from impact_damper.claims import (
 from impact_damper.data.table_files import as_markdown
 
 MODULES = (
-    balance,  # 1, 2, 3
-    bands,  # 4, 16, 17
+    balance,  # 1, 2
+    coexistence,  # 3
+    bands,  # 4, 16
+    amplitude,  # 17
     motions,  # 5, 6, 8
     phases,  # 7
     optimum,  # 9, 11
@@ -36,7 +40,7 @@ MODULES = (
 
 
 def _order(claim):
-    """Sort key: claims 1 to 19 before slips S1 to S6."""
+    """Sort key: claims 1 to 19 before misprints and gaps S1 to S6."""
     return claim.number.startswith("S"), int(claim.number.removeprefix("S"))
 
 
@@ -44,7 +48,7 @@ CLAIMS = tuple(sorted((claim for module in MODULES for claim in module.CLAIMS), 
 
 
 def claims(datasets) -> pd.DataFrame:
-    """Table of verdicts: a row for each claim, then one for each slip.
+    """Table of verdicts: a row for each claim, then one for each misprint or gap.
 
     Parameters
     ----------
@@ -54,7 +58,24 @@ def claims(datasets) -> pd.DataFrame:
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
 
-def document(frame, picture=None) -> str:
+# What holds for all claims.
+READING = """\
+S1 to S6 are misprints and gaps of the paper, each taken as the claim that the print is correct.
+
+W is the forcing frequency, Ω in the figures, and Wp its value at the peak of the resonance \
+without the damper. Z1 is the displacement of the primary mass, Z2 its displacement relative to \
+the loose mass. (7), (14) and (19) are equations of the paper: harmonic balance, its limit of \
+rigid walls, and the rule rm Wp^2 d0 = 1 for the clearance.
+
+A motion is violent if its max |Z1| is above half of the free resonance, the resonance branch \
+without the damper; for solutions of (7) |a| counts. A quiet motion has period 1 and is not \
+violent. In all claims the suppression band is the range of W around Wp, up to the end of the free \
+resonance, in which no motion with the damper is violent. By (7) the quiet motion is the only \
+stable one there. In the simulations other motions that are not violent exist beside it, such as \
+the subharmonics that the paper finds within the band of figure 5 (c)."""
+
+
+def document(frame, picture=None, drawn=None) -> str:
     """Return the page of the claims in Markdown: a summary, then a section for each claim.
 
     A section has the claim, the verdict, what the data show, the figures that show it, our reading
@@ -67,16 +88,15 @@ def document(frame, picture=None) -> str:
     picture : callable, optional
         Maps the name of a figure to the Markdown that shows it; by default the figure in the folder
         `figures` beside the folder of the table.
+    drawn : container of str, optional
+        Names of the figures that exist, others are left out; all by default.
     """
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     slips = frame["number"].str.startswith("S")
     parts = [
         "# The paper, claim by claim",
-        f"Claims: {_tally(frame[~slips])}. Slips: {_tally(frame[slips])}.",
-        "S1 to S6 are misprints and gaps of the paper, each taken as the claim that the print is "
-        "correct. W is the forcing frequency, Ω in the figures, and Wp its value at the peak of "
-        "the resonance without the damper; Z1 is the displacement of the primary mass, Z2 its "
-        "displacement relative to the loose mass; (7), (14), (19) are equations of the paper.",
+        f"Claims: {_tally(frame[~slips])}. Misprints and gaps: {_tally(frame[slips])}.",
+        READING,
         as_markdown(
             frame[["number", "claim", "verdict"]].assign(number=frame["number"].map(_link))
         ),
@@ -87,7 +107,7 @@ def document(frame, picture=None) -> str:
             f"## {title(row['number'])}",
             f"> {row['claim']}",
             f"**{row['verdict'].capitalize()}.** {row['finding']}",
-            *map(picture, row["figures"].split()),
+            *[picture(name) for name in row["figures"].split() if drawn is None or name in drawn],
             f"*Our reading:* {row['interpretation']}",
             "<details><summary>Criterion and numbers</summary>",
             f"- **In the paper:** {row['source']}\n- **Criterion:** {row['criterion']}"
@@ -109,8 +129,8 @@ def typeset(text) -> str:
 
 
 def title(number):
-    """Heading of the section of a claim or slip."""
-    return f"Slip {number}" if number.startswith("S") else f"Claim {number}"
+    """Heading of the section of a claim, or of a misprint or gap."""
+    return f"Misprint or gap {number}" if number.startswith("S") else f"Claim {number}"
 
 
 def _link(number):
@@ -119,6 +139,6 @@ def _link(number):
 
 
 def _tally(frame):
-    """Number of claims with each verdict, as text."""
+    """Verdicts, each with the number of its claims, as text."""
     counts = frame["verdict"].value_counts()
-    return ", ".join(f"{number} {verdict}" for verdict, number in counts.items())
+    return ", ".join(f"{verdict} ({number})" for verdict, number in counts.items())

@@ -8,7 +8,7 @@ from impact_damper.workflow.captions import caption
 from impact_damper.workflow.registry import KINDS, TABLES
 
 
-def make_table(name, datasets, path) -> None:
+def make_table(name, datasets, path, drawn=()) -> None:
     """Write a table as CSV and Markdown, with its caption.
 
     Parameters
@@ -20,6 +20,8 @@ def make_table(name, datasets, path) -> None:
         read are not passed on.
     path : pathlib.Path
         Name of the files, without suffix.
+    drawn : sequence of str
+        Names of the figures that the run draws, for a table that shows figures.
     """
     from impact_damper.data import table_files
 
@@ -35,6 +37,8 @@ def make_table(name, datasets, path) -> None:
         csv_name=f"{name}.csv",
         cells=getattr(module, "CELLS", {}),
     )
+    if table.pictures:
+        document = partial(document, drawn=drawn)
     table_files.save_table(frame, f"{path}.csv", f"{path}.md", document)
     _write(f"{path}.rst", table.caption)
 

@@ -1,7 +1,7 @@
 """Which entries of a configuration each stage, figure, table and chapter takes."""
 
 from impact_damper.workflow.captions import cases_in_words, in_words, machine_in_words
-from impact_damper.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES, section_of
+from impact_damper.workflow.registry import CHAPTERS, KINDS, PAPER, STAGES, TABLES, section_of
 from impact_damper.workflow.registry.values import oscillator
 
 # Name of the parameter, keyed by the key under which an entry holds several values of it.
@@ -74,6 +74,18 @@ def figure_values(config, name) -> dict:
     cases = {each: _case(config, figure["kind"], each) for each in figure["data"]}
     words = cases_in_words(cases, KINDS[figure["kind"]].named)
     return figure | {"cases": words, "drawn": figure_data(config, name)}
+
+
+def chapter_values(config, chapter) -> dict:
+    """Return what the job of a chapter is given: each of its figures, and the names of its tables.
+
+    A table that shows figures also needs the names of all figures of the paper's chapters.
+    """
+    tables = CHAPTERS[chapter].TABLES
+    values = {f"figure_{name}": figure_values(config, name) for name in figures_of(config, chapter)}
+    if any(table.pictures for table in tables):
+        values["drawn"] = sorted(name for each in PAPER for name in figures_of(config, each))
+    return values | {"tables": [table.name for table in tables]}
 
 
 def _case(config, kind, name):

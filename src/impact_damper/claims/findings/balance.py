@@ -1,6 +1,14 @@
 """Findings on harmonic balance: claims 1 to 4, 7, 16 and 17."""
 
-from impact_damper.claims.findings.words import least, number, part_of, percent
+from impact_damper.claims.findings.words import (
+    between,
+    least,
+    number,
+    part_of,
+    percent,
+)
+
+CLOSE = 1.25  # largest factor between two amplitudes that agree
 
 
 def small_motion(vanishing, stable, size, orbits, orbit_size, designs, dampers, **others):
@@ -14,77 +22,112 @@ def small_motion(vanishing, stable, size, orbits, orbit_size, designs, dampers, 
     )
 
 
-def rigid_against_elastic(alike, error, orbits, **others):
+def rigid_against_elastic(alike, error, pulling, orbits, orbits_stable, **others):
     """Return the finding on claim 2."""
     return (
-        "Equations (14) and (7) have the same number of solutions at "
-        f"{part_of(alike, 'frequencies')}, and their larger solutions differ by at most "
-        f"{percent(error)}. On the branches of exact orbits computed there is an orbit whose "
-        f"amplitude differs by at most 10 % for {percent(orbits)} of the larger solutions of (7)."
+        f"At {part_of(alike, 'W computed')} equation (7) has as many solutions as (14) has roots "
+        f"with walls that push. But for the smallest their amplitudes differ by at most "
+        f"{percent(error)}. At "
+        f"{percent(pulling)} of these W (14) also has roots whose walls would have to pull, "
+        f"without a counterpart in (7). For {percent(orbits)} of these solutions of (7) an exact "
+        "orbit is known whose first harmonic is within 10 % of a; "
+        f"{part_of(orbits_stable, 'orbits found')} are stable."
     )
 
 
 def quiet_and_high(
-    reach, bands, beside, orbit_reach, orbits_beside, designs_stable, design_multiplier,
-    design_damping, designs, **others,
+    around, bands, beside, designs_stable, orbit_around, single, orbits_beside, truly_stable,
+    design_multiplier, design_settled, least_size, most_size, designs, **others,
 ):  # fmt: skip
     """Return the finding on claim 3."""
-    exact = "At Wp the exact quiet orbit is stable in all designs of figure 3."
+    at_peak = "At Wp the exact quiet orbit is stable in all these designs."
     if designs_stable != 1:
-        exact = (
+        lead = "lead to chaotic or quasi-periodic motions"
+        if design_settled != 0:
+            lead = f"lead to periodic motions in up to {percent(design_settled)} of the cases"
+        at_peak = (
             "At Wp the exact quiet orbit is unstable in "
-            f"{part_of(1 - designs_stable, 'designs of figure 3', designs)}, with Floquet "
-            f"multipliers up to {number(design_multiplier)}; it is stable in all designs only "
-            f"above h = {number(design_damping, 2)}."
+            f"{part_of(1 - designs_stable, 'designs', designs)}, with Floquet multipliers up to "
+            f"{number(design_multiplier)}; there random starts {lead}, with max |Z1| from "
+            f"{percent(least_size)} to {percent(most_size)} of the free resonance."
         )
+    approximated = part_of(
+        truly_stable, "symmetric orbits with two contacts that the violent solutions approximate"
+    )
     return (
-        f"{exact} By (7) {part_of(bands, 'designs')} have a suppression band, a stable quiet "
-        f"solution everywhere within {percent(reach)} of Wp, and below the band a stable violent "
-        f"solution at {least(beside)} of the frequencies. For omega_l = 0 quiet orbits are stable "
-        f"within {percent(orbit_reach)} of Wp, and stable violent ones fill "
-        f"{least(orbits_beside)} of the range below the band."
+        f"By (7) {part_of(bands, 'designs of figure 3', designs)} have a suppression band, a "
+        f"stable quiet solution at {least(around)} of the W within 10 % of Wp, and a stable "
+        f"violent one at {least(beside)} of the W below the band. {at_peak} For omega_l = 0 stable "
+        f"quiet orbits fill {least(orbit_around)} of the range within 10 % of Wp; at a W in the "
+        f"band {least(single)} of the random starts lead to one, the others to motions that "
+        f"coexist. Below the band stable violent orbits fill {least(orbits_beside)} of the range, "
+        f"but {approximated} are stable."
     )
 
 
-def band_width(linear, linear_rule, mass, existing, restitution, reduction, **others):
+def band_width(
+    linear_rule, linear, relative_rule, relative, mass, existing, restitution,
+    reduction, reduction_rule, orbit_reduction, orbit_reduction_rule, **others,
+):  # fmt: skip
     """Return the finding on claim 4."""
+    narrower = "" if relative >= 1 else ", so that relative to Wp the band becomes narrower"
     return (
-        f"By harmonic balance each step to a larger omega_l multiplies the width of the band by at "
-        f"least {number(linear)} with the clearances of the captions and by {number(linear_rule)} "
-        f"with those of (19); each step to a larger rm multiplies it by at least {number(mass)}. "
-        f"In the simulated motions each step in rm multiplies it by at least {number(existing)}, "
-        f"and the step from e = 1 to 0.75 by {number(restitution)}. The relative reduction of "
-        f"the amplitude at Wp varies over omega_l by {number(reduction, 2)}."
+        "By (7) each step to a larger omega_l multiplies the width of the band by at least "
+        f"{number(linear_rule)} with d0 by (19) and by at least {number(linear, 4)} with d0 of the "
+        f"captions. It multiplies the width over Wp by at least {number(relative_rule)} with d0 by "
+        f"(19) and {number(relative)} with d0 of the captions{narrower}. Each step to a larger rm "
+        f"multiplies the width by at least {number(mass)} by (7), and by at least "
+        f"{number(existing)} in the motions that exist; there the step from e = 1 to 0.75 "
+        f"multiplies it by at least {number(restitution)}. The reduction at Wp varies over omega_l "
+        f"by {number(reduction_rule, 2)} percentage points with d0 by (19) and by "
+        f"{number(reduction, 2)} with d0 of the captions; for the exact quiet orbits, stable or "
+        f"not, by {number(orbit_reduction_rule, 2)} and {number(orbit_reduction, 2)} percentage "
+        "points."
     )
 
 
-def phases(below, above, turn_balance, turn, loose_below, loose_above, **others):
+def phases(
+    below, above, highest, turn_balance, turn, in_phase, loose_below, loose_above, **others,
+):  # fmt: skip
     """Return the finding on claim 7."""
     return (
-        f"The first harmonics of Z1 and Z2 are within {number(below, 2)} rad of antiphase below "
-        f"Wp, and within {number(above, 2)} rad of being in phase at the highest W; the change "
-        f"comes at {number(turn)} Wp, by harmonic balance at {number(turn_balance)} Wp. Z1 and the "
-        "displacement x2 of the loose mass do the opposite: they are within "
-        f"{number(loose_below, 2)} rad of being in phase below Wp, and within "
-        f"{number(loose_above, 2)} rad of antiphase at the highest W."
+        "From 0.75 Wp to Wp the first harmonics of Z1 and Z2 are within "
+        f"{number(below, 2)} rad of antiphase. They are a quarter of a cycle apart at "
+        f"{number(turn)} Wp, where (7) predicts {number(turn_balance)} Wp, and within 0.3 rad of "
+        f"being in phase from {number(in_phase)} Wp on. At the highest W computed, "
+        f"{number(highest)}, {number(above, 2)} rad are left. Z1 and the displacement x2 of the "
+        f"loose mass do the opposite: they are within {number(loose_below, 2)} rad of being in "
+        f"phase below Wp, and within {number(loose_above, 2)} rad of antiphase at W = "
+        f"{number(highest)}."
     )
 
 
-def accuracy(typical, width, share, ratio, harmonic, **others):
+def accuracy(typical, width, typical_factor, factor, least_factor, harmonic, share, **others):
     """Return the finding on claim 16."""
-    joint = "but not relative to |a|" if ratio > 1.25 else "and relative to |a|"
+    agrees = "agrees" if factor <= CLOSE else "does not agree"
     return (
         f"Harmonic balance gives the width of the band to {percent(typical)} in the median over "
-        f"the dampers and to {percent(width)} at worst. It gives the amplitude in the band to "
-        f"{percent(share)} of the free resonance, {joint}: max |Z1| is up to {number(ratio, 2)} "
-        f"times as large, and its first harmonic up to {number(harmonic, 2)} times."
+        f"the dampers, and to {percent(width)} at worst. Its amplitude {agrees}: depending on the "
+        "damper, the means of max |Z1| and of |a| over the band differ by a factor of "
+        f"{between(least_factor, factor, lambda value: number(value, 2))}, in the median "
+        f"{number(typical_factor, 2)}. The mean of the first harmonic differs from that of |a| by "
+        f"a factor of up to {number(harmonic, 2)}. Relative to the free resonance max |Z1| and "
+        f"|a| differ by at most {percent(share)}."
     )
 
 
-def amplitude_by_mass(whole, steps, balance, **others):
+def amplitude_by_mass(
+    whole, steps, rule, product_a, product_b, product_c, lightest, heaviest, rule_lightest,
+    rule_heaviest, balance, frequency, **others,
+):  # fmt: skip
     """Return the finding on claim 17."""
     return (
-        f"In the bands the mean of max |Z1| at the largest rm is {percent(whole)} of the mean at "
-        f"the smallest. At each step to a larger rm it falls to at most {percent(steps)} of its "
-        f"previous value, by harmonic balance to at most {percent(balance)}."
+        f"At rm = {number(heaviest)} the mean of max |Z1| over the common band of the dampers of "
+        f"figure 5 is {percent(whole)} of the mean at rm = {number(lightest)}. Each step to a "
+        f"larger rm multiplies the mean by at most {number(steps)}, by (7) by at most "
+        f"{number(balance)}. At W = {number(frequency)}, the design frequency of the paper, rm W^2 "
+        f"d0 is {number(product_a)} in (a), {number(product_b)} in (b) and {number(product_c)} in "
+        "(c), where (19) demands 1. For dampers that fulfil (19) max |Z1| at this W and at rm = "
+        f"{number(rule_heaviest)} is {percent(rule)} of its value at rm = "
+        f"{number(rule_lightest)}."
     )

@@ -10,9 +10,9 @@ def quiet_contacts(two, skew, **others):
     """Return the finding on claim 5."""
     where = "the whole" if two == 1 else f"no more than {percent(two)} of the"
     return (
-        f"Over {where} suppression band of each elastic damper there are stable quiet orbits, all "
-        "with two contacts a cycle; half a cycle later each is its own mirror image to within "
-        f"{number(skew, 1)}."
+        f"Over {where} suppression band of each damper there are stable quiet orbits, all with two "
+        "contacts a cycle. Half a cycle later the state of each is its mirror image: none of Z1, "
+        f"Z1', Z2 and Z2' differs by more than {number(skew, 1)}, in dimensionless units."
     )
 
 

@@ -1,6 +1,6 @@
-"""Findings on the slips S1 to S6."""
+"""Findings on S1 to S6, misprints and gaps of the paper."""
 
-from impact_damper.claims.findings.words import number, percent
+from impact_damper.claims.findings.words import number, part_of, percent
 
 
 def penetration(power, corrected, printed, **others):
@@ -12,44 +12,58 @@ def penetration(power, corrected, printed, **others):
     )
 
 
-def captions(a, b, rule_a, rule_b, **others):
+def captions(a, b, printed_a, printed_b, rule_a, rule_b, **others):
     """Return the finding on S2."""
-    return (
-        f"With the peak frequency of the same omega_l rule (19) gives d0 = {number(rule_a)} in "
-        f"(a) and {number(rule_b)} in (b); the captions print {percent(a)} and {percent(b)} of "
-        "these values."
+    return " ".join(
+        f"In ({panel}) rule (19) gives d0 = {number(ruled)}; the printed {number(printed)} is "
+        f"{_rounding(distance)} of this value."
+        for panel, printed, ruled, distance in (
+            ("a", printed_a, rule_a, a),
+            ("b", printed_b, rule_b, b),
+        )
     )
 
 
-def state_size(components, printed, **others):
+def state_size(components, printed, quiet, **others):
     """Return the finding on S3."""
     return (
         f"A state, at a given phase of the forcing, is {number(components)} numbers, Z1, Z1', Z2 "
-        f"and Z2'; the paper prints {number(printed)}."
+        f"and Z2'; the paper prints {number(printed)}. At the W of figure 4 "
+        f"{part_of(quiet, 'random starts')} lead to the quiet motion that is drawn."
     )
 
 
-def design_point(inertia, **others):
+def design_point(rounding, printed, ruled, inertia, **others):
     """Return the finding on S4."""
-    return f"With rm = 0.12, d0 = 2 and W = 2 the product rm W^2 d0 is {number(inertia)}."
-
-
-def peaks(worst, **others):
-    """Return the finding on S5."""
-    ends = ", ".join(
-        f"{number(value, 4)} for h = {name.removeprefix('end_')}"
-        for name, value in sorted(others.items(), reverse=True)
-        if name.startswith("end_")
-    )
     return (
-        f"The resonance branch of exact orbits ends at W = {ends}. The printed frequencies differ "
-        f"from these by up to {percent(worst)}."
+        f"With rm = 0.12 and W = 2 the product rm W^2 d0 is 1 for d0 = {number(ruled)}. The "
+        f"printed {number(printed)} is {_rounding(rounding)} of this value; the product is then "
+        f"{number(inertia)}."
     )
 
 
-def unprinted(inertia, frequency, **others):
+def peaks(**values):
+    """Return the finding on S5."""
+    dampings = [name.removeprefix("off_") for name in values if name.startswith("off_")]
+    return " ".join(
+        f"For h = {damping} the peak by harmonic balance is at W = "
+        f"{number(values[f'formula_{damping}'], 4)}: the printed "
+        f"{number(values[f'printed_{damping}'])} is {_rounding(values[f'off_{damping}'])} of it; "
+        f"the fold of exact orbits is at {number(values[f'end_{damping}'], 4)}."
+        for damping in sorted(dampings, reverse=True)
+    )
+
+
+def unprinted(clearance, frequency, chosen, inertia, **others):
     """Return the finding on S6."""
     return (
-        f"With the values chosen rm Wp^2 d0 is {number(inertia)} in figure 8, and W is "
-        f"{number(frequency)} times the peak frequency in figure 11."
+        f"For figure 8 the chosen d0 = {number(chosen, 4)} is {_rounding(clearance)} of the value "
+        f"by (19) at the printed Wp; at the Wp by harmonic balance rm Wp^2 d0 is "
+        f"{number(inertia)}. For figure 11 the chosen W is {_rounding(frequency)} of the Wp by "
+        "harmonic balance."
     )
+
+
+def _rounding(distance):
+    """Words for a printed number whose distance to the computed one is given in half units."""
+    return "a right rounding" if distance <= 1 else "not a rounding"

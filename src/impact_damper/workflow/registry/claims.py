@@ -30,5 +30,6 @@ TABLES = (
         ),
         "Every claim of the paper with its interpretation, the numbers that decide it, and the "
         "verdict computed from them.",
+        pictures=True,
     ),
 )

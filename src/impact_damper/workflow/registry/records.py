@@ -50,12 +50,16 @@ class Table(NamedTuple):
         Stages whose datasets it condenses.
     caption : str
         Its caption in the report.
+    pictures : bool
+        Whether its Markdown shows figures: its `document` gets the names of those that the run
+        draws.
     """
 
     name: str
     module: str
     stages: tuple[str, ...]
     caption: str
+    pictures: bool = False
 
 
 class Kind(NamedTuple):
