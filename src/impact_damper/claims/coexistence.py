@@ -63,6 +63,9 @@ def _design_orbits(datasets):
         "design_multiplier": np.max(multipliers),
         "design_damping": max(map(extract.stable_from, orbits)),
         "design_settled": np.max(settled, initial=0.0),
+        "unstable_from": min(
+            (extract.parameter(orbit, "linear_frequency") for orbit in unstable), default=np.nan
+        ),
         "least_size": min((float(size.min()) for size in sizes), default=np.nan),
         "most_size": max((float(size.max()) for size in sizes), default=np.nan),
     }

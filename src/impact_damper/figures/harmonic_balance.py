@@ -10,9 +10,8 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 CAPTION = """
 Amplitude by harmonic balance against forcing frequency, one panel for each clearance. Thick: stable
-solutions of (7) with contact. Thin: without the damper. The paper does not define the suppression
-band. Here it is the range around the peak in which (7) has a single stable solution, smaller than
-the free resonance.
+solutions of (7) with contact. Thin: without the damper. The suppression band is the range around
+the peak in which (7) has a single stable solution with contact, smaller than the free resonance.
 """
 
 

@@ -26,18 +26,18 @@ def rigid_against_elastic(alike, error, pulling, orbits, orbits_stable, **others
     """Return the finding on claim 2."""
     return (
         f"At {part_of(alike, 'W computed')} equation (7) has as many solutions as (14) has roots "
-        f"with walls that push. But for the smallest their amplitudes differ by at most "
-        f"{percent(error)}. At "
-        f"{percent(pulling)} of these W (14) also has roots whose walls would have to pull, "
-        f"without a counterpart in (7). For {percent(orbits)} of these solutions of (7) an exact "
-        "orbit is known whose first harmonic is within 10 % of a; "
-        f"{part_of(orbits_stable, 'orbits found')} are stable."
+        "with walls that push. Apart from the smallest, their amplitudes differ by at most "
+        f"{percent(error)}. At {percent(pulling)} of the W (14) also has roots whose walls would "
+        "have to pull, without a counterpart in (7). For the dampers of figures 5 and 8 an exact "
+        "orbit whose first harmonic is within 10 % of a is known for "
+        f"{percent(orbits)} of these solutions of (7); {part_of(orbits_stable, 'orbits found')} "
+        "are stable."
     )
 
 
 def quiet_and_high(
     around, bands, beside, designs_stable, orbit_around, single, orbits_beside, truly_stable,
-    design_multiplier, design_settled, least_size, most_size, designs, **others,
+    design_multiplier, design_settled, unstable_from, least_size, most_size, designs, **others,
 ):  # fmt: skip
     """Return the finding on claim 3."""
     at_peak = "At Wp the exact quiet orbit is stable in all these designs."
@@ -47,12 +47,14 @@ def quiet_and_high(
             lead = f"lead to periodic motions in up to {percent(design_settled)} of the cases"
         at_peak = (
             "At Wp the exact quiet orbit is unstable in "
-            f"{part_of(1 - designs_stable, 'designs', designs)}, with Floquet multipliers up to "
-            f"{number(design_multiplier)}; there random starts {lead}, with max |Z1| from "
-            f"{percent(least_size)} to {percent(most_size)} of the free resonance."
+            f"{part_of(1 - designs_stable, 'designs', designs)}, all with omega_l of at least "
+            f"{number(unstable_from)}, with Floquet multipliers up to {number(design_multiplier)}; "
+            f"there random starts {lead}, with max |Z1| from {percent(least_size)} to "
+            f"{percent(most_size)} of the free resonance."
         )
     approximated = part_of(
-        truly_stable, "symmetric orbits with two contacts that the violent solutions approximate"
+        truly_stable,
+        "symmetric orbits with two contacts that the violent solutions of (7) approximate",
     )
     return (
         f"By (7) {part_of(bands, 'designs of figure 3', designs)} have a suppression band, a "
@@ -93,8 +95,8 @@ def phases(
     return (
         "From 0.75 Wp to Wp the first harmonics of Z1 and Z2 are within "
         f"{number(below, 2)} rad of antiphase. They are a quarter of a cycle apart at "
-        f"{number(turn)} Wp, where (7) predicts {number(turn_balance)} Wp, and within 0.3 rad of "
-        f"being in phase from {number(in_phase)} Wp on. At the highest W computed, "
+        f"{number(turn)} Wp, where by (7) a changes sign at {number(turn_balance)} Wp, and within "
+        f"0.3 rad of being in phase from {number(in_phase)} Wp on. At the highest W computed, "
         f"{number(highest)}, {number(above, 2)} rad are left. Z1 and the displacement x2 of the "
         f"loose mass do the opposite: they are within {number(loose_below, 2)} rad of being in "
         f"phase below Wp, and within {number(loose_above, 2)} rad of antiphase at W = "
@@ -107,7 +109,7 @@ def accuracy(typical, width, typical_factor, factor, least_factor, harmonic, sha
     agrees = "agrees" if factor <= CLOSE else "does not agree"
     return (
         f"Harmonic balance gives the width of the band to {percent(typical)} in the median over "
-        f"the dampers, and to {percent(width)} at worst. Its amplitude {agrees}: depending on the "
+        f"the dampers, and to {percent(width)} at worst. The amplitude {agrees}: depending on the "
         "damper, the means of max |Z1| and of |a| over the band differ by a factor of "
         f"{between(least_factor, factor, lambda value: number(value, 2))}, in the median "
         f"{number(typical_factor, 2)}. The mean of the first harmonic differs from that of |a| by "
