@@ -166,7 +166,7 @@ CLAIMS = (
         ),
         evidence=widening,
         finding=balance_findings.band_width,
-        figures=("figure_03a", "figure_03b", "figure_03c", "figure_05b", "figure_10"),
+        figures=("figure_03a", "figure_03b", "figure_03c", "figure_05a", "figure_10"),
     ),
     Claim(
         number="16",
@@ -175,10 +175,10 @@ CLAIMS = (
         source="section 3, figure 5",
         interpretation="Accurately means within 25 %, for both. The median over the dampers of "
         "figures 5 and 8 decides; for full agreement all of them must agree. The width by (7) is "
-        "compared with the width by the motions that exist. Chaotic motions were looked for at "
-        "steps of W only: where one ends the band, the width within the step that agrees "
-        "least counts. The amplitude is |a| by (7) and max |Z1| of the smallest stable quiet "
-        "orbit, each averaged over the band by (7).",
+        "compared with the width by the motions that exist, violent chaos included, lasting or "
+        "not. Chaos was looked for at steps of W only: where it ends the band, the width within "
+        "the step that agrees least counts. The amplitude is |a| by (7) and max |Z1| of the "
+        "smallest stable quiet orbit, each averaged over the band by (7).",
         measures=(
             Measure(
                 "typical",

@@ -1,4 +1,4 @@
-"""Criteria of claims on both sides of their borders, with made-up data."""
+"""Criteria of claims on harmonic balance: made-up data on both sides of each border."""
 
 import numpy as np
 import pytest
