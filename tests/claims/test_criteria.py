@@ -16,7 +16,7 @@ from helpers.made_up import (
 from helpers.made_up_orbits import branch, branches
 
 from impact_damper.claims import exact_orbits
-from impact_damper.claims.claim import DIFFERENT, NOT_REPRODUCED, REPRODUCED
+from impact_damper.claims.claim import DIFFERENT, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from impact_damper.claims.extract import ELASTIC
 from impact_damper.claims.verdicts import CLAIMS
 from impact_damper.data.datasets import damper_of
@@ -287,3 +287,9 @@ def test_early_releases_reach_period_3(third, reached, expected, data):
     assert values["of_others"] == pytest.approx(third / 500)
     assert values["by_way"] == 0
     assert BY_NUMBER["19"].verdict(values) == expected
+
+
+def test_without_any_optimum_the_claims_are_open(data):
+    for name in data["optimum"]:
+        scale(data, "optimum", name, optimum_clearance=np.nan)
+    assert verdict("9", data) == verdict("11", data) == NOT_DECIDABLE

@@ -96,7 +96,7 @@ def restitution(datasets):
         for group in sweeps(datasets, "damping", "frequency", "mass_ratio").values()
         for step in restitution_steps(group)
     )
-    worst = steps.loc[steps.clearance.idxmax()]
+    worst = steps.loc[np.argmax(steps.clearance.fillna(-np.inf))]
     return {
         "band": bands[1].least_width / bands[0].width,
         "amplitude": float(ratio.min()),

@@ -48,7 +48,7 @@ def first_collisions(literal, within_gap, starts, clearances, beyond_walls, wait
         f"{ball} in the ball lead to a collision, and {gap} in the part of the ball within the "
         f"gap. Of the starts in the ball {listed(map(percent, beyond_walls))} lie beyond a wall. "
         "Starts within the gap have their first collision after at most "
-        f"{listed(map(number, waits))} cycles."
+        f"{listed(f'{wait:.0f}' for wait in waits)} cycles."
     )
 
 
