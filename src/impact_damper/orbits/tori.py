@@ -33,6 +33,8 @@ ON_CIRCLE = 1e-6
 # Tori are looked for where log |multiplier| of the orbit is close to these, until two are found.
 LEVELS = tuple(0.01 * 0.5**k for k in range(4))
 CLOSE, STEPS = 0.1, 4
+# Largest distance of such an orbit from the point, in units of the parameter.
+FARTHEST = 0.1
 # Changes of the parameter from which the derivative of log |multiplier| is taken.
 NUDGES = (1e-7, 1e-9, 1e-11)
 # Iterates over which a motion approaches a torus, times the level, and iterates after that, one
@@ -118,6 +120,8 @@ class _Pair(NamedTuple):
 
 def _pair(orbit: Orbit):
     """Return the `_Pair` of an orbit that is nearest to the unit circle, or None."""
+    if not np.all(np.isfinite(orbit.monodromy)):
+        return None
     values, vectors = np.linalg.eig(orbit.monodromy)
     complex_ones = np.flatnonzero(values.imag > 0)
     if len(complex_ones) == 0:
@@ -133,6 +137,8 @@ def amplitude_growth(orbit) -> float:
     of a motion are free of the change of r within a revolution.
     """
     pair, last = _pair(orbit), math.nan
+    if pair is None:
+        return math.nan
     for amplitude in AMPLITUDES:
         states = _iterates(orbit, orbit.state + amplitude * pair.right.real, ITERATES)
         inverse = 1 / np.abs(2 * (states - orbit.state) @ pair.left) ** 2
@@ -161,13 +167,16 @@ def _beyond(point, level):
             break
     else:
         return None
-    change = level * 2 * nudge / (sides[0] - sides[1])
+    slope = (sides[0] - sides[1]) / (2 * nudge)
+    if abs(slope) * FARTHEST < level:
+        return None
+    change = level / slope
     for _ in range(STEPS):
         beyond = _at(point, point.value + change)
         ratio = _logarithm(beyond) / level
         if abs(ratio - 1) < CLOSE:
             return beyond
-        if not 0.2 < ratio < 5:
+        if not 0.2 < ratio < 5 or abs(change) > ratio * FARTHEST:
             return None
         change /= ratio
     return None
@@ -192,11 +201,15 @@ def _rotation(orbit, level, growth):
     start = orbit.state + math.sqrt(level / -growth) * _pair(orbit).right.real
     state = _iterates(orbit, start, int(APPROACH / level))[-1]
     for count in BLOCKS:
-        states = _iterates(orbit, state, count)
-        state = states[-1].copy()
+        if not np.all(np.isfinite(state)):
+            return None
+        states = _iterates(orbit, state.copy(), count)
+        state = states[-1]
         planes = [states[:, k] + 1j * states[:, k + 1] / orbit.p[FREQUENCY] for k in (0, 2)]
-        found = [each for each in map(find_rotation, planes) if each is not None]
-        if not found or min(each.error for each in found) == math.inf:
+        finite = np.all(np.isfinite(state))
+        found = [find_rotation(points) for points in planes] if finite else []
+        found = [rotation for rotation in found if rotation is not None]
+        if not found:
             return None
         best = min(found, key=lambda rotation: rotation.error)
         if best.known:
