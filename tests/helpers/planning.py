@@ -36,8 +36,8 @@ def jobs(config) -> dict:
         for name in names:
             needs = _needed(selection.read_by(config, stage, name))
             found[f"{stage}/{name}"] = Job(_texts({"name": name} | given[name]), needs)
-            if record.page:
-                found[f"page/{name}"] = Job(_texts({"name": name}), _needed({stage: [name]}))
+        if record.page:
+            found[f"pages/{stage}"] = Job(_texts({"names": names}), _needed({stage: names}))
     for chapter in CHAPTERS:
         given = selection.chapter_values(config, chapter)
         needs = _needed(selection.chapter_data(config, chapter))
@@ -63,7 +63,7 @@ def job_of_file(config, path):
     if folder == "tables":
         return f"chapter/{next(c for c in CHAPTERS if TABLES[name] in CHAPTERS[c].TABLES)}"
     if path.parent.parent.name in STAGES:
-        return f"page/{folder}"
+        return f"pages/{path.parent.parent.name}"
     return job_of(folder, name) if folder in STAGES else name
 
 

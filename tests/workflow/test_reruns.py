@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 import yaml
 from faults.project import Project
-from helpers import planning
+from helpers import configurations, planning
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
@@ -59,8 +59,8 @@ VALUES = {
 # Edits of files, and the jobs that run again.
 FILES = {
     "requirements.lock": {"*"},
-    "src/impact_damper/figures/style.py": {"page/*", *chapters(*CHAPTERS)},
-    "src/impact_damper/pages/templates/page.html": {"page/*"},
+    "src/impact_damper/figures/style.py": {"pages/machines", *chapters(*CHAPTERS)},
+    "src/impact_damper/pages/templates/page.html": {"pages/machines"},
     "src/impact_damper/tables/migration.py": chapters("migration"),
     "src/impact_damper/figures/response.py": chapters("responses"),
     "workflow/scripts/motion.py": {"motion/figure_04", *chapters("responses", "claims")},
@@ -84,7 +84,7 @@ def project(tmp_path_factory):
         output.parent.mkdir(parents=True, exist_ok=True)
         with Dataset(output, "w") if output.suffix == ".nc" else output.open("w"):
             pass
-    config = yaml.safe_load((project / "config/config.yaml").read_text())
+    config = configurations.read(project / "config/config.yaml")
     (project / "results/kernels.compiled").write_text(compiled_kernels(config))
     result = snakemake(project, "everything", "--touch", "--forceall")
     assert result.returncode == 0, result.stdout + result.stderr
@@ -93,7 +93,7 @@ def project(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def config(project):
-    return yaml.safe_load((project / "config/config.yaml").read_text())
+    return configurations.read(project / "config/config.yaml")
 
 
 @pytest.fixture(scope="module")

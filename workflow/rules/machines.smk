@@ -18,26 +18,29 @@ rule machines:
         "../scripts/machines.py"
 
 
+# One job for the pages of all machines: starting a process for each would take as long as its page.
 rule machine_pages:
     input:
-        **data_by_stage({"machines": ["{name}"]}),
+        machines=data("machines"),
         code=code("machine_pages"),
         templates=[local(PACKAGE / "pages/templates" / name) for name in ("page.html", "page.md")],
     output:
-        report(
-            "<results>/machines/{name}/index.html",
-            category=CHAPTERS["machines"].TITLE,
-            labels={"kind": "page", "name": "{name}"},
-        ),
-        "<results>/machines/{name}/report.md",
-        expand("<results>/machines/{{name}}/{figure}.png", figure=STAGES["machines"].page),
+        [page for page in page_files("machines") if not page.endswith("index.html")],
+        [
+            report(
+                f"<results>/machines/{name}/index.html",
+                category=CHAPTERS["machines"].TITLE,
+                labels={"kind": "page", "name": name},
+            )
+            for name in selection.entries(config, "machines")
+        ],
     log:
-        "<logs>/machine_pages/{name}.log",
+        "<logs>/machine_pages.log",
     conda:
         ENVIRONMENT
     params:
-        name=lambda wildcards: {"name": wildcards.name},
+        names={"names": selection.entries(config, "machines")},
     message:
-        "The page of the machine {wildcards.name}"
+        "The pages of the machines"
     script:
         "../scripts/machine_pages.py"

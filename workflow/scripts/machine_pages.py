@@ -1,11 +1,10 @@
-"""The page of a machine, in HTML and Markdown, with its figures."""
-
-from pathlib import Path
+"""The pages of all machines, in HTML and Markdown, with their figures."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.pages.machine import FIGURES, machine_page
 from impact_damper.pages.render import write_page
 
 job = Job(snakemake)
-((name, data),) = job.datasets["machines"].items()
-write_page(machine_page(name, data), FIGURES, data, Path(job.output).parent)
+for name in job["names"]:
+    data = job.datasets["machines"][name]
+    write_page(machine_page(name, data), FIGURES, data, job.results / "machines" / name)

@@ -13,12 +13,10 @@ from impact_damper.workflow.registry import (
     migration,
     published,
     responses,
-    schematics,
 )
 
 # One job draws the figures and makes the tables of a chapter.
 CHAPTERS = {
-    "schematics": schematics,
     "design": design,
     "responses": responses,
     "clearance": clearance,

@@ -1,4 +1,4 @@
-"""Chapter of the report: harmonic balance."""
+"""Chapter of the report: schematics of the models, and harmonic balance."""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
 from impact_damper.workflow.registry.values import frequencies, search, settling, system
@@ -23,13 +23,14 @@ def harmonic_convergence(config, name):
     }
 
 
-TITLE = "Harmonic balance"
+TITLE = "Models and harmonic balance"
 STAGES = (
     Stage("harmonic_balance", "curves", harmonic_balance),
     Stage("design_orbit", "curves", design_orbit),
     Stage("harmonic_convergence", "harmonic_convergence", harmonic_convergence),
 )
 KINDS = (
+    Kind("schematic", (), module="figures.schematics", most=1),
     Kind("harmonic_balance", ("harmonic_balance",)),
     Kind("harmonic_convergence", ("harmonic_convergence",), most=5),
 )
