@@ -32,9 +32,9 @@ TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadsc
 test: kernels
 	$(TESTS) $(PYTEST)
 
-# The tests that start neither Snakemake nor a job of the workflow.
+# Without the tests marked `workflow` or `thorough`; pyproject.toml says what these are.
 quick: kernels
-	$(TESTS) -m "not workflow" $(PYTEST)
+	$(TESTS) -m "not workflow and not thorough" $(PYTEST)
 
 # Two runs, on one core and two, are compared; the whole paper with CONFIG= and nothing after it.
 CONFIG ?= config/smoke.yaml

@@ -81,7 +81,10 @@ def imports_of(text, modules):
     return found & modules
 
 
-IMPORTS = {name: imports_of(path.read_text(), set(FILES)) for name, path in FILES.items()}
+@pytest.fixture(scope="module")
+def imports():
+    """Imports of each module of the package."""
+    return {name: imports_of(path.read_text(), set(FILES)) for name, path in FILES.items()}
 
 
 def room_of(module):
@@ -123,12 +126,12 @@ def test_every_room_has_a_floor():
     assert rooms == set(FLOORS)
 
 
-def test_no_import_runs_upward():
-    assert upward_edges(IMPORTS, FLOORS) == []
+def test_no_import_runs_upward(imports):
+    assert upward_edges(imports, FLOORS) == []
 
 
-def test_imports_form_no_circle():
-    assert circle(IMPORTS) == []
+def test_imports_form_no_circle(imports):
+    assert circle(imports) == []
 
 
 def test_large_rooms_have_a_reason():

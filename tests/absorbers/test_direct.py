@@ -20,6 +20,7 @@ HARD = Machine(**SPRING, cubic_stiffness=4e9)
 BAND = (20.0, 32.0)
 
 
+@pytest.mark.thorough
 def test_of_a_machine_that_is_nearly_linear():
     machine, band = Machine(**SPRING, cubic_stiffness=1.0), (16.0, 26.0)
     frequencies = np.linspace(*band, 2001)
@@ -30,6 +31,7 @@ def test_of_a_machine_that_is_nearly_linear():
     assert_allclose(best, exact, rtol=5e-3)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     "machine", [HARD, Machine(mass=12, cubic_stiffness=4e9, damping=15, force=40)]
 )
@@ -47,6 +49,7 @@ def test_no_absorber_nearby_is_better(machine):
             assert worst(other) > least * (1 - 1e-2)
 
 
+@pytest.mark.thorough
 def test_it_is_better_by_exact_motions():
     data = absorber_responses(HARD, 0.6, np.linspace(*BAND, 25), [1.0], detunings=[0.0])
     worst = data["competitor_displacement"].max("frequency").squeeze().to_series()

@@ -55,6 +55,7 @@ def test_linear_machines(name):
     np.testing.assert_array_equal(found.share, 1)
 
 
+@pytest.mark.thorough
 def test_what_is_not_possible_is_said():
     linear = absorber_responses(LINEAR["force"], 0.6, FREQUENCIES, [1.0])
     remarks = json.loads(linear.attrs["remarks"])
@@ -68,6 +69,7 @@ def test_what_is_not_possible_is_said():
     assert np.isfinite(data["competitor_displacement"].values[[0, 3]]).all()
 
 
+@pytest.mark.thorough
 def test_the_published_nonlinear_absorber():
     """Both peaks of Habib and others, by a balance of four harmonics written down apart."""
     machine = Machine(mass=1, linear_stiffness=1, cubic_stiffness=1, damping_ratio=1e-6, force=0.03)
@@ -103,6 +105,7 @@ def test_a_motion_without_a_period_by_scipy():
     assert_allclose(found["competitor_displacement"], 1e3 * np.abs(run.y[0]).max(), rtol=0.01)
 
 
+@pytest.mark.thorough
 def test_a_motion_without_a_period_that_few_starts_reach():
     """It is found from its neighbours in frequency and force where no random start leads to it."""
     machine, absorber = HARD, best_absorber(HARD, 0.6, (20, 32))
@@ -139,6 +142,7 @@ def test_a_detached_resonance():
         assert_allclose(np.abs(run.y[0]).max(), orbits.largest[orbit, 0] * length, rtol=1e-3)
 
 
+@pytest.mark.thorough
 def test_the_bare_machine_by_the_search_of_the_package():
     """Motions from random starts by the Taylor series that also treats contacts."""
     data = absorber_responses(HARD, 0.6, [23.0, 24.0], [1.0], detunings=[0.0])
@@ -159,6 +163,7 @@ def test_a_softening_machine_escapes_from_some_starts():
     assert (data["absorber_cubic_stiffness"].sel(competitor="nonlinear") < 0).all()
 
 
+@pytest.mark.thorough
 def test_wider_searches_find_nothing_larger():
     """With the starts that a table has, no motion is missed that many starts reach."""
     few = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], detunings=[0.0], starts=4)

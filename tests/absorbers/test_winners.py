@@ -4,19 +4,17 @@ From rest and from a random start the machine with the absorber, as designed and
 worse, settles to the largest motion that the comparison names, where it is largest.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import yaml
+from helpers import configurations
 from scipy.integrate import solve_ivp
 
 from impact_damper.absorbers.responses import absorber_responses
 from impact_damper.machine.machine import Machine
-from impact_damper.workflow.configuration import LOADER
 
-CONFIG = Path(__file__).parents[2] / "config/config.yaml"
-MACHINES = yaml.load(CONFIG.read_bytes(), LOADER)["machines"]
+pytestmark = pytest.mark.thorough
+
+MACHINES = configurations.read()["machines"]
 PERIODS, SAMPLES = 120, 64
 
 

@@ -49,6 +49,7 @@ def free(request):
     return request.param, p, free_attractors(p, WINDOW, Settling())
 
 
+@pytest.mark.thorough
 def test_labels_of_random_states(free):
     """SciPy's runs over 60 periods end on the attractors that the labels name."""
     frequency, p, attractors = free
@@ -124,6 +125,7 @@ def in_cells(data, x, v):
     )
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("phase", [np.pi / 2, 3.0])
 def test_boundaries_are_stable_manifolds(phase):
     """Labels change within a cell of a stable manifold, and change wherever there is one.

@@ -13,7 +13,10 @@ from benchmarks.methods import TIMED, heyoka, starts_of
 from impact_damper.data import table_files
 from impact_damper.system.packed import pack
 
-pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
+pytestmark = [
+    pytest.mark.thorough,
+    pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle()),
+]
 
 STATE = (0.0057201257, 0.1873935399, 0.0019436955, -2.4079123713)
 TIMINGS = "seconds\tpeak_memory_mb\tcpu_seconds\n{}\t{}\t{}\n"

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-import yaml
+from helpers import configurations
 from helpers.changes import (
     assign,
     copy,
@@ -20,7 +20,6 @@ from helpers.changes import (
     unstable,
 )
 from helpers.made_up import PEAKS, damped_branches, world
-from helpers.running import ROOT
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import (
@@ -190,7 +189,7 @@ def test_a_sentence_for_each_verdict_says_its_reason(claim, data):
 
 
 def test_claims_are_shown_by_figures_of_the_configuration():
-    figures = yaml.safe_load((ROOT / "config/config.yaml").read_text())["figures"]
+    figures = configurations.read()["figures"]
     assert {name for claim in CLAIMS for name in claim.figures} <= figures.keys()
 
 

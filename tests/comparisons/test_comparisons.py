@@ -43,6 +43,7 @@ def test_decay_is_that_of_rigid_impacts():
     assert_allclose(decay_time(absorber, 1e8), last - first, rtol=2e-3)
 
 
+@pytest.mark.thorough
 def test_basins_are_those_of_scipy():
     """Starts that SciPy runs to the same motion as the published start of that motion."""
     found = basin_shares(150, 7, Settling())

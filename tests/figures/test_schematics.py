@@ -41,6 +41,7 @@ def elsewhere(tmp_path_factory):
     return folder
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", NAMES)
 def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
     """Saved again, and drawn and saved in a process with another hash seed and time zone."""

@@ -1,17 +1,16 @@
 """Configurations with one known fault each."""
 
 import copy
-from pathlib import Path
 from typing import NamedTuple
 
-import yaml
 from hypothesis import strategies as st
 from snakemake.utils import update_config
 
+from helpers import configurations
+from helpers.running import ROOT
 from impact_damper.data.variables.studies import AXES as STUDY_AXES
 from impact_damper.workflow.configuration import without_left_out
 
-ROOT = Path(__file__).parents[2]
 GONE = object()
 # Keys whose values are whole numbers, outside sections that hold nothing else.
 WHOLE = {
@@ -32,8 +31,8 @@ ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "scipy_every", "with
 
 def small_configuration():
     """Return the configuration of the smoke run, with an entry or two in each section."""
-    config = yaml.safe_load((ROOT / "config/config.yaml").read_text())
-    update_config(config, yaml.safe_load((ROOT / "config/smoke.yaml").read_text()))
+    config = configurations.read()
+    update_config(config, configurations.read(ROOT / "config/smoke.yaml"))
     return without_left_out(config)
 
 

@@ -6,7 +6,10 @@ from references import extended
 from references.extended.agreement import COUNT, KERNELS, TOLERANCES, agreement, describe
 from references.extended.starts import KINDS
 
-pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
+pytestmark = [
+    pytest.mark.thorough,
+    pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle()),
+]
 
 # Largest share of starts for which rounding decides whether a contact takes place. It is larger
 # for starts that graze or lie on a wall, and for motions with large Lyapunov exponents.

@@ -116,6 +116,7 @@ def test_threads_may_call_at_once():
     assert np.all(arrays == 1.0)
 
 
+@pytest.mark.thorough
 def test_callers_are_loaded_from_the_cache(tmp_path):
     assert run(tmp_path, USE) == "2.0 0\n"
     assert run(tmp_path, USE) == "2.0 1\n"

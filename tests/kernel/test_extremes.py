@@ -103,6 +103,7 @@ def scale(least, most):
     return st.floats(np.log10(least), np.log10(most)).map(lambda power: float(10**power))
 
 
+@pytest.mark.thorough
 @settings(
     derandomize=True,
     deadline=None,

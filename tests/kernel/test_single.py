@@ -153,6 +153,7 @@ def check_contact(lanes, c, offset, drift, clearance, length, expecting=()):
     return t, side
 
 
+@pytest.mark.thorough
 @widths
 @expected
 @examples
@@ -163,6 +164,7 @@ def test_first_contact_of_random_polynomials(lanes, expecting, c, offset, drift,
     check_contact(lanes, c, offset, drift, abs(c[0] + offset) + 0.25, length, expecting)
 
 
+@pytest.mark.thorough
 @widths
 @expected
 @examples
@@ -224,6 +226,7 @@ def test_start_within_rounding_of_a_wall(roundings, sign):
     assert length < 1e-12
 
 
+@pytest.mark.thorough
 @widths
 @examples
 @given(

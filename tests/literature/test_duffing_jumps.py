@@ -19,6 +19,7 @@ def amplitudes(damping, cubic, force, r):
     return np.sqrt(roots[(abs(roots.imag) < 1e-9) & (roots.real > 0)].real)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("cubic", [-1.0, 1.0])
 def test_jumps_are_the_folds_at_small_damping(cubic):
     """The number of amplitudes changes within a distance that falls with the damping."""

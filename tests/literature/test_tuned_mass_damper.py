@@ -19,6 +19,7 @@ from impact_damper.literature.tuned_mass_damper import (
 MASSES = [0.01, 0.05, 0.2, 0.7]
 
 
+@pytest.mark.thorough
 def test_response_is_that_of_the_equations():
     """The largest displacement of the settled motion, by SciPy."""
     mass, tuned, damping = tuning = Tuning(0.1, 0.93, 0.2)

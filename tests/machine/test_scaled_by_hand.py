@@ -110,6 +110,7 @@ def assert_same_basins(found, by_hand):
     np.testing.assert_allclose(found["basin_velocity"], by_hand["basin_velocity"] * LENGTH / TIME)
 
 
+@pytest.mark.thorough
 def test_basins_of_a_machine():
     window = {"displacement": f"{3e3 * LENGTH} mm", "velocity": 4.5 * LENGTH / TIME}
     found = idm.basins(HARD, None, hertz(1.85), **window, cells=30)

@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.thorough
+
 # Before each long call comes a short one, so that the kernels are compiled.
 SCRIPT = """
 import os

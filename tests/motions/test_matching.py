@@ -70,6 +70,7 @@ def test_settled_motions_are_followed_instead():
     assert match_unsettled([motion("settled", 1.0, 1)], [motion("settled", 1.0, 1)]) == []
 
 
+@pytest.mark.thorough
 def test_a_torus_keeps_its_number():
     """The torus of this damper exists at each value, and once only."""
     found = frequency_response(PAPER, Damper(0.25, 1.0, 0.75), [1.45, 1.5, 1.55], starts=40)

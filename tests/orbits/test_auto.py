@@ -16,6 +16,8 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator
 
+pytestmark = pytest.mark.thorough
+
 STORED = json.loads((Path(folds.__file__).parent / "folds.json").read_text())["points"]
 BRANCHES = {"response": (folds.RESPONSE, (0.6, 4.0)), "subharmonic": (folds.SUBHARMONIC, (1, 4))}
 

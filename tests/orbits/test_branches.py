@@ -155,6 +155,7 @@ def test_branch_of_two_turns_is_recognised_from_every_motion_on_it():
     assert branches["seeds"] >= 4 and branches["switches"] == 1 and branches["switches_lost"] == 0
 
 
+@pytest.mark.thorough
 def test_a_closed_branch_is_the_same_in_both_directions():
     """Through orbits of period 12 with multipliers of 1e11, between other branches close by."""
     oscillator, damper = Oscillator(0.107), Damper(0.12, 1.063)
@@ -251,6 +252,7 @@ def grazing():
     return soft, branches, changes
 
 
+@pytest.mark.thorough
 def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
     _, branches, changes = grazing
     for k in changes:
@@ -258,6 +260,7 @@ def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
         assert branches["event_speed"].values[k] < 1e-4, branches["event_kind"].values[k]
 
 
+@pytest.mark.thorough
 def test_contacts_on_both_sides_of_grazing(grazing):
     """On both sides of the event simulated orbits have the number of contacts that is stored."""
     soft, branches, changes = grazing
@@ -272,6 +275,7 @@ def test_contacts_on_both_sides_of_grazing(grazing):
         assert {len(words[0]), len(words[1])} <= sides
 
 
+@pytest.mark.thorough
 def test_orbits_near_grazing_are_flagged(grazing):
     _, branches, changes = grazing
     slow = branches["least_speed"].values < 0.01

@@ -66,6 +66,7 @@ def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
     assert {event.before, event.after} == {"+-", "++--"} and event.point.orbit.least_speed < 1e-5
 
 
+@pytest.mark.thorough
 def test_ends_of_all_branches_of_a_damper():
     """Branches of the inelastic damper end at the range, at another branch, or are closed."""
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)

@@ -50,6 +50,7 @@ def test_peaks_are_turning_points(damper):
         assert abs(states[-1, 1]) < 1e-6
 
 
+@pytest.mark.thorough
 @cases
 @pytest.mark.parametrize("orders", [(10, 13), (24, 30)])
 def test_other_orders_come_to_the_same(damper, orders):

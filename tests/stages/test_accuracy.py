@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
+from helpers import configurations
 
 from impact_damper.data.datasets import flag
 from impact_damper.kernel.compiling import kernel
@@ -22,7 +22,7 @@ from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.tables.accuracy import LABELS, SHOWN, cheapest, models
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+CONFIG = configurations.read()
 REFERENCES = json.loads((ROOT / "workflow/resources/references.json").read_text())
 FEW = {
     "taylor": [1e-3, 1e-6, 1e-9],

@@ -28,6 +28,7 @@ def free():
     return harmonic_convergence.harmonic_convergence(PAPER, None, 1.9, chosen, cold=chosen.tolist())
 
 
+@pytest.mark.thorough
 def test_elastic_contact_converges_by_the_predicted_powers(soft):
     assert (soft["series_status"] == flag("series_status", "converged")).all()
     assert (soft["hill_status"] == flag("hill_status", "found")).all()
@@ -53,12 +54,14 @@ def test_singularity_of_a_fast_motion():
     assert near == pytest.approx(ellipk(0.5) / amplitude, rel=1e-3)
 
 
+@pytest.mark.thorough
 def test_the_exact_orbit_closes(soft, free):
     for data in (soft, free):
         assert data["exact_status"] == flag("exact_status", "found")
         assert data["exact_residual"] < 1e-12
 
 
+@pytest.mark.thorough
 def test_cold_starts_are_told_apart(soft):
     status = dict(zip(soft["highest_harmonic"].values, soft["cold_status"].values, strict=True))
     assert status[1] == status[3] == flag("cold_status", "same_motion")
@@ -72,6 +75,7 @@ def test_the_dashpot_delays_the_asymptotic_range():
     assert convergence.asymptotic_harmonic(INELASTIC, 2.0) > 200
 
 
+@pytest.mark.thorough
 def test_table_and_figure(soft, free):
     rows = table({"harmonic_convergence": {"soft": soft, "free": free}}).set_index("motion")
     assert rows.loc["soft", "N for 1 %"] == 23

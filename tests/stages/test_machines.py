@@ -54,6 +54,7 @@ def finished(tmp_path_factory):
     return design(folder=folder), folder
 
 
+@pytest.mark.thorough
 def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
     data, folder = finished
     assert kept(folder) == STEPS
@@ -66,6 +67,7 @@ def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
     assert design(folder=folder).identical(data)
 
 
+@pytest.mark.thorough
 def test_an_interrupted_design_goes_on_where_it_was(finished, tmp_path, monkeypatch):
     """On two threads the same comes out as on one."""
 
@@ -96,6 +98,7 @@ def test_ctrl_c_is_heard_while_motions_run(tmp_path):
     assert kept(tmp_path) < STEPS
 
 
+@pytest.mark.thorough
 def test_a_free_restitution_is_the_best_of_several(tmp_path):
     data = design(restitution=(0.4, 0.8), folder=tmp_path)
     tried = data["tried_restitution"].values
@@ -116,6 +119,7 @@ def test_a_range_of_restitutions_ascends_within_bounds(ends):
         design(restitution=ends)
 
 
+@pytest.mark.thorough
 def test_den_hartogs_absorber_stands_beside_the_optimum(finished):
     """By f = 1/(1 + m) and z^2 = 3 m/(8 (1 + m)), with damping 2 z m_a w_a."""
     ratio, angular = 0.1, np.sqrt(2e5 / 12) / 1.1
@@ -125,12 +129,14 @@ def test_den_hartogs_absorber_stands_beside_the_optimum(finished):
     assert data["den_hartog_damping"] == pytest.approx(damping)
 
 
+@pytest.mark.thorough
 def test_each_variable_has_its_meaning_unit_and_words(finished):
     data, _ = finished
     assert all({"long_name", "units"} <= data[name].attrs.keys() for name in data.variables)
     assert idm.decode(data["promise"]).item() in VARIABLES["promise"].flags
 
 
+@pytest.mark.thorough
 def test_the_dataset_agrees_with_itself(finished):
     """What is derived follows from what is stored beside it."""
     data, _ = finished

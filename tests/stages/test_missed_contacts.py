@@ -115,6 +115,7 @@ def test_scipy_misses_on_a_sine(method):
         assert len(run.t_events[0]) <= most
 
 
+@pytest.mark.thorough
 def test_fixed_steps_pass_contacts_unseen_as_often_as_chance_has_it(counted):
     """A step falls beyond the wall with probability (time beyond it)/h."""
     counts = counted.passage_count.sel(integrator="runge_kutta_4", method_tolerance=1e-12)
@@ -126,6 +127,7 @@ def test_fixed_steps_pass_contacts_unseen_as_often_as_chance_has_it(counted):
         assert low <= missing <= high
 
 
+@pytest.mark.thorough
 def test_every_passage_is_counted_once(counted):
     total = counted.passage_count.sum("contact_outcome")
     assert (total == counted.passages).all()
@@ -152,6 +154,7 @@ def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
     assert integrators()["merson"].flight(*given) is None
 
 
+@pytest.mark.thorough
 def test_failed_runs_are_neither_found_nor_missed(counted):
     """In table and figure the share missed counts only runs that reached their end."""
     data = counted.copy(deep=True)

@@ -120,6 +120,7 @@ def test_straight_flight_ratio_is_where_two_extrema_are_equal(mass_ratio):
     )
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("mass_ratio, restitution", [(0.12, 1.0), (0.4, 1.0), (0.12, 0.75)])
 def test_straight_flight_ratio_is_the_limit_of_rigid_walls_at_high_frequency(
     mass_ratio, restitution

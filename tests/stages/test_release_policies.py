@@ -65,6 +65,7 @@ def some_holds(free, count):
     return np.tile(free.attractors.centre[-1], (count, 1)), draws
 
 
+@pytest.mark.thorough
 def test_a_hold_is_the_motion_of_scipy(free):
     starts, draws = some_holds(free, 5)
     held = hold(ON, free, starts, draws, np.full(5, 350.0), Policy(HOLD, 1.3), np.zeros((5, 2)))
@@ -166,6 +167,7 @@ def test_distances_in_a_half_plane():
     assert_array_equal(signed_distance(inside)[0], [-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
 
 
+@pytest.mark.thorough
 def test_depth_tells_where_free_motions_of_scipy_settle(free):
     """Deep inside the release set every motion comes to the goal; far outside none does."""
     attractors, releases = free.attractors, free.releases
@@ -227,6 +229,7 @@ def test_the_interval_of_a_quantile_covers_it():
     assert binom.cdf(upper, 100, 0.5) - binom.cdf(lower, 100, 0.5) >= 0.95
 
 
+@pytest.mark.thorough
 def test_the_dataset_of_a_small_comparison():
     data = release_policies(
         CUBIC, [PAPER], [W], noisy_frequencies=[W], trials=20, tested=800, cells=16

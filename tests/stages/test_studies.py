@@ -105,6 +105,7 @@ def test_chunks_come_back_to_their_cells_however_they_are_cut(tmp_path):
     assert_allclose(data["rule_clearance"] * rm * w**2, 1)
 
 
+@pytest.mark.thorough
 def test_gathering_takes_the_memory_of_a_chunk(tmp_path):
     peaks = []
     for number in (2, 16):

@@ -112,6 +112,7 @@ def test_all_free_solutions_are_found(oscillator):
         assert len(a) == np.sum(values[:-1] * values[1:] < 0)
 
 
+@pytest.mark.thorough
 def test_folds_are_where_solutions_appear(oscillator):
     """Frequencies at which their number changes, bisected, and the double solution there."""
 
@@ -161,6 +162,7 @@ def test_the_resonance_of_a_softening_spring_ends_below_its_peak():
     assert resonance(SOFTENING, peak.frequency).amplitude > 0.99 * peak.amplitude
 
 
+@pytest.mark.thorough
 def test_maximum_response_against_a_search(oscillator):
     maximum = maximum_response(oscillator)
     near = minimize_scalar(

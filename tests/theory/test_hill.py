@@ -14,7 +14,14 @@ from impact_damper.theory.many_harmonics import Balance
 CASES = {"free": (None, 1.9, 21), "elastic": (DESIGN, 2.0, 255), "inelastic": (INELASTIC, 2.0, 255)}
 
 
-@pytest.fixture(scope="module", params=list(CASES))
+@pytest.fixture(
+    scope="module",
+    params=[
+        "free",
+        pytest.param("elastic", marks=pytest.mark.thorough),
+        pytest.param("inelastic", marks=pytest.mark.thorough),
+    ],
+)
 def case(request):
     damper, frequency, highest = CASES[request.param]
     steps = [n for n in (1, 3, 7, 15, 31, 63, 127, 255) if n < highest] + [highest]
@@ -72,6 +79,7 @@ def test_real_multipliers_at_the_edge_of_the_strip():
     assert np.sum(np.abs(multipliers.imag) < 1e-12) == 2
 
 
+@pytest.mark.thorough
 def test_the_orbit_must_be_of_the_same_truncation():
     """With the ends of contacts of the exact orbit instead, errors fall as N^-3, not N^-4."""
     damper = Damper(0.12, 2.0, contact_stiffness=200.0)

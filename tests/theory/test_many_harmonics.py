@@ -104,6 +104,7 @@ def test_one_term_without_damper_is_the_cubic():
         assert np.max(np.abs(balance.residual(series, np.empty((0, 3))))) < 1e-12
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
 def test_approaches_the_exact_orbit(damper):
     balances = [Balance(PAPER, damper, 2.0, n) for n in (1, 3, 7, 15, 31, 63, 127, 255)]

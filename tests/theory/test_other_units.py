@@ -72,6 +72,7 @@ def test_the_same_system_in_other_units(oscillator, length, time):
         assert_allclose(rule_ratios(other, damper, fast), ours, rtol=1e-9)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("length, time", UNITS[:1])
 @pytest.mark.parametrize("name", ["softening", "shaken", "linear"])
 def test_singularities_and_bands_in_other_units(name, length, time):

@@ -119,6 +119,7 @@ def test_slope_criterion_of_the_free_response():
         assert found.tolist() == expected
 
 
+@pytest.mark.thorough
 def test_stable_solutions_attract_and_unstable_ones_repel():
     """By integrating the slow flow from a small displacement, for several e-folding times."""
     states = fixed_points(impacting_solutions(*SCENE))

@@ -78,6 +78,7 @@ def test_response_of_the_bare_machine(machine_file):
         assert row["settled_mm"] == pytest.approx([1e3 * exact], rel=1e-4)
 
 
+@pytest.mark.thorough
 def test_a_design_is_for_the_task_of_its_file_and_has_a_page(tmp_path):
     path, folder = tmp_path / "machine.yaml", tmp_path / "out"
     path.write_text(SMALL)

@@ -8,7 +8,7 @@ from dataclasses import fields
 from pathlib import Path
 
 import pytest
-import yaml
+from helpers import configurations
 from helpers.broken import SMALL
 
 from impact_damper.data.variables.studies import AXES
@@ -25,7 +25,7 @@ from impact_damper.workflow.models.figures import SCHEMATICS
 from impact_damper.workflow.models.reference import reference
 
 ROOT = Path(__file__).parents[2]
-PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+PAPER = configurations.read()
 KNOWN = "one of h215, h150, h107, l100, l150"
 
 

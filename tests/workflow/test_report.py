@@ -3,14 +3,13 @@
 from importlib import import_module
 
 import pytest
-import yaml
-from helpers.running import ROOT
+from helpers import configurations
 
 from impact_damper.workflow import selection
 from impact_damper.workflow.captions import caption
 from impact_damper.workflow.registry import KINDS, TABLES
 
-CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+CONFIG = configurations.read()
 
 
 @pytest.mark.parametrize("name", CONFIG["figures"])

@@ -8,6 +8,7 @@ import json
 
 import pytest
 import yaml
+from helpers import configurations
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
@@ -35,7 +36,7 @@ def checkout(folder):
     folder.mkdir()
     for script in (copy_of_project(folder) / "workflow/scripts").glob("*.py"):
         script.write_text(STUB + script.read_text())
-    config = yaml.safe_load((folder / "config/config.yaml").read_text())
+    config = configurations.read(folder / "config/config.yaml")
     marker = folder / "results/kernels.compiled"
     marker.parent.mkdir()
     marker.write_text(compiled_kernels(config))
