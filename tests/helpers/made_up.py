@@ -314,6 +314,7 @@ def migration(frequency, subharmonic_share):
         "damped_kind": [DAMPED_MOTION["unsettled"], DAMPED_MOTION["quiet"]],
         "damped_period": np.array([0, 1]),
         "damped_displacement": np.array([np.nan, 0.1]),
+        "damped_contacts": np.array([np.nan, 2.0]),
         "release_share": shares,
         "destination_count": counts,
         "trial_outcome": reached,

@@ -66,6 +66,14 @@ def test_free_oscillator_without_subharmonic(data):
     assert responses.subharmonic(changed).branch.iloc[0] == "none"
 
 
+def test_motions_without_contact_are_told_from_others(data):
+    case = data["migration"]["figure_16"]
+    data["migration"]["figure_16"] = case.assign(damped_contacts=("damped", [np.nan, 0.0]))
+    table = migration.migration(data).set_index("case")
+    assert list(table["released from"]["figure_16"]) == ["unsettled", "quiet, without contact"]
+    assert list(table["released from"]["figure_13"]) == ["unsettled", "quiet"]
+
+
 def test_migration(data):
     table = migration.migration(data)
     assert len(table) == 2 * len(data["migration"])

@@ -60,7 +60,8 @@ def migration(datasets) -> pd.DataFrame:
                 {"case": name}
                 | parameter_columns(case, "frequency")
                 | {
-                    "released from": extract.meaning("damped_kind", case.damped_kind[k]),
+                    "released from": extract.meaning("damped_kind", case.damped_kind[k])
+                    + (", without contact" if case.damped_contacts[k] == 0 else ""),
                     "period": int(case.damped_period[k]),
                     "max |Z1|": float(case.damped_displacement[k]),
                 }
