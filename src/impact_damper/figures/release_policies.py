@@ -73,15 +73,15 @@ def draw_case(above, below, one):
                 frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look
             )
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
-        draw_medians(below, frequency + 0.004 * (k - 1.5), cycles, look)
+        draw_bounded(below, frequency + 0.004 * (k - 1.5), cycles, look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03
     above.set(xlim=ends, ylim=(-0.05, 1.05))
     below.set(yscale="log", ylim=(8, 400), xlabel=axis_label(one["frequency"]))
 
 
-def draw_medians(axes, places, cycles, look):
-    """Draw medians and their bounds, shape (n, 3); an infinite upper bound leaves the panel."""
-    cycles = cycles[:, 0], cycles[:, 1], np.minimum(cycles[:, 2], 1e6)
-    median = np.where(np.isfinite(cycles[0]), cycles[0], np.nan)
-    spread = median - cycles[1], cycles[2] - median
-    axes.errorbar(places, median, spread, capsize=1.5, **look)
+def draw_bounded(axes, places, values, look):
+    """Draw values and their bounds, shape (n, 3); an infinite upper bound leaves the panel."""
+    values = values[:, 0], values[:, 1], np.minimum(values[:, 2], 1e6)
+    middle = np.where(np.isfinite(values[0]), values[0], np.nan)
+    spread = middle - values[1], values[2] - middle
+    axes.errorbar(places, middle, spread, capsize=1.5, **look)
