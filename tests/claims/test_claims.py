@@ -205,6 +205,7 @@ def test_page_has_verdict_sentence_figure_and_folded_numbers_of_each_claim(data)
         assert all(f"figures/{name}.png" in top for name in row["figures"].split())
         assert row["criterion"] in folded
     assert page.count("<details>") == len(table)
+    assert page.count("*Figure 6*") == page.count("figures/figure_06.png") > 0
     few = document(table, drawn=["figure_06"])
     assert set(re.findall(r"figures/(\w+)\.png", few)) == {"figure_06"}
     assert typeset("rm W^2 d0 = pi^2/8, omega_l >= sqrt(2)") == "rm W² d0 = π²/8, ωl ≥ √(2)"

@@ -109,6 +109,6 @@ CLAIMS = (
         ),
         evidence=amplitude_by_mass,
         finding=balance_findings.amplitude_by_mass,
-        figures=("figure_05a", "figure_05b", "figure_05c", "figure_06"),
+        figures=("figure_06",),
     ),
 )

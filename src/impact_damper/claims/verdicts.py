@@ -21,7 +21,7 @@ from impact_damper.claims import (
     slips,
     subharmonic,
 )
-from impact_damper.data.table_files import as_markdown
+from impact_damper.data.table_files import as_markdown, in_words
 
 MODULES = (
     balance,  # 1, 2
@@ -108,7 +108,11 @@ def document(frame, picture=None, drawn=None) -> str:
             f"## {title(row['number'])}",
             f"> {row['claim']}",
             f"**{row['verdict'].capitalize()}.** {row['finding']}",
-            *[picture(name) for name in row["figures"].split() if drawn is None or name in drawn],
+            *[
+                f"{shown.strip()}\n\n*{_label(name)}*"
+                for name in row["figures"].split()
+                if (drawn is None or name in drawn) and (shown := picture(name))
+            ],
             f"*Our reading:* {row['interpretation']}",
             "<details><summary>Criterion and numbers</summary>",
             f"- **In the paper:** {row['source']}\n- **Criterion:** {row['criterion']}"
@@ -132,6 +136,12 @@ def typeset(text) -> str:
 def title(number):
     """Heading of the section of a claim, or of a misprint or gap."""
     return f"Misprint or gap {number}" if number.startswith("S") else f"Claim {number}"
+
+
+def _label(name):
+    """Line below a figure: "Figure 5 (a)", "Orbits 05a"."""
+    words = in_words(name)
+    return words[0].upper() + words[1:]
 
 
 def _link(number):
