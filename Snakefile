@@ -40,7 +40,7 @@ onsuccess:
     write_provenance()
 
 
-# All data of a stage: `all_harmonic_balance`, `all_design_orbit`, ... (impact_damper.workflow.registry).
+# Targets with all data of a stage: `all_harmonic_balance`, `all_design_orbit`, ...
 for stage in STAGES:
 
     rule:
@@ -60,7 +60,7 @@ rule all:
         "The paper"
 
 
-# The paper and the stages beside it.
+# The paper, and the stages that are not part of the paper.
 rule everything:
     input:
         rules.all.input,

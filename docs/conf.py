@@ -1,4 +1,4 @@
-"""The documentation: `make docs` builds it into `docs/_build/html`, and runs every tutorial."""
+"""Configuration of Sphinx. `make docs` builds `docs/_build/html` and runs every tutorial."""
 
 import sys
 from importlib import metadata
@@ -14,22 +14,22 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "numpydoc",
-    "mathml",  # in docs/extensions, as the next
+    "mathml",  # this and the next extension are in docs/extensions
     "written_pages",
 ]
 exclude_patterns = ["_build", "extensions"]
 nitpicky = False
 
-# Tutorials are run at every build, and an error in one ends it.
+# Tutorials are run at every build; an error in a tutorial stops the build.
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 nb_merge_streams = True
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
 myst_heading_anchors = 3
-# Signatures name the public class, `Oscillator`, and no module.
+# Signatures name public classes, such as `Oscillator`, without their modules.
 autodoc_typehints = "none"
-# Docstrings write absolute values so, which for docutils are substitutions.
+# Docstrings write absolute values as |Z1|, which docutils takes for substitutions.
 rst_prolog = "".join(f".. |{name}| replace:: abs {name}\n" for name in ("Z1", "a"))
 add_module_names = False
 numpydoc_show_class_members = False
@@ -49,4 +49,4 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": [],
 }
-html_sidebars = {"index": []}  # no pages beside the first
+html_sidebars = {"index": []}  # the first page has no list of pages at its side

@@ -1,4 +1,4 @@
-"""A folder that stands for a clone of the repository in tutorials that run the workflow."""
+"""A temporary copy of the repository for tutorials that run the workflow."""
 
 import os
 import shutil
@@ -14,9 +14,10 @@ PARTS = ("Snakefile", "requirements.lock", "config", "profiles", "workflow")
 
 
 def enter_clone():
-    """Make the folder, enter it, and let the shell find Snakemake; it exists as long as the result.
+    """Make the folder, change to it, and let the shell find Snakemake.
 
-    Of the package there is no copy: its kernels would be compiled anew for another path.
+    The folder is deleted together with the object returned. It has no copy of the package, whose
+    kernels would be compiled again for another path.
     """
     folder = tempfile.TemporaryDirectory()
     for part in PARTS:
@@ -31,7 +32,8 @@ def enter_clone():
 def bash(line, cell):
     """Run the cell in a shell and print its output in one piece.
 
-    IPython's own `%%bash` prints pieces, between which the pages would break lines.
+    IPython's own `%%bash` prints its output in pieces, and the pages would break lines between
+    them.
     """
     ran = subprocess.run(["bash", "-c", cell], capture_output=True, text=True)
     print(ran.stdout, end="")

@@ -1,4 +1,4 @@
-"""Formulas as MathML, which browsers draw without scripts or fonts from elsewhere."""
+"""Formulas as MathML, which browsers draw without scripts or downloaded fonts."""
 
 from docutils import nodes
 from latex2mathml.converter import convert
@@ -17,6 +17,6 @@ def display(writer, node):
 
 
 def setup(app):
-    """Make `html_math_renderer = "mathml"` known to Sphinx."""
+    """Register the renderer for `html_math_renderer = "mathml"`."""
     app.add_html_math_renderer("mathml", (inline, None), (display, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}

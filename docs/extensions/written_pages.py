@@ -1,7 +1,7 @@
-"""Pages that the code and a finished run determine, written before Sphinx reads the others.
+"""Pages generated from the code and from a finished run, before Sphinx reads the other pages.
 
-The claims and the figures come from `results/`, or from the reduced run in `results-smoke/` without
-it; without both the pages say which command makes them.
+The claims and the figures come from `results/` or, if it does not exist, from the reduced run in
+`results-smoke/`. If neither exists, the pages say which command makes the run.
 """
 
 import os
@@ -18,8 +18,11 @@ from impact_damper.workflow.command_line import app as command
 from impact_damper.workflow.models.reference import reference
 
 ROOT = Path(__file__).parents[2]
-RUNS = {"results": "the full run", "results-smoke": "the reduced run, which leaves most open"}
-MISSING = "No run was found: `make reproduce`, then `make docs`.\n"
+RUNS = {
+    "results": "the full run",
+    "results-smoke": "the reduced run, which cannot decide most claims",
+}
+MISSING = "No run was found. Run `make reproduce`, then `make docs`.\n"
 
 
 def write_pages(app):
@@ -40,11 +43,11 @@ def write_pages(app):
 
 
 def variables():
-    """Return the page of all variables of datasets, by subject."""
+    """Return the page that lists all variables of datasets, by subject."""
     parts = [
         "# Variables of the datasets\n",
-        "Datasets of a machine have the unit of each variable in its attribute `units`. A variable "
-        "with named values stores numbers; `idm.decode` returns the names.\n",
+        "In datasets of a machine the attribute `units` holds the unit of a variable. A variable "
+        "with named values stores numbers, and `idm.decode` returns the names.\n",
     ]
     for module in MODULES:
         parts.append(f"## {module.__name__.rpartition('.')[2].replace('_', ' ').capitalize()}\n")
@@ -63,8 +66,8 @@ def commands():
     """Return the page of the command line, with the help of each command."""
     parts = [
         "# The command `impact-damper`\n",
-        "One file describes the machine; [](../howto/machine_file.md) shows it. "
-        "A wrong value ends the command with its key and the values allowed.\n",
+        "A file describes the machine; [](../howto/machine_file.md) shows an example. If a value "
+        "is wrong, the command stops and names the key and the values allowed.\n",
     ]
     os.environ["TERM"] = "dumb"
     for name in ("", *sorted(each.callback.__name__ for each in command.registered_commands)):
@@ -76,7 +79,7 @@ def commands():
 
 
 def claims(run, folder):
-    """Return the page of the claims, with the figures that the run has drawn."""
+    """Return the page of the claims, with figures of the run."""
     table = pd.read_csv(ROOT / run / "tables/claims.csv", dtype=str, keep_default_na=False)
     title, *parts = document(table, lambda name: picture(run, name, folder)).split("\n\n")
     return "\n\n".join([title, f"From {RUNS[run]}.", *parts])
@@ -94,7 +97,7 @@ def figures(run, folder):
 
 
 def picture(run, name, folder):
-    """Copy a figure, and return the line that shows it; nothing if the run has not drawn it."""
+    """Copy a figure and return the line that shows it, or "" if the run has not drawn it."""
     path = ROOT / run / "figures" / f"{name}.png"
     if not path.exists():
         return ""
@@ -104,6 +107,6 @@ def picture(run, name, folder):
 
 
 def setup(app):
-    """Have the pages written when the build begins."""
+    """Register `write_pages`, which Sphinx calls at the beginning of a build."""
     app.connect("builder-inited", write_pages)
     return {"parallel_read_safe": True}

@@ -5,9 +5,9 @@ from contextlib import suppress
 
 from impact_damper.data.whole_files import DELETE, BrokenFileError, check_length
 
-# Seconds by which clocks of machines that share a disk may differ.
+# Seconds by which clocks of computers that share a disk may differ.
 SKEW = 10
-# The first second of 1970; to Snakemake a date of 0 means that there is none.
+# The first second of 1970. Snakemake takes 0 for a missing date.
 OLDEST = 1
 
 
@@ -15,8 +15,8 @@ def check_results(folder):
     """Raise if a dataset is truncated, and set dates in the future to OLDEST.
 
     Snakemake compares the contents of an input only if the input is newer than the output. If the
-    clock was set back, outputs have dates in the future and would hide every edit since. With the
-    oldest date contents decide.
+    clock was set back, outputs have dates in the future, and later edits would be overlooked. With
+    the oldest date, contents decide.
     """
     ahead = []
     try:
@@ -39,7 +39,7 @@ def check_results(folder):
 
 
 def unwritable(folder):
-    """Return what to do about a folder without write permission, or an empty text with it."""
+    """Return advice if a folder has no write permission, otherwise an empty text."""
     there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
     if os.access(there, os.W_OK):
         return ""
@@ -55,7 +55,7 @@ def check_writable(folder):
         raise WorkflowError(words)
 
 
-# Jobs are processes of their own, in which the check is not repeated.
+# Only the main process checks; jobs run in other processes.
 if workflow.is_main_process:
     check_results(Path(config["results"]))
 # A warning only, because a dry run or a finished run writes nothing; `check_writable` raises later.

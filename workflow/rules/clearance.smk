@@ -37,7 +37,7 @@ rule design_rules:
         "../scripts/design_rules.py"
 
 
-# With `chunks: 1` the job of a study computes all its cells, else chunks of them are computed first.
+# With `chunks: 1` the job of a study computes all cells. Otherwise it joins the files of the chunks.
 rule study_chunks:
     input:
         code=code("study_chunks"),

@@ -1,4 +1,4 @@
-"""What the rules share: the checked configuration, and the files and parameters of their jobs."""
+"""Functions used by all rules: the checked configuration, files and parameters of jobs."""
 
 import gc
 import json
@@ -27,11 +27,12 @@ gc.set_threshold(100_000)
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
-# A job that needs compiled kernels waits for this file, but its age reruns nothing.
+# A job that needs compiled kernels waits for this file. `ancient`: its date reruns no job.
 KERNELS = ancient("<results>/kernels.compiled")
 
 
-# Whether `--cache` is given: otherwise Snakemake prints a line for each cacheable rule.
+# Whether `--cache` is given. Rules are cacheable only then, because Snakemake otherwise prints a line
+# for each cacheable rule.
 SHARED = workflow.workflow_settings.cache is not None
 
 
@@ -42,7 +43,7 @@ wildcard_constraints:
 def checked(config):
     """Return the configuration with its keys sorted, or raise an error that lists its faults.
 
-    Jobs are processes of their own, in which the check is not repeated: it takes half a second.
+    Only the main process checks, since jobs run in other processes and the check takes half a second.
     """
     config = without_left_out(config)
     try:
@@ -66,27 +67,27 @@ def local(path):
 
 @cache
 def code(script, *modules):
-    """Source files of a job: a script, modules that it imports by name, and all they import.
+    """Return the source files of a job: a script, modules named, and all that they import.
 
-    The lock file stands for the versions of all other packages.
+    The lock file is included in place of all other packages.
     """
     paths = {ROOT / "workflow/scripts" / f"{script}.py", *map(module_file, modules)}
     return sorted(map(local, sources(*paths) | {ROOT / "requirements.lock"}))
 
 
 def data(stage, names=None):
-    """Files of a stage: of all its entries, or of those named."""
+    """Return the files of a stage, for all its entries or for those named."""
     names = selection.entries(config, stage) if names is None else names
     return [f"<results>/{stage}/{name}.nc" for name in names]
 
 
 def data_by_stage(names):
-    """Files of several stages as keyword arguments of `input`."""
+    """Return the files of several stages as keyword arguments of `input`."""
     return {stage: data(stage, chosen) for stage, chosen in names.items()}
 
 
 def read_by(stage):
-    """Input function: files of earlier stages that the job of an entry reads."""
+    """Return an input function: the files of earlier stages that the job of an entry reads."""
 
     def files(wildcards):
         chosen = selection.read_by(config, stage, wildcards.name)
@@ -96,12 +97,12 @@ def read_by(stage):
 
 
 def parameters(stage, function=None):
-    """Parameters of a stage's jobs, each as {key: value}.
+    """Return the parameters of a stage's jobs, each as {key: value}.
 
-    Snakemake compares only the set of values: without the keys two parameters could swap unnoticed.
-    One parameter for each key lets a dry run show which of them changed. The name of the entry is
-    one of them because a dataset holds it: with `--cache` another entry with equal values must not
-    get the file.
+    Snakemake compares only the set of values. Without the keys two parameters could swap unnoticed.
+    One parameter for each key lets a dry run show which parameter changed. The name of the entry is
+    a parameter because the dataset holds it: with `--cache` another entry with equal values must
+    not get the same file.
     """
     function = function or STAGES[stage].parameters
 
@@ -117,7 +118,7 @@ def parameters(stage, function=None):
 
 
 def parameters_of_all(stage):
-    """Parameters of a stage whose entries are computed by one job: {name: its parameters}."""
+    """Return the parameters of a stage with one job for all entries: {name: its parameters}."""
     return {
         name: {name: STAGES[stage].parameters(config, name)}
         for name in selection.entries(config, stage)
@@ -125,7 +126,7 @@ def parameters_of_all(stage):
 
 
 def write_provenance():
-    """Write versions, commit and machine; this file alone may differ from run to run."""
+    """Write versions, commit and computer into `provenance.json`."""
     from impact_damper.workflow.provenance import provenance
 
     path = Path(config["results"]) / "provenance.json"
@@ -135,32 +136,36 @@ def write_provenance():
 
 
 def chunks_of_study(wildcards):
-    """Files of the chunks that a study is made from; none if it is computed at once."""
+    """Return the files of the chunks of a study; none if one job computes the study."""
     count = config["chunks"]
     numbers = range(1, count + 1) if count > 1 else []
     return [f"<results>/study_chunks/{wildcards.name}/{k}-of-{count}.nc" for k in numbers]
 
 
 def chapter_parameters(chapter):
-    """Parameters of a chapter, each as {key: value}."""
+    """Return the parameters of the job of a chapter, each as {key: value}."""
     values = selection.chapter_values(config, chapter)
     return {key: {key: value} for key, value in values.items()}
 
 
 def figure_files(chapter):
-    """Files of the figures of a chapter, with their captions."""
+    """Return the files of the figures of a chapter, with their captions."""
     names = selection.figures_of(config, chapter)
     return expand("<results>/figures/{name}.{kind}", name=names, kind=["pdf", "png", "rst"])
 
 
 def table_files(chapter):
-    """Files of the tables of a chapter, with their captions."""
+    """Return the files of the tables of a chapter, with their captions."""
     names = [table.name for table in CHAPTERS[chapter].TABLES]
     return expand("<results>/tables/{name}.{kind}", name=names, kind=["csv", "md", "rst"])
 
 
 def target_files(stage):
-    """Files of the target of a stage: its data, and beside the paper what its chapter shows."""
+    """Return the files of the target of a stage.
+
+    These are its data and, for a stage that is not part of the paper, the figures and tables of its
+    chapter and its pages.
+    """
     if STAGES[stage].paper:
         return data(stage)
     chapter = next(name for name, each in CHAPTERS.items() if STAGES[stage] in each.STAGES)
@@ -169,7 +174,7 @@ def target_files(stage):
 
 
 def page_files(stage):
-    """Files of the pages of the entries of a stage, if it has any."""
+    """Return the files of the pages of a stage's entries; none for a stage without pages."""
     names = selection.entries(config, stage) if STAGES[stage].page else []
     files = [f"{figure}.png" for figure in STAGES[stage].page]
     return expand(
@@ -178,7 +183,7 @@ def page_files(stage):
 
 
 def chapter_files(chapter):
-    """Outputs of the job of a chapter: each figure and table, in two formats, and its caption."""
+    """Return the outputs of the job of a chapter: figures and tables in two formats, captions."""
     figures = selection.figures_of(config, chapter)
     tables = [table.name for table in CHAPTERS[chapter].TABLES]
     return [
@@ -190,7 +195,7 @@ def chapter_files(chapter):
 
 
 def in_report(chapter, folder, name, kind):
-    """A file that the report shows, with the caption that the job of the chapter writes."""
+    """Return a file that the report shows, with the caption that the job of the chapter writes."""
     return report(
         f"<results>/{folder}/{name}.{kind}",
         caption=os.path.abspath(f"{config['results']}/{folder}/{name}.rst"),
@@ -200,7 +205,7 @@ def in_report(chapter, folder, name, kind):
 
 
 def compile_again():
-    """Before the first job: compile kernels that were edited since the marker file was written."""
+    """Compile the kernels if their sources were edited since the marker file was written."""
     marker, now = Path(config["results"]) / "kernels.compiled", compiled_kernels(config)
     if not marker.exists() or marker.read_bytes() == now.encode():
         return

@@ -16,7 +16,7 @@ rule harmonic_balance:
         "../scripts/harmonic_balance.py"
 
 
-# One job computes all entries: each takes less time than the start of a job.
+# One job computes all entries, because an entry takes less time than the start of a job.
 rule design_orbit:
     input:
         code=code("design_orbit"),

@@ -1,13 +1,13 @@
-# The marker file states which kernels were compiled. This rule has neither inputs nor parameters:
-# if an edit of them started it, Snakemake would not examine the jobs that take the marker for
-# changes of their own (its issue 4166). So `compile_again` follows edits.
+# The marker file holds the digest of the compiled sources. This rule has neither inputs nor
+# parameters: if an edit of an input started this rule, Snakemake would not check the jobs that depend
+# on the marker for their own changes (its issue 4166). `compile_again` compiles after edits.
 rule compile_kernels:
     output:
         "<results>/kernels.compiled",
     log:
         "<logs>/compile_kernels.log",
-    # Most jobs wait for it. Next (2) are the jobs that others wait for, then (1) the longest ones,
-    # so that no long job is left for the end, when a core would idle beside it.
+    # Priority 3: most jobs wait for this one. Priority 2: other jobs wait for these. Priority 1: the
+    # longest jobs, which at the end of a run would leave the other core idle.
     priority: 3
     conda:
         ENVIRONMENT

@@ -8,7 +8,7 @@ rule tables:
         [table_files(chapter) for chapter in PAPER],
 
 
-# One job for a chapter: starting a process for each figure and table would take longer than they do.
+# One job makes a chapter, because starting a process takes longer than a figure or table.
 for chapter in filter(chapter_files, CHAPTERS):
 
     rule:

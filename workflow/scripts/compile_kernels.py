@@ -1,4 +1,4 @@
-"""Compile the kernels and store them, so that no other job has to."""
+"""Compile the kernels and store them for all other jobs."""
 
 from pathlib import Path
 

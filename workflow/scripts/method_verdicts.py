@@ -1,4 +1,4 @@
-"""Verdicts of integrators by tolerance, against the truth."""
+"""Verdicts on integrators by tolerance, on motions near orbits of known stability."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.method_verdicts import make_scene, verdicts

@@ -1,4 +1,4 @@
-"""Our numbers beside published ones."""
+"""Published numbers compared with numbers computed by the package."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.published import published

@@ -1,4 +1,4 @@
-"""Dampers for migration and for suppression: mass, gap and restitution as knobs (section 5)."""
+"""Dampers compared for migration and for suppression, by mass, gap and restitution (section 5)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.release_dampers import release_dampers

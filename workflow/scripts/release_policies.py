@@ -1,4 +1,4 @@
-"""Policies of migration: when the damper should be let go of (section 5)."""
+"""Policies of migration: rules that say when to switch the damper off (section 5)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.release_policies import release_policies
