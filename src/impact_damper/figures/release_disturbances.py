@@ -14,8 +14,8 @@ from impact_damper.figures.style import (
 CAPTION = """
 Horizontal: margin inside the basin, as a fraction of the size of the resonance motion. Above: share
 of trials that reach the non-resonance motion within 350 cycles. Below: median of the cycles. Noise
-is relative to the resonance motion; h and force are those that the controller assumes. Bars: 95 %
-intervals. Dotted, with grey area: bound for a controller that knows state and future.
+is relative to the resonance motion; h and force are those the controller assumes. Bars: 95 %
+intervals. Dotted, with grey area: bound if state and future are known.
 """
 
 # Disturbances that are drawn, with their labels; the table holds further ones.
