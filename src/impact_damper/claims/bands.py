@@ -173,12 +173,12 @@ CLAIMS = (
         text="Harmonic balance estimates the amplitude in the suppression band and the band's "
         "width accurately.",
         source="section 3, figure 5",
-        interpretation="Accurately means within 25 %, for both. The median over the dampers of "
-        "figures 5 and 8 decides; for full agreement all of them must agree. The width by (7) is "
-        "compared with the width by the motions that exist, violent chaos included, lasting or "
-        "not. Chaos was looked for at steps of W only: where it ends the band, the width within "
-        "the step that agrees least counts. The amplitude is |a| by (7) and max |Z1| of the "
-        "smallest stable quiet orbit, each averaged over the band by (7).",
+        interpretation="Both must hold. Accurately means within 25 %. The median over the dampers "
+        "of figures 5 and 8 decides; for full agreement all of them must agree. The width by (7) "
+        "is compared with the width by the motions that exist, violent chaos included, lasting "
+        "or not. Chaos was looked for at steps of W only: where it ends the band, the width "
+        "within the step that agrees least counts. The amplitude is |a| by (7) and max |Z1| of "
+        "the smallest stable quiet orbit, each averaged over the band by (7).",
         measures=(
             Measure(
                 "typical",
