@@ -4,11 +4,14 @@ import re
 from importlib import import_module
 
 import pytest
+import yaml
 from helpers.made_up import world
 from helpers.made_up_design import made_up_design
+from helpers.running import ROOT
 
 from impact_damper.data.table_files import in_words
 from impact_damper.rivals.words import method_in_words
+from impact_damper.workflow import selection
 from impact_damper.workflow.chapter import make_table
 from impact_damper.workflow.registry import TABLES
 
@@ -88,3 +91,14 @@ def test_a_table_without_data_says_so(tmp_path):
     make_table("bands", {}, tmp_path / "bands")
     lines = (tmp_path / "bands.md").read_text().splitlines()
     assert lines[4:] == ["The configuration has no data for this table."]
+
+
+def test_claims_show_the_figures_that_the_run_draws(tmp_path):
+    make_table("claims", {}, tmp_path / "claims", ["figure_06"])
+    shown = re.findall(r"figures/(\w+)\.png", (tmp_path / "claims.md").read_text())
+    assert set(shown) == {"figure_06"}
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+    del config["figures"]["figure_06"]
+    values = selection.chapter_values(config, "claims")
+    assert "figure_05a" in values["drawn"] and "figure_06" not in values["drawn"]
+    assert "drawn" not in selection.chapter_values(config, "responses")
