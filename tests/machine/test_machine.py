@@ -157,12 +157,17 @@ def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
         ({"mass": "-1 kg"}, "mass = '-1 kg': must be at least"),
         (
             {"damping_ratio": 1.2},
-            "damping_ratio = 1.2: must be greater than 0 and at most 1 (above",
+            "damping_ratio = 1.2: must be greater than 0 and at most 0.99 (at 1,",
+        ),
+        (
+            {"damping_ratio": 1},
+            "damping_ratio = 1: must be greater than 0 and at most 0.99 (at 1, critical"
+            " damping, nothing swings; 1 per cent is 0.01 or '1 %')",
         ),
         ({"damping_ratio": 0}, "damping_ratio = 0: must be greater than 0"),
         (
             {"damping_ratio": None, "damping": 4000},
-            "damping = 4000 N s/m: must be at most 3098.39 N s/m (critical",
+            "damping = 4000 N s/m: must be at most 3067.4 N s/m (0.99 of",
         ),
         ({"damping_ratio": None}, "damping: must be given, or damping_ratio"),
         ({"damping": 3}, "damping: must be given, or damping_ratio"),

@@ -118,6 +118,21 @@ def test_random_states_are_uniform(damper, within_gap):
         assert stats.kstest(others**3, "uniform").pvalue > 0.01
 
 
+def test_a_loose_mass_far_beyond_its_wall_is_told_with_its_speed():
+    """The compressed contact stores m v^2/2 of the relative motion; elastic, it gives it back."""
+    beyond = 5 * DESIGN.clearance
+    with pytest.warns(UserWarning, match="the loose mass is beyond its wall") as told:
+        motion = simulate(PAPER, DESIGN, 2.0, (0, 0, beyond, 0), periods=0.5, samples=4000)
+    speed = float(str(told[0].message).rsplit("= ", 1)[1])
+    inside = np.abs(motion.relative_displacement) < DESIGN.clearance
+    assert np.abs(motion.relative_velocity[inside][0]) == pytest.approx(speed, rel=0.01)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_loose_mass_in_contact_is_no_mistake():
+    simulate(PAPER, DESIGN, 2.0, (0, 0, 1.01 * DESIGN.clearance, 0), periods=1)
+
+
 def test_random_states_depend_on_the_seed_only():
     first, again = (random_states(50, 2.0, DESIGN, [3, 1]) for _ in range(2))
     assert np.array_equal(first, again)

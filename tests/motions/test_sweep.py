@@ -13,7 +13,7 @@ from impact_damper.motions import ensemble, strobe_map
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.records import MOTION, trace
 from impact_damper.motions.simulate import random_states
-from impact_damper.motions.start_states import NO_STARTS, Search
+from impact_damper.motions.start_states import NO_LOOSE, NO_STARTS, Search
 from impact_damper.motions.sweep import Catalogue, _end_event, sweep
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper
@@ -24,7 +24,9 @@ FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 
 def random_search(states):
     """Return a search with these random starts alone."""
-    return Search(states, [NO_STARTS] * len(states), *np.zeros((4, len(states))))
+    return Search(
+        states, [NO_STARTS] * len(states), [NO_LOOSE] * len(states), *np.zeros((4, len(states)))
+    )
 
 
 def free_sweep(frequencies, **options):

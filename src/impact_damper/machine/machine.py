@@ -15,6 +15,8 @@ EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 # Largest damping ratio for which the force of a moving base is approximated over a range of
 # frequencies.
 LIGHT = 0.02
+# Largest damping ratio. With 1, critical damping, nothing swings.
+MOST_DAMPING = 0.99
 
 
 @names_arguments
@@ -38,7 +40,7 @@ class Machine:
     linear_stiffness, cubic_stiffness : float
         N/m and N/m^3. A negative cubic stiffness softens the spring.
     damping_ratio : float
-        Damping divided by the critical damping for the linear stiffness, below 1.
+        Damping divided by the critical damping for the linear stiffness, at most MOST_DAMPING.
     damping : float
         Coefficient of the dashpot, N s/m.
     force : float
@@ -70,7 +72,11 @@ class Machine:
     linear_stiffness: float = physical("stiffness", least=0, most=1e30, default=0.0)
     cubic_stiffness: float = physical("cubic_stiffness", least=-1e30, most=1e30, default=0.0)
     damping_ratio: float | None = physical(
-        "number", above=0, most=1, why="above critical damping nothing swings", default=None
+        "number",
+        above=0,
+        most=MOST_DAMPING,
+        why="at 1, critical damping, nothing swings; 1 per cent is 0.01 or '1 %'",
+        default=None,
     )
     damping: float | None = physical("damping", above=0, default=None)
     force: float | None = physical("force", least=0, most=1e15, default=None)
@@ -115,8 +121,8 @@ class Machine:
                 ", for damping in N s/m (nothing is critical)"
             )
         if self.damping is not None and critical:
-            why = "critical damping: above, nothing swings"
-            check_si("damping", self.damping, "damping", most=critical, why=why)
+            why = f"{MOST_DAMPING:g} of critical damping, near which nothing swings"
+            check_si("damping", self.damping, "damping", most=MOST_DAMPING * critical, why=why)
         bounds = self.scales.range_to_si(DAMPING_RANGE, "damping")
         check_si("damping", self.viscous_damping, "damping", **bounds)
 

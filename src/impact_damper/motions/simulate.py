@@ -6,6 +6,7 @@ a coordinate, and motions begin there.
 """
 
 import math
+import warnings
 
 import numpy as np
 
@@ -39,6 +40,11 @@ def check_state(state, damper):
     ------
     TypeError, ValueError
         If the state is not four numbers, or two without a damper, or out of range.
+
+    Warns
+    -----
+    UserWarning
+        If the loose mass is farther beyond a wall than the clearance.
     """
     units = getattr(state, "attrs", {}).get("units", "1")
     if units != "1":
@@ -58,7 +64,21 @@ def check_state(state, damper):
         )
     for i, (value, most) in enumerate(zip(values, [FARTHEST, FASTEST] * 2, strict=True)):
         check_number(f"state[{i}]", value, least=-most, most=most)
+    if damper is not None and abs(values[2]) > 2 * damper.clearance:
+        _warn_of_compression(values[2], damper)
     return values
+
+
+def _warn_of_compression(relative, damper):
+    """Warn that a contact is compressed by more than the clearance, and how fast it expands."""
+    rate = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
+    speed = rate * (abs(relative) - damper.clearance)
+    warnings.warn(
+        f"state[2] with displacement = {relative:g}: the loose mass is beyond its wall, which is "
+        f"at clearance = {damper.clearance:g}; the compressed contact throws the mass back with up "
+        f"to speed = {speed:.3g}",
+        stacklevel=4,
+    )
 
 
 def carried_phase(state):

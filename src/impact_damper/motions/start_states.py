@@ -13,6 +13,9 @@ from. The starts are of two kinds:
   ramp a motion stays on its branch, so that ramps reach the violent motions of weakly damped
   machines, whose basins are so small that hardly a random start lies in them.
 
+Newton's method then looks for stable orbits beside the motions found (`orbit_search`), from random
+states of the loose mass.
+
 If a radius is given, all starts are random, uniform in a ball as in the paper (section 3, iii).
 """
 
@@ -39,11 +42,15 @@ SMALLEST = 0.01
 # larger, by the speed that crosses the gap in half a forcing period.
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
+# States of the loose mass from which Newton's method looks for orbits, and largest velocity of the
+# loose mass in them, divided as that of the placed starts.
+LOOSE_STATES = 240
+LOOSE_SPEED = 2.0
 # With a softening spring, largest random start divided by displacement and speed at the barrier.
 # The energy of a start is then at most three quarters of that at the barrier: starts with more
 # would go over it by themselves.
 WITHIN = 0.7
-NO_STARTS = np.empty((0, 4))
+NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps: relative change of a parameter in one step; forcing periods per step; ratio of the first
 # frequency to the lowest fold (its inverse for the highest fold); ratio of the first force to the
 # last.
@@ -64,6 +71,9 @@ class Search(NamedTuple):
         Random starts at T = 0.
     placed : list of numpy.ndarray, shape (k, 4)
         Placed starts at T = 0 of each system; none if a radius is given.
+    loose : list of numpy.ndarray, shape (k, 2)
+        States of the loose mass of each system, as `orbit_search.stable_orbits` takes them; none if
+        a radius is given.
     displacement, speed : numpy.ndarray, shape (n,)
         Largest |Z1| and |Z1'| of a random start.
     free_displacement, free_speed : numpy.ndarray, shape (n,)
@@ -72,6 +82,7 @@ class Search(NamedTuple):
 
     random: np.ndarray
     placed: list
+    loose: list
     displacement: np.ndarray
     speed: np.ndarray
     free_displacement: np.ndarray
@@ -82,7 +93,7 @@ class Search(NamedTuple):
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
-            for name, values in zip(names, self[2:], strict=True)
+            for name, values in zip(names, self[3:], strict=True)
         }
         return data | {"missed_share": missed_share(self.random.shape[1])}
 
@@ -129,11 +140,18 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
         frequencies = [frequency for _, frequency in systems]
         free = warn_if_narrow(oscillator, frequencies, radius)
         rows = [
-            (random_states(count, radius, damper, [seed, i]), NO_STARTS, radius, radius, *free[w])
+            (
+                random_states(count, radius, damper, [seed, i]),
+                NO_STARTS,
+                NO_LOOSE,
+                radius,
+                radius,
+                *free[w],
+            )
             for i, (damper, w) in enumerate(systems)
         ]
-    random, placed, *scales = zip(*rows, strict=True)
-    return Search(np.array(random), list(placed), *np.array(scales))
+    random, placed, loose, *scales = zip(*rows, strict=True)
+    return Search(np.array(random), list(placed), list(loose), *np.array(scales))
 
 
 def warn_if_narrow(oscillator, frequencies, radius) -> dict:
@@ -165,11 +183,14 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
-        placed = np.hstack([free.states, free.states])
+        placed, loose = np.hstack([free.states, free.states]), NO_LOOSE
     else:
         crossing = _crossing_speed(damper, frequency)
         placed = _placed(oscillator, damper, frequency, free, crossing, settling.tolerance)
-    return states, placed, *most, free.displacement, free.speed
+        fastest = LOOSE_SPEED * max(free.speed, crossing)
+        generator = np.random.default_rng(np.append(seed, LOOSE_STATES))
+        loose = generator.uniform(-1, 1, (LOOSE_STATES, 2)) * (damper.clearance, fastest)
+    return states, placed, loose, *most, free.displacement, free.speed
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:

@@ -1,9 +1,10 @@
 """Find the motions along a sweep of one parameter, from start states and by following.
 
-At each value motions are run from the starts of a search. Each settled motion is then followed by
-Newton's method to the next value, upward and downward, so that motions with small basins of
-attraction are found too. A branch ends where its motion cannot be followed. Motions that have not
-settled are matched from value to value by `motions.matching`.
+At each value motions are run from the starts of a search, and Newton's method looks for stable
+orbits beside them. Each settled motion is then followed by Newton's method to the next value,
+upward and downward, so that motions with small basins of attraction are found too. A branch ends
+where its motion cannot be followed. Motions that have not settled are matched from value to value
+by `motions.matching`.
 """
 
 from itertools import count, pairwise
@@ -17,6 +18,7 @@ from impact_damper.data.shares import wilson_intervals
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit, follow_stable
 from impact_damper.motions.matching import SIMILAR, match_unsettled, size_ratio
+from impact_damper.motions.orbit_search import add_orbits
 from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.strobe_map import STROBE
 
@@ -49,7 +51,7 @@ class Catalogue:
         Numbers of the motions, unique over the sweep.
     origins : list of int
         Flags of `origin`: how each motion was first reached, from a random start, from a placed
-        one, or by following only.
+        one, or by Newton's method only.
     starts : list of int
         Numbers of random starts that lead to the motions.
     """
@@ -235,7 +237,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     dimension : str
         Name of the dimension of the data that stands for this parameter.
     search : start_states.Search
-        Random and placed starts at each value.
+        Random and placed starts at each value, and states of the loose mass.
     settling : Settling
     workers, progress
         As in `ensemble.settle`.
@@ -272,6 +274,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     for catalogue, part in zip(catalogues, np.split(others, np.cumsum(counts)[:-1]), strict=True):
         for record in part:
             catalogue.add(record, "placed_start")
+    add_orbits(catalogues, search.loose, settling, workers)
     links, ends = [], {}
     # the second sweep upward also follows motions that the sweep downward found
     for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):

@@ -1,0 +1,91 @@
+"""Stable orbits by Newton's method, beside the motions that starts lead to.
+
+Some stable orbits attract so few states that hardly a random start leads to one. On most of these
+orbits the primary mass moves nearly as in another motion of the same system, and the loose mass
+differently. So Newton's method starts with the primary mass on a known motion and the loose mass
+anywhere in its gap.
+"""
+
+import numpy as np
+
+from impact_damper.motions import ensemble
+from impact_damper.motions.strobe_map import distance, flow, polish, strobe_time
+from impact_damper.system.packed import CLEARANCE
+
+# Longest period looked for, in forcing periods.
+LONGEST = 5
+# Largest distance of an orbit from its start, divided by the largest displacement or speed of the
+# primary mass in the known motions, or by the clearance if it is larger. Twice as far, Newton's
+# method takes four times as long and finds hardly more.
+REACH = 1.0
+# Orbits whose states differ by less are the same.
+SAME = 1e-6
+
+
+def add_orbits(catalogues, loose, settling, workers) -> None:
+    """Enter the orbits that are found beside the motions known at each value of a parameter.
+
+    Parameters
+    ----------
+    catalogues : list of sweep.Catalogue
+        Motions known at each value.
+    loose : list of numpy.ndarray
+        States of the loose mass at each value, as of `stable_orbits`.
+    settling : Settling
+    workers : int
+        Threads; the result does not depend on it.
+    """
+    found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
+
+    def work(part):
+        for k in range(part.start, part.stop):
+            records = [
+                each for each in catalogues[k].records if np.isfinite(each["maximum_displacement"])
+            ]
+            motions = np.array([each["state"][:2] for each in records])
+            found[k] = stable_orbits(catalogues[k].p, motions, loose[k], settling.tolerance, stop)
+
+    ensemble.run_chunks(work, len(catalogues), workers, None, stop, size=1)
+    for catalogue, states in zip(catalogues, found, strict=True):
+        rows = np.tile(catalogue.p, (len(states), 1))
+        for record in ensemble.settle(rows, states, settling, from_strobe=True):
+            catalogue.add(record, "followed")
+
+
+def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
+    """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    motions : array, shape (m, 2)
+        Z1 and Z1' of known motions at the strobe.
+    loose : array, shape (n, 2)
+        Z2, and velocity Z1' - Z2' of the loose mass, of the starts. The known motions take turns.
+    tolerance : float
+        Local error allowed in a step of the integrator.
+    stop : array of bool, shape (1,)
+        Set to true by another thread, it ends the search.
+    """
+    found, none = [], np.empty((0, 4))
+    if len(motions) == 0 or len(loose) == 0:
+        return none
+    reach = REACH * max(np.max(np.abs(motions)), p[CLEARANCE])
+    primary = np.resize(motions, loose.shape)
+    starts = np.column_stack([primary, loose[:, 0], primary[:, 1] - loose[:, 1]])
+    for periods in range(1, LONGEST + 1):
+        for start in starts:
+            if stop[0]:
+                return none
+            state = start.copy()
+            converged, _, multiplier = polish(p, state, periods, reach, tolerance)
+            if not converged or not abs(multiplier) < 1:
+                continue
+            if any(distance(state, each, 1.0) < SAME for each in found):
+                continue
+            run = state.copy()
+            contacts, _ = flow(p, run, none, strobe_time(p), periods, np.bool_(False), tolerance)
+            if contacts:
+                found.append(state)
+    return np.array(found).reshape(-1, 4)
