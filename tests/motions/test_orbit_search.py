@@ -44,7 +44,7 @@ def test_a_search_finds_an_orbit_to_which_no_start_leads(
         (abs(found.maximum_displacement - size) < 2e-3) & (found.period == period)
     )
     one = found.isel(motion=place)
-    assert one.origin == flag("origin", "followed") and one.share == 0
+    assert one.origin == flag("origin", "followed") and one.motion_starts == 0
     # by the integrator alone, without Newton's method
     run = idm.simulate(oscillator, damper, frequency, one.state, periods=20 * period)
     np.testing.assert_allclose(run.displacement[-1], run.displacement[0], atol=1e-6)

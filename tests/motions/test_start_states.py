@@ -106,6 +106,16 @@ def test_a_free_decay_has_starts_too():
     assert np.max(np.abs(search.random[0][:, 0])) > 0.1
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_free_decay_says_how_it_ends():
+    """At rest, or with a loose mass that still moves when the run ends; each is told once."""
+    data = frequency_response(Oscillator(0.1, 1.0, force=0.0), Damper(0.1, 0.5), [1.0], starts=8)
+    outcomes = data.outcome.values[0].tolist()
+    assert outcomes.count(flag("outcome", "at_rest")) == 1
+    assert outcomes.count(flag("outcome", "unresolved")) <= 1
+    assert np.max(data.maximum_displacement) < 1e-4
+
+
 def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
     with warnings.catch_warnings():
         warnings.simplefilter("error")

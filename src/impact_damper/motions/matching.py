@@ -7,7 +7,7 @@ motion may be small for as long as it is measured. It is then known by how far i
 second half of its run.
 """
 
-import numpy as np
+import math
 
 from impact_damper.data.datasets import is_settled
 
@@ -48,7 +48,8 @@ def size_ratio(one, other):
     """Return the larger of the sizes of two motions divided by the smaller one.
 
     The size is max |Z1|. Of motions without a period it is how far they reached, if these distances
-    are closer. The ratio is 1 if both motions are infinite, or both are at rest.
+    are closer; in a free decay these distances are 0. The ratio is 1 if both motions are infinite,
+    or both are at rest.
 
     Parameters
     ----------
@@ -58,5 +59,11 @@ def size_ratio(one, other):
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
     names = ["maximum_displacement"] if one["period"] else ["maximum_displacement", "reach"]
-    pairs = [sorted((one[name], other[name])) for name in names]
-    return min(np.divide(larger, smaller) for smaller, larger in pairs)
+    pairs = [sorted((float(one[name]), float(other[name]))) for name in names]
+    return min(_ratio(larger, smaller) for smaller, larger in pairs)
+
+
+def _ratio(larger, smaller):
+    if larger == smaller:
+        return 1.0
+    return larger / smaller if smaller else math.inf

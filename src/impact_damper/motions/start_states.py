@@ -217,7 +217,7 @@ def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple
     length = free.displacement or (1.0 if damper is None else damper.clearance)
     most = np.array([length, free.speed or max(length * frequency, crossing)]) * SPREAD
     if oscillator.cubic < 0:
-        most = np.minimum(most, WITHIN * np.array(_barrier(oscillator)))
+        most = np.minimum(most, WITHIN * np.array(barrier(oscillator)))
     size = 2 if damper is None else 3
     direction = generator.standard_normal((count, size))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
@@ -293,7 +293,7 @@ def _ramp(target, indices, factor, tolerance):
     return at_zero[0]
 
 
-def _barrier(oscillator):
+def barrier(oscillator):
     """Return |Z1| at the barrier of a softening spring, and the speed at Z1 = 0 that reaches it."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)

@@ -25,6 +25,8 @@ from impact_damper.motions.strobe_map import STROBE
 # Motions whose max |Z1| differs relatively by less are the same, if periods and contacts agree.
 # The same limit tells a symmetric motion by its asymmetry.
 SAME = 1e-6
+# Differences of max |Z1| below this one are rounding, for a machine that has come to rest.
+ROUNDING = 1e-11
 # Outcomes of which all motions are the same: their displacement is infinite, or 0.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # End of a branch: least modulus of a multiplier at a bifurcation, least imaginary part of a complex
@@ -68,8 +70,9 @@ class Catalogue:
                 continue
             if record["outcome"] in ALIKE:
                 return i
-            ratio = record["maximum_displacement"] / known["maximum_displacement"]
-            near = abs(ratio - 1) < SAME and abs(record["contacts"] - known["contacts"]) < 1e-9
+            size = known["maximum_displacement"]
+            near = abs(record["maximum_displacement"] - size) < max(SAME * size, ROUNDING)
+            near = near and abs(record["contacts"] - known["contacts"]) < 1e-9
             if near or (not is_settled(record) and size_ratio(record, known) < SIMILAR):
                 return i
         return None

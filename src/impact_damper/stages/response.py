@@ -38,7 +38,8 @@ def frequency_response(
 ):
     """Find all motions at each frequency, from many starts and from neighbouring frequencies.
 
-    Each motion found is followed to the other frequencies of its branch.
+    Without a radius, Newton's method also looks for stable orbits beside the motions found. Each
+    motion found is followed to the other frequencies of its branch.
 
     Parameters
     ----------
