@@ -169,7 +169,7 @@ def test_ctrl_c_ends_with_its_code_and_what_to_do(machine_file, monkeypatch, cap
     with pytest.raises(SystemExit) as ended:
         command_line.run()
     assert ended.value.code == command_line.INTERRUPTED
-    assert "the same command goes on" in capsys.readouterr().err
+    assert "the same command continues the design" in capsys.readouterr().err
 
 
 def test_the_help_holds_a_file_that_works(tmp_path):

@@ -1,4 +1,4 @@
-"""The head of a page: what to do, in a few words, and why."""
+"""The head of a page: advice in a few words, with reasons."""
 
 import json
 
@@ -24,7 +24,7 @@ VERDICTS = {
 
 
 def advice(data) -> str:
-    """Return what to do."""
+    """Return the advice on whether to build the damper."""
     if named(data, "promise") == "broken":
         return "Do not build it: the check failed"
     choice = named(data, "design_choice")

@@ -1,10 +1,10 @@
-"""Parts of a page, which the templates lay out, and numbers as text."""
+"""Parts of a page, laid out by the templates, and numbers as text."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-# Digits and minus of an exponent.
+# Superscripts for the digits and the minus of an exponent.
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
@@ -23,7 +23,7 @@ class Points(NamedTuple):
 
 
 class Numbers(NamedTuple):
-    """Rows of three texts: what a number is, its value with unit, and its source."""
+    """Rows of three texts: description of a number, its value with unit, and its source."""
 
     rows: list
     kind: str = "numbers"
@@ -39,7 +39,7 @@ class Table(NamedTuple):
 
 
 class Picture(NamedTuple):
-    """A figure: its name, which is also the name of its file, and its caption."""
+    """A figure: its name, from which the name of its file follows, and its caption."""
 
     name: str
     caption: str
@@ -63,7 +63,7 @@ class Page(NamedTuple):
 
 
 def shown(value, unit="", digits=3) -> str:
-    """Return a number with its unit, in words where a motion escapes or nothing was found."""
+    """Return a number with its unit, or words if a motion escapes or nothing was found."""
     value = float(value)
     if np.isnan(value):
         return "none found"

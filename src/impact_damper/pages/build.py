@@ -11,7 +11,7 @@ from impact_damper.machine.machine import EXCITATIONS
 from impact_damper.pages.blocks import Numbers, Picture, Section, Words, percent, shown
 from impact_damper.tables.machines import named
 
-# Given values of a machine: words, unit, and this unit in SI units.
+# Given values of a machine: description, unit shown, and value of this unit in SI units.
 GIVEN = {
     "mass": ("mass without the loose mass", "kg", 1),
     "linear_stiffness": ("stiffness of the spring", "N/m", 1),
@@ -25,10 +25,10 @@ GIVEN = {
 }
 HOW = (
     "Give the loose mass a straight slot in the machine, along the direction in which the machine "
-    "moves, with a hard stop at each end. The gap is the whole free path of the loose mass from "
-    "stop to stop: the length of the slot less that of the loose mass. It must slide or roll "
-    "freely. A stop has the right restitution if the loose mass, dropped on it from a height of "
-    "1 m, rebounds to {height:.2g} m."
+    "moves, with a hard wall at each end. The gap is the whole free path of the loose mass from "
+    "wall to wall: the length of the slot minus the length of the loose mass. The loose mass must "
+    "slide or roll freely. A wall has the right restitution if the loose mass, dropped on it from "
+    "a height of 1 m, rebounds to {height:.2g} m."
 )
 WRONG = (
     "The values below belong to the least bad damper found. They are shown so that the "
@@ -53,7 +53,7 @@ def _damper(data, made, asked):
     """Return the rows of the damper."""
     gap, ratio = float(data["design_gap"]), made["damper_mass"] / made["mass"]
     force = float(data["contact_force_by_frequency"].max())
-    # a range that must be held more closely than the tolerance stands in the next row
+    # the next row shows a range that is narrower than the tolerance
     deviation = _deviation(asked, "gap") if named(data, "design_choice") == "robust" else ""
     stiffness = made["contact_stiffness"]
     return [
@@ -65,18 +65,18 @@ def _damper(data, made, asked):
             "machine.damper_mass",
         ),
         (
-            "restitution of the stops",
+            "restitution of the walls",
             f"{shown(made['restitution'])}{_deviation(asked, 'restitution')}",
             "machine.restitution",
         ),
         (
-            "stiffness of the stops",
+            "stiffness of the walls",
             f"{shown(stiffness, 'N/m')}{_deviation(asked, 'contact_stiffness')}",
             "machine.contact_stiffness",
         ),
         (
-            "largest force that a stop must bear",
-            f"{shown(force, 'N')}, which presses it in by {shown(1e3 * force / stiffness, 'mm')}",
+            "largest force that a wall must bear",
+            f"{shown(force, 'N')}, with a penetration of {shown(1e3 * force / stiffness, 'mm')}",
             "contact_force_by_frequency, machine.contact_stiffness",
         ),
     ]
@@ -116,6 +116,6 @@ def _machine(asked):
 
 
 def _deviation(asked, name):
-    """Return the tolerance of a value, or nothing."""
+    """Return the tolerance of a value as text, or "" if it has none."""
     tolerance = asked["tolerances"].get(name) if name != "mass" else None
     return f" ± {percent(tolerance)}" if tolerance else ""

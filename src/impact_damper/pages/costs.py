@@ -1,4 +1,4 @@
-"""Section of a page: what the damper costs."""
+"""Section of a page: forces, losses and noise of the damper."""
 
 import numpy as np
 
@@ -8,18 +8,19 @@ from impact_damper.pages.blocks import Numbers, Section, Words, shown
 COSTS = (
     ("impact_rate_by_frequency", "impacts", "per second"),
     ("contact_force_by_frequency", "largest force in a contact", "N"),
-    ("penetration_by_frequency", "largest penetration of a stop", "mm"),
+    ("penetration_by_frequency", "largest penetration of a wall", "mm"),
     ("impact_speed_by_frequency", "largest relative speed of an impact", "m/s"),
     ("impact_loss_by_frequency", "mean energy lost in an impact", "J"),
     ("impact_power_by_frequency", "mean power lost in impacts, which becomes heat", "W"),
-    ("noise_by_frequency", "noise: sum of the squares of the impulses per time", "N² s"),
+    ("noise_by_frequency", "noise: sum of the squared impulses, per time", "N² s"),
 )
 HEAD = (
-    "Of the largest motion that starts reach at each frequency, the largest value over the band. "
-    "The last number is a proxy only: the sound of an impact grows with the square of its impulse."
+    "The numbers hold for the largest motion to which starts lead at each frequency; the largest "
+    "value over the band is shown. The noise is only an indicator: the sound of an impact grows "
+    "with the square of its impulse."
 )
 YIELDS = {
-    "no": "No: the stops and the loose mass stay elastic.",
+    "no": "No: the walls and the loose mass stay elastic.",
     "yes": "Yes: the contact yields. Choose a larger radius or a harder material.",
     "unknown": "Not known: no yield strength was given.",
 }

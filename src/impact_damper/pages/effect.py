@@ -1,4 +1,4 @@
-"""Section of a page: what the damper will do."""
+"""Section of a page: the effect of the damper."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines import response, transients
 from impact_damper.pages.blocks import Numbers, Picture, Section, shown
 
-# Ring-down is timed until the displacement has fallen to this share.
+# The unforced decay is timed until the displacement has fallen to this fraction.
 DECAY = 0.1
 
 
@@ -22,23 +22,23 @@ def section(data) -> Section:
             "balance_displacement",
         ),
         (
-            "largest displacement with it, of any motion that starts reach",
+            "largest displacement with the damper, of any motion to which starts lead",
             f"{shown(reached[worst], 'mm')} at {shown(frequency[worst], 'Hz', 4)}",
             "reached_displacement",
         ),
         (
-            "there, 95 % of the peaks of the motion are below",
+            "95 % of the peaks of this motion are below",
             shown(data["motion_peak_high"].values[worst], "mm"),
             "motion_peak_high",
         ),
         (
-            "there, r.m.s. displacement",
+            "r.m.s. displacement of this motion",
             shown(data["motion_rms"].values[worst], "mm"),
             "motion_rms",
         ),
         *_untouched(data, frequency),
         (
-            "reduction: largest without over largest with it",
+            "reduction: largest displacement without / with the damper",
             f"{shown(bare[peak] / reached[worst])} times",
             "balance_displacement, reached_displacement",
         ),
@@ -58,21 +58,21 @@ def section(data) -> Section:
 
 
 def _untouched(data, frequency):
-    """Yield the largest motion in which the loose mass touches no wall, if it is not quiet."""
+    """Yield a row on the largest motion without contact, if this motion is not quiet."""
     sizes = data["untouched_displacement"].values
     if np.fmax.reduce(sizes) > float(data["displacement_limit"]):
         k = int(np.nanargmax(sizes))
         yield (
-            "not counted: largest displacement while the loose mass floats and touches no stop",
+            "not counted: largest displacement of a motion in which the loose mass touches no wall",
             f"{shown(sizes[k], 'mm')} at {shown(frequency[k], 'Hz', 4)}",
             "untouched_displacement",
         )
 
 
 def _swept(data):
-    """Yield the largest displacements while the forcing frequency is swept, in the band and beside.
+    """Yield the largest displacements in sweeps of the frequency, within and outside the band.
 
-    The sweep goes through the resonances, which may lie outside the band.
+    The sweeps go through the resonances, which may lie outside the band.
     """
     low, high = parameters_of(data)["band"]
     for direction in data["direction"].values:
@@ -93,7 +93,7 @@ def _swept(data):
 
 
 def _rung(data):
-    """Yield the times in which a free vibration decays."""
+    """Yield the times in which an unforced vibration decays."""
     times = []
     for equipment in ("bare", "damped"):
         rung = data.sel(equipment=equipment)
@@ -103,7 +103,7 @@ def _rung(data):
         times.append(shown(time[known][np.argmax(below)] if below.any() else np.nan, "s"))
     first = shown(data["ring_envelope"].sel(equipment="bare").values[0], "mm")
     yield (
-        f"time in which a vibration of {first} decays to a tenth, without / with it",
+        f"time in which an unforced vibration of {first} decays to a tenth, without / with it",
         " / ".join(times),
         "ring_envelope, ring_time",
     )

@@ -1,4 +1,4 @@
-"""The page of a machine: a drawing, what to build, what that does, and how sure it is."""
+"""The page of a machine: what to build, its effect, how sure the result is, and alternatives."""
 
 from impact_damper.figures.machines import (
     cliff,
@@ -13,7 +13,7 @@ from impact_damper.figures.machines import (
 from impact_damper.pages import advice, build, costs, effect, limits, others, sureness
 from impact_damper.pages.blocks import Page
 
-# Functions that draw the figures of a page, by name of the file.
+# Functions that draw the figures of a page, keyed by the name of the file.
 FIGURES = {
     "drawing": drawing.draw_drawing,
     "response": response.draw_response,
@@ -33,7 +33,7 @@ def machine_page(name, data) -> Page:
     Parameters
     ----------
     name : str
-        Entry of the configuration.
+        Name of the entry in the configuration.
     data : xarray.Dataset
         Of `stages.machines.design_damper`.
     """

@@ -1,4 +1,4 @@
-"""Section of a page: what else one could build, and who wins where."""
+"""Section of a page: comparison with tuned absorbers and with other loose masses."""
 
 import itertools
 import json
@@ -18,22 +18,22 @@ NAMES = {
 }
 ABSORBERS = ("tuned", "nonlinear", "best")
 HEAD = (
-    "Everything here has the same added mass. The tuned absorber has the stiffness and damping "
-    "that make the largest displacement of a linear machine least; the nonlinear one has a cubic "
-    "spring in addition; the optimised one has all three from a search for this machine. "
-    "Displacements are the largest of any motion found: the absorbers' by exact "
-    "periodic motions and checked by random starts, this damper's by random starts and ramps of "
-    "frequency."
+    "All absorbers have the same mass as the damper. The tuned absorber has the stiffness and "
+    "damping that minimise the largest displacement of a linear machine. The nonlinear absorber "
+    "has a cubic spring in addition. For the optimised absorber a search for this machine found "
+    "stiffness, damping and cubic stiffness. Displacements are the largest of all motions found: "
+    "with absorbers by exact periodic motions, checked by random starts; with the damper by random "
+    "starts and slow changes of the frequency."
 )
 MASSES = (
-    "Impact dampers of other masses, each with its own gap, by a reduced design (* on the Pareto "
-    "front: no other mass betters displacement, force and mass together):"
+    "Impact dampers of other masses, each with its own gap, by a reduced design. A star marks the "
+    "Pareto front: none of these dampers is better in displacement, force and mass at once."
 )
 SOURCES = (
     "competitor_displacement, reached_displacement (this damper, nominal excitation), "
     "force_map_displacement (this damper, other excitations)"
 )
-COLUMNS = ["", "as designed", "10 % detuned", "excitation / 4", "excitation x 4", "least at"]
+COLUMNS = ["", "as designed", "springs 10 % off", "excitation / 4", "excitation x 4", "smallest at"]
 
 
 def section(data) -> Section:
@@ -50,13 +50,14 @@ def section(data) -> Section:
         Points([*_lighter(data)]),
         Picture("masses", masses.CAPTION),
     ]
-    return Section("What else would do", blocks)
+    return Section("Alternatives", blocks)
 
 
 def _sizes(data):
-    """Return displacements (mm) by competitor: over frequency, and of the band over excitation.
+    """Return displacements (mm) by competitor: over frequency, and largest over the excitation.
 
-    Infinity stands for a motion that escapes, and competitors that cannot be built are left out.
+    A motion that escapes has the displacement infinity. Competitors that cannot be built are left
+    out.
     """
     frequency, force = {}, {}
     for name in NAMES:
@@ -87,29 +88,30 @@ def _rows(data, over_frequency, over_force):
 
 
 def _verdict(data, over_frequency):
-    """Yield who wins over the band at the nominal excitation."""
+    """Yield sentences on the best competitor over the band at the nominal excitation."""
     worst = {name: sizes.max() for name, sizes in over_frequency.items()}
     first, second = sorted(worst, key=worst.get)[:2]
     yield (
-        f"Over the band, at the nominal excitation, {NAMES[first]} wins: the machine moves at most "
-        f"{shown(worst[first], 'mm')}; next is {NAMES[second]} with {shown(worst[second], 'mm')}."
+        f"Over the band, at the nominal excitation, {NAMES[first]} is best: the machine moves at "
+        f"most {shown(worst[first], 'mm')}. Next is {NAMES[second]} with "
+        f"{shown(worst[second], 'mm')}."
     )
     if first == "this":
-        yield "So the impact damper is the right choice here, and it has no spring to tune."
+        yield "So the impact damper is the right choice here, and it has no spring to adjust."
     elif first == "bare":
-        yield "So the impact damper loses: at this excitation it is better to build nothing."
+        yield "So at this excitation the machine moves least without any damper: build none."
     else:
         off = data["competitor_displacement"].sel(competitor=first, force_share=1.0)
         detuned = float(off.max(skipna=False))
         what = f"with its springs 10 % off {NAMES[first]} reaches {shown(detuned, 'mm')}"
         if detuned < worst["this"]:
-            yield f"So the impact damper loses, also against a detuned absorber: {what}."
+            yield f"So the absorber is better than the impact damper, even if detuned: {what}."
         else:
-            yield f"So the impact damper loses only while the absorber stays tuned: {what}."
+            yield f"So the absorber is better only as long as it stays tuned: {what}."
 
 
 def _ranges(over_force):
-    """Yield who wins over the excitation."""
+    """Yield a sentence on the best competitor over the excitation."""
     share = over_force["share"]
     names = [name for name in over_force if name != "share"]
     best = np.array([over_force[name] for name in names]).argmin(axis=0)
@@ -120,13 +122,13 @@ def _ranges(over_force):
         where = f"at {shown(low, digits=2)}" if low == high else f"from {low:.2g} to {high:.2g}"
         texts.append(f"{NAMES[names[winner]]} {where}")
     yield (
-        "Over the excitation, as a multiple of the nominal one and for the largest displacement "
-        f"over the band: {'; '.join(texts)}."
+        "Best by the largest displacement over the band, at multiples of the nominal excitation: "
+        f"{'; '.join(texts)}."
     )
 
 
 def _remarks(data):
-    """Yield why a competitor cannot be built."""
+    """Yield sentences on why a competitor cannot be built."""
     for name, text in json.loads(data.attrs.get("remarks", "{}")).items():
         yield f"{NAMES[name].capitalize()}: {text}"
 
@@ -155,7 +157,7 @@ def _absorbers(data):
 
 
 def _lighter(data):
-    """Yield the lightest other loose mass with which the machine moves no more, if there is one."""
+    """Yield a sentence on the lightest loose mass that does as well, if there is one."""
     mass, gap, size, share = (
         data[f"other_{name}"].values for name in ("mass", "gap", "displacement", "share")
     )
@@ -172,7 +174,13 @@ def _lighter(data):
 def _masses(data):
     """Return columns, rows and sources of the table of other masses."""
     here = parameters_of(data)["mass"]
-    columns = ["loose mass", "gap", "largest displacement", "least quiet share", "contact force"]
+    columns = [
+        "loose mass",
+        "gap",
+        "largest displacement",
+        "share of quiet starts",
+        "contact force",
+    ]
     names = ("mass", "gap", "displacement", "share", "force", "best")
     names = [f"other_{name}" for name in names]
     values = zip(*(data[name].values for name in names), strict=True)

@@ -1,4 +1,4 @@
-"""A page as files: HTML that needs no other file, Markdown, and the figures of both as PNG."""
+"""Files of a page: HTML that needs no other file, Markdown, and the figures as PNG."""
 
 import base64
 import io
@@ -9,7 +9,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from impact_damper.data.whole_files import whole
 from impact_damper.figures.style import style
 
-# Dots per inch. A figure is 3.4 inches wide, and a page shows it at most 600 pixels wide.
+# Dots per inch. A figure is 3.4 inches wide; pages show it with at most 600 pixels.
 DPI = 220
 
 
@@ -20,7 +20,7 @@ def write_page(page, figures, data, folder) -> None:
     ----------
     page : blocks.Page
     figures : dict of callable
-        Return a figure of `data`, keyed by name.
+        Functions that return a figure of `data`, keyed by name.
     data : xarray.Dataset
     folder : str or pathlib.Path
     """
@@ -40,7 +40,7 @@ def as_png(figure) -> bytes:
 
 
 def as_text(template, page, pictures) -> str:
-    """Return a page as the text that one of the templates makes of it.
+    """Return the text that a template makes of a page.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Section of a page: how sure the promise is."""
+"""Section of a page: how sure the result is."""
 
 import numpy as np
 
@@ -17,28 +17,28 @@ from impact_damper.pages.blocks import (
 )
 
 MEANING = (
-    "A damper that works from one start may fail from another: beside the quiet motion the loose "
-    "mass can fall into other motions and stay there. So the machine is let go from many random "
-    "starts, up to three times as large and as fast as its motions without the damper, and the "
-    "share of the starts that end quiet is counted: with the machine moving at most {limit}, or, "
-    "in a motion that never repeats, {chaotic} while it is watched, because later peaks are "
-    "larger. A share is known only within an interval, which is given in brackets: a gap counts as "
-    "quiet if, at every frequency of the band, the lower end of this 95 % interval is at least "
+    "A damper that works from one start may fail from another, because other motions can exist "
+    "beside the quiet one. Therefore motions are run from many random starts, up to three times "
+    "as large and as fast as the motions without the damper. A motion is quiet if the machine "
+    "moves at most {limit}. A motion that never repeats is quiet if the machine moves at most "
+    "{chaotic} while it is watched, because later peaks are larger. The share of starts that "
+    "lead to quiet motions is known within a 95 % interval, given in brackets. A gap counts as "
+    "quiet if, at every frequency of the band, the lower end of this interval is at least "
     "{share}."
 )
 TIME = (
-    "A share depends on how long one waits. Comparisons ran motions for at most {hurried} cycles "
-    "of the forcing ({seconds}), and those that were not quiet then, but would make a candidate "
-    "fail, for at most {limit}, as all others; a motion that is chaotic for certain was stopped "
-    "after {early} and {patience} cycles."
+    "A share depends on the length of the runs. Comparisons ran motions for at most {hurried} "
+    "cycles of the forcing ({seconds}). Motions that were not quiet then, but decided about a "
+    "candidate, were run for at most {limit} cycles, like all motions after the comparisons. A "
+    "motion that is certainly chaotic was stopped after {early} and {patience} cycles."
 )
 DEPENDENCE = (
-    "What the quiet orbit at {frequency} depends on: its change if one value grows by 1 %, by "
-    "exact derivatives. The orbit is stable while its largest multiplier is below 1."
+    "Change of the quiet orbit at {frequency} if one value grows by 1 %, by exact derivatives. The "
+    "orbit is stable while the modulus of its largest multiplier is below 1."
 )
 TRAP = (
-    "The gap of the smallest stable quiet orbit is {best}: that is not the gap to build, because "
-    "the share of starts that reach this orbit decides, and not its size or its stability."
+    "The gap of the smallest stable quiet orbit is {best}. It is not the gap to build, because the "
+    "share of starts that lead to the orbit decides, not its size or its stability."
 )
 
 
@@ -74,7 +74,7 @@ def _meaning(data, asked):
 
 
 def _time(data, asked):
-    """Return the paragraph on the times after which the shares were counted."""
+    """Return the paragraph on the lengths of the runs."""
     hurried, full = asked["compared_settling"], asked["settling"]
     seconds = hurried["limit"] / data["frequency"].values.mean()
     return TIME.format(
@@ -87,41 +87,41 @@ def _time(data, asked):
 
 
 def _shares(data, asked):
-    """Yield the shares of quiet starts: first of starts that chose the gap, then of unseen ones."""
+    """Yield rows on shares of quiet starts, of starts that chose the gap and of new starts."""
     row = int(np.argmin(np.abs(data["candidate_gap"].values - float(data["design_gap"]))))
     shares = data["start_quiet_share"].values[row]
     k = int(np.argmin(shares))
     chosen = [shares[k], *data["start_quiet_interval"].values[row, k]]
     gap = shown(data["candidate_gap"].values[row], "mm")
     yield (
-        f"least quiet share over the band, {asked['starts']} starts at a frequency, nearest "
+        f"share of quiet starts at the worst frequency, {asked['starts']} starts at each, nearest "
         f"gap compared ({gap})",
         share_with_interval(chosen),
         "start_quiet_share, start_quiet_interval",
     )
     yield (
-        "cycles until a start is on a periodic quiet motion, there: median / 95 %, at the slowest "
-        "frequency",
+        "cycles in which these motions settle on a periodic quiet motion, median / 95 %, at the "
+        "slowest frequency",
         _times(data, row),
         "quiet_time_median, quiet_time_late",
     )
     shares = data["reached_quiet_share"].values
     k = int(np.argmin(shares))
     yield (
-        f"least quiet share over the band at the gap to build, {asked['starts']} starts",
+        f"share of quiet starts at the worst frequency, gap to build, {asked['starts']} starts",
         share_with_interval([shares[k], *data["reached_quiet_interval"].values[k]]),
         "reached_quiet_share, reached_quiet_interval",
     )
     unseen, sizes = data["corner_share"].values, data["corner_displacement"].values
     yield (
-        "1000 unseen starts over the band, nominal values",
+        "1000 new starts over the band, nominal values",
         f"{share_with_interval(unseen[0])}, largest displacement {shown(sizes[0], 'mm')}",
         "corner_share, corner_displacement",
     )
     if len(unseen) > 1:
         k = 1 + int(np.argmin(unseen[1:, 0]))
         yield (
-            f"the worst of {len(unseen) - 1} corners of the tolerances, 1000 unseen starts each",
+            f"the worst of {len(unseen) - 1} corners of the tolerances, 1000 new starts each",
             f"{share_with_interval(unseen[k])}, largest displacement of all corners "
             f"{shown(sizes[1:].max(), 'mm')}",
             "corner_share, corner_displacement",
@@ -135,14 +135,14 @@ def _shares(data, asked):
             "sample_share",
         )
     yield (
-        "starts that could lead to motions that were not found, at most",
+        "share of starts that lead to motions not found, at most",
         percent(data["missed_share"]),
         "missed_share",
     )
 
 
 def _times(data, row):
-    """Return the longest median and the longest 95 % of times to a quiet motion, as text."""
+    """Return the longest median and the longest 95th percentile of settling times, as text."""
     median, late = (
         np.fmax.reduce(data[f"quiet_time_{name}"].values[row]) for name in ("median", "late")
     )
@@ -152,7 +152,7 @@ def _times(data, row):
 
 
 def _dependence(data):
-    """Yield what the quiet orbit depends on, if there is one."""
+    """Yield the table of derivatives of the quiet orbit, if there is one."""
     size, modulus = data["displacement_change"].values, data["modulus_change"].values
     if not np.isfinite(size).any():
         return
@@ -162,12 +162,12 @@ def _dependence(data):
         for name, *changes in zip(data["changed"].values, size, modulus, strict=True)
         if any(changes)
     ]
-    columns = ["1 % more", "displacement", "largest multiplier"]
+    columns = ["value that grows by 1 %", "displacement", "largest multiplier"]
     yield Table(columns, rows, "displacement_change, modulus_change")
 
 
 def _edges(data):
-    """Yield the ends of the ranges of quiet gaps and of stability of the quiet orbit."""
+    """Yield rows on the ends of the quiet gaps and of the stability of the quiet orbit."""
     gap = float(data["design_gap"])
     for k, side in enumerate(("below", "above")):
         edge, beyond, frequency = (
@@ -201,7 +201,7 @@ def _edges(data):
     stable = stable_range(data, "force")
     if stable:
         yield (
-            "excitation at which the quiet orbit is stable, over the nominal one",
+            "range of excitation / nominal at which the quiet orbit is stable",
             stable,
             "stability_force, stability_force_event",
         )

@@ -1,8 +1,7 @@
-"""Plots of one's own results: `impact_damper.plot.response(data)`, and likewise the others.
+"""Plots of one's own results, such as `impact_damper.plot.response(data)`.
 
-Each function takes what the public functions of the package return, alone or in a list, draws it
-with the functions that draw the figures of the paper, and returns the Axes. `ax` is where to draw;
-without it a figure is made.
+Each function takes results of the public functions of the package, alone or in a list, draws them
+like the figures of the paper, and returns the Axes. It draws on `ax`, or on a new figure.
 """
 
 from impact_damper.plot.designs import design, sweep

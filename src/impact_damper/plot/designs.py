@@ -23,7 +23,7 @@ def sweep(data, *, ax=None):
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def design(data, *, ax=None):
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What all plots share: checks of datasets, new figures, and legends."""
+"""Helpers of all plots: checks of datasets, new figures, and legends."""
 
 from contextlib import contextmanager
 
@@ -12,20 +12,20 @@ from impact_damper.system.bounds import shown
 
 
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
-    """Return a dataset, or those in a list, as a list.
+    """Return the datasets given, one or several, as a list.
 
     Parameters
     ----------
     data : xarray.Dataset or sequence of xarray.Dataset
     takes : callable
-        Maps a dataset to whether it can be drawn.
+        Function that returns whether a dataset can be drawn.
     words : str
-        The functions whose results can be drawn.
+        Names of the functions whose results can be drawn, for messages.
 
     Raises
     ------
     TypeError
-        If there is none, or one cannot be drawn.
+        If there is no dataset, or one cannot be drawn.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -41,12 +41,12 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
 
 
 def dataset_in(data, takes, words) -> xr.Dataset:
-    """Return the one dataset that is given; arguments as for `datasets_in`.
+    """Return the single dataset given; arguments as for `datasets_in`.
 
     Raises
     ------
     TypeError
-        If there is none, or more than one, or it cannot be drawn.
+        If there is no dataset, more than one, or one that cannot be drawn.
     """
     found = datasets_in(data, takes, words)
     if len(found) > 1:
@@ -56,10 +56,10 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 
 @contextmanager
 def looks(ax):
-    """Context with the style of the paper's figures for new axes only.
+    """Return a context with the style of the paper's figures; given axes keep their own style.
 
-    The backend of notebooks is loaded with the first figure and makes matplotlib interactive. That
-    outlives the style; otherwise a notebook would show the first figure only.
+    The backend of notebooks is loaded with the first figure and makes matplotlib interactive. This
+    setting must outlive the context; otherwise a notebook would show only the first figure.
     """
     if ax is not None:
         yield
@@ -71,12 +71,12 @@ def looks(ax):
 
 
 def axes_for(ax, count=1, height=3.6):
-    """Return the axes to draw on as a list, made if `ax` is None.
+    """Return the axes to draw on as a list; new axes if `ax` is None.
 
     Raises
     ------
     TypeError
-        If `ax` is not as many axes.
+        If `ax` is not `count` axes.
     """
     if ax is None:
         width = COLUMNS["double"]

@@ -22,19 +22,19 @@ def orbit(data, *, ax=None):
     Parameters
     ----------
     data : xarray.Dataset
-        A result of `simulate`; or of `steady_motion` or `periodic_orbit`, of which one period is
-        simulated from the state that it holds.
+        A result of `simulate`, or of `steady_motion` or `periodic_orbit`. For the latter two, one
+        period is simulated from the state in the dataset.
     ax : sequence of 2 matplotlib.axes.Axes, optional
 
     Returns
     -------
     list of matplotlib.axes.Axes
-        Those of the phase portrait and of the course in time.
+        Axes of the phase portrait and of the course in time.
 
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------
@@ -73,7 +73,7 @@ def _one_period(data):
 
 
 def _machine_of(data):
-    """Return the machine that a dataset in SI units is of, and its damper or None."""
+    """Return the machine of a dataset in SI units, and its damper or None."""
     made = json.loads(data.attrs["machine"])
     machine = Machine(**{each.name: made.get(each.name, each.default) for each in fields(Machine)})
     if "damper_mass" not in made:
@@ -83,7 +83,7 @@ def _machine_of(data):
 
 
 def basins(data, *, ax=None):
-    """Draw basins of attraction: the motion that each state of a plane leads to.
+    """Draw basins of attraction: the motion to which each state of a plane leads.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def basins(data, *, ax=None):
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------
@@ -113,7 +113,7 @@ def basins(data, *, ax=None):
 
 
 def migration(data, *, ax=None):
-    """Draw a run of migration control: displacement against time, and when the damper is on.
+    """Draw a run of migration control: displacement against time, shaded while the damper is on.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def migration(data, *, ax=None):
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------

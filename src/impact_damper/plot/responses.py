@@ -28,8 +28,8 @@ def response(data, *, ax=None):
     ----------
     data : xarray.Dataset or list of xarray.Dataset
         Results of `frequency_response`, `subharmonic_suppression`, `steady_motion`,
-        `harmonic_balance_response`, `orbit_branch` or `complete_branches` over frequency, with and
-        without a damper, in any mixture; beside them of `suppression_band`.
+        `harmonic_balance_response`, `orbit_branch`, `complete_branches` (over frequency) or
+        `suppression_band`, with or without a damper, in any combination.
     ax : matplotlib.axes.Axes, optional
 
     Returns
@@ -39,7 +39,7 @@ def response(data, *, ax=None):
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def response(data, *, ax=None):
 
 
 def _kind(data):
-    """Return what kind of response a dataset is, or "" if none."""
+    """Return the kind of response that a dataset holds, or "" if it holds none."""
     if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
         return "orbits"
     if "free_amplitude" in data:
@@ -124,7 +124,7 @@ def _frequency_label(data):
 
 
 def _size_label(given):
-    """Return the label of displacements; of amplitudes, if only those are drawn."""
+    """Return the label of displacements, or of amplitudes if only amplitudes are drawn."""
     for name in ("maximum_displacement", "orbit_displacement"):
         for each in given:
             if name in each:
@@ -136,8 +136,8 @@ def _size_label(given):
 def branch(data, *, ax=None):
     """Draw the largest displacement in periodic orbits against the parameter that varies.
 
-    Stable orbits are full, unstable ones dotted. Colours stand for periods, markers for
-    bifurcations and changes of contact.
+    Lines of stable orbits are solid, those of unstable ones dotted. Colours distinguish periods;
+    markers are bifurcations and changes of contact.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def branch(data, *, ax=None):
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------
@@ -204,7 +204,7 @@ def shares(data, *, ax=None):
     Raises
     ------
     TypeError
-        If something else is given.
+        If `data` or `ax` is of another type.
 
     Examples
     --------

@@ -1,4 +1,7 @@
-"""Captions of figures, with the parameters in words; imports no NumPy."""
+"""Captions of figures, with the parameters as text.
+
+This module imports no NumPy, because Snakemake reads it at every dry run.
+"""
 
 import re
 from dataclasses import fields
@@ -7,15 +10,15 @@ from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.system.parameters import SYMBOLS
 
-# A longer list of values is told by its ends.
+# For a longer list of values the text gives only the first and the last.
 MANY = 3
 
 
 def caption(figure, text) -> str:
     """Return the caption of a figure as one paragraph of reStructuredText.
 
-    Ω and ωl are written as on the axes, in place of the W and omega_l of texts. Bars of an
-    absolute value are escaped, since a text between bars would be the name of a substitution.
+    W and omega_l become Ω and ωl, the symbols on the axes. The bars of an absolute value are
+    escaped, since reStructuredText takes text between bars for the name of a substitution.
 
     Parameters
     ----------
@@ -31,14 +34,14 @@ def caption(figure, text) -> str:
 
 
 def cases_in_words(entries, named=False) -> str:
-    """Return the parameters of what a figure draws, those that all entries share first.
+    """Return the parameters of the entries that a figure draws, first those with common values.
 
     Parameters
     ----------
     entries : dict of dict of str
-        Keyed by the name of the entry, then by name or symbol of the parameter: its value in words.
+        Values as text, keyed by the name of the entry, then by name or symbol of the parameter.
     named : bool
-        Whether the name of each entry is told.
+        Whether the text gives the name of each entry.
     """
     first, *others = entries.values()
     shared = [item for item in first.items() if all(item in each.items() for each in others)]
@@ -59,15 +62,15 @@ def cases_in_words(entries, named=False) -> str:
 
 
 def in_words(values) -> dict:
-    """Return the values of parameters in words, keyed by symbol: "= 0.215", "from 1 to 3".
+    """Return the values of parameters as text, keyed by symbol: "= 0.215", "from 1 to 3".
 
     A linear stiffness of zero, which most oscillators have, is left out.
 
     Parameters
     ----------
     values : dict
-        Keyed by name of the parameter: a number, a list, a range with `first` and `last`, or "rule"
-        for rule (19). Other keys are ignored.
+        Keyed by the name of the parameter. A value is a number, a list, a range with `first` and
+        `last`, or "rule" for rule (19). Other keys are ignored.
     """
     return {
         symbol: _value(values[name])
@@ -82,7 +85,7 @@ def machine_in_words(values) -> dict:
     Parameters
     ----------
     values : dict
-        Arguments of `Machine`; a value that is text has its unit already.
+        Arguments of `Machine`; a value that is text contains its unit.
     """
     words = {}
     for each in fields(Machine):

@@ -1,4 +1,4 @@
-"""Figures and tables of a chapter of the report, each in two formats and with its caption."""
+"""Figures and tables of a chapter of the report, in two formats each, with captions."""
 
 from functools import partial
 from importlib import import_module
@@ -29,7 +29,7 @@ def make_table(name, datasets, path, drawn=()) -> None:
     module = import_module(f"impact_damper.{table.module}")
     read = {stage: datasets.get(stage, {}) for stage in table.stages}
     frame = getattr(module, name)(read)
-    # A module either has a layout of its own for Markdown or names the columns shown in it.
+    # A module has its own layout for Markdown, or it names the columns that Markdown shows.
     document = getattr(module, "document", None) or partial(
         table_files.for_people,
         title=table.caption.removesuffix("."),

@@ -1,4 +1,4 @@
-"""The command `impact-damper`: design a damper for the machine of a YAML file, simulate, report."""
+"""The command `impact-damper`: designs, simulations and reports for a machine in a YAML file."""
 
 import json
 import sys
@@ -25,7 +25,7 @@ INTERRUPTED = 130
 
 
 def tell_version(asked: bool):
-    """Print the version and end, if the option `--version` asks for it."""
+    """Print the version and exit if the option `--version` is given."""
     if asked:
         print(version("impact-damper"))
         raise typer.Exit
@@ -39,7 +39,7 @@ def main(
 ):
     """Impact dampers for machines in SI units.
 
-    A YAML file describes machine, damper and band of frequencies. The least that it must hold:
+    A YAML file describes machine, damper and band of frequencies. It must hold at least:
 
     \b
     machine: {mass: 12 kg, linear_stiffness: 2e5, damping_ratio: 0.5 %, force: 40}
@@ -48,7 +48,7 @@ def main(
 
     Plain numbers are in kg, N/m, N, m and Hz.
 
-    All other keys: "Describe a machine in a file" in the documentation.
+    The documentation, "Describe a machine in a file", lists all keys.
     """
 
 
@@ -59,7 +59,7 @@ def design(
     workers: Workers = 2,
     as_json: AsJson = False,
 ):
-    """Find the gap to build, and how sure that is. Takes minutes; goes on where it was stopped."""
+    """Find the gap to build, and how sure it is. Takes minutes; an interrupted design continues."""
     from impact_damper.data.datasets import decode, save
     from impact_damper.stages.machines import design_damper
 
@@ -99,7 +99,7 @@ def simulate(
     frequency: Annotated[str, typer.Option(help='Forcing frequency, such as "24 Hz".')],
     gap: Gap = None,
     state: Annotated[
-        str, typer.Option(help="x, x', z, z' at the start; z: machine relative to the loose mass.")
+        str, typer.Option(help="Initial x, x', z, z'; z is relative to the loose mass.")
     ] = "0, 0, 0, 0",
     periods: Annotated[float, typer.Option(help="Length in forcing periods.")] = 200,
     output: Annotated[Path, typer.Option(help="NetCDF file of the motion.")] = None,
@@ -171,7 +171,7 @@ def response(
                 "other_mm": sorted(float(x) for x in sizes[~settled]),
             }
         )
-    words = ["Hz        largest displacement of each motion, mm; in brackets without a period"]
+    words = ["Hz        largest displacement of each motion, mm (in brackets if not periodic)"]
     for row in rows:
         sizes = [f"{x:.4g}" for x in row["settled_mm"]] + [f"({x:.4g})" for x in row["other_mm"]]
         words.append(f"{row['frequency_hz']:<9.4g} {'  '.join(sizes)}")
@@ -186,7 +186,7 @@ def report(
     ] = None,
     as_json: AsJson = False,
 ):
-    """Write the page of a finished design again."""
+    """Write the page of a finished design again, from its data."""
     from impact_damper.data.datasets import load
 
     found = load(data)
@@ -221,7 +221,7 @@ def hertz_contact(given):
 def damper(given, gap):
     """Return the damper with a gap, or None without a gap.
 
-    A contact stiffness that is not given is the one with which the command `design` computes.
+    If the contact stiffness is not given, it is computed as the command `design` does.
     """
     from impact_damper.design.stiffness import contact_stiffness_of
 
@@ -236,7 +236,7 @@ def damper(given, gap):
 
 
 def quantity(text):
-    """Return a plain number, which is in SI units, or the text with its unit."""
+    """Return a plain number, in SI units, or the text with its unit."""
     try:
         return float(text)
     except ValueError:
@@ -253,7 +253,7 @@ def write_report(data, name, folder):
 
 
 def kept(data, output):
-    """Save a dataset if a file is named, and return the line that says so."""
+    """Save a dataset if a file is given, and return the line that reports it."""
     if output is None:
         return []
     from impact_damper.data.datasets import save
@@ -268,7 +268,7 @@ def tell(as_json, words, numbers):
 
 
 def run():
-    """Run the command; a wrong argument ends it with its message and without a trace."""
+    """Run the command; a wrong argument ends it with a message but no traceback."""
     warnings.showwarning = lambda message, *rest: print(f"Warning: {message}", file=sys.stderr)
     try:
         app()
@@ -276,6 +276,6 @@ def run():
         sys.exit(f"Error: {error}")
     except SystemExit as end:
         if end.code == INTERRUPTED:
-            words = "Finished steps of a design are kept; the same command goes on."
+            words = "Finished steps of a design are kept; the same command continues the design."
             print(f"\nInterrupted. {words}", file=sys.stderr)
         raise

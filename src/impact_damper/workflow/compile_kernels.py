@@ -1,7 +1,7 @@
-"""Compile and cache every kernel that the package calls, by calls with hardly any work.
+"""Compile and cache every kernel of the package, by calls that compute hardly anything.
 
-A module that holds steps of the series compiles them when it is imported. So each function below
-imports what it compiles, which lets two processes share the work.
+A module with steps of the Taylor series compiles them when it is imported. Therefore each function
+below imports the modules that it compiles, so that two processes can share the work.
 """
 
 import gc
@@ -17,7 +17,8 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
-# With this damper motions settle soon at this frequency, so that following orbits is compiled too.
+# Motions with this damper settle soon at this frequency, so the kernels that follow orbits are
+# compiled too.
 DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
 FREQUENCY = 1.95
 
@@ -32,19 +33,19 @@ def compile_all(processes, orders) -> None:
     orders : list of list of int
         Further pairs of orders of the Taylor series.
     """
-    gc.disable()  # compiling makes little garbage, and its collection takes a fifth of the time
-    fork = get_context("fork")  # workers keep the setting
+    gc.disable()  # compilation makes little garbage, and collection takes a fifth of its time
+    fork = get_context("fork")  # worker processes inherit this setting
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
         for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
             half.result()
-        # These call kernels of both halves.
+        # These functions call kernels that either process compiled.
         pool.submit(warm_up_rivals, orders).result()
 
 
 def warm_up_orbits() -> None:
-    """Call once each kernel that takes one motion after the other.
+    """Call each kernel that processes one motion at a time.
 
-    First come kernels that `warm_up_settling` needs too, and last those that need its kernels.
+    Kernels that `warm_up_settling` needs too come first. Kernels that need its kernels come last.
     """
     from impact_damper.motions import ensemble, envelopes, records, smooth_runs, strobe_map
 
@@ -79,7 +80,7 @@ def warm_up_orbits() -> None:
 
 
 def warm_up_settling() -> None:
-    """Call once each kernel that runs many motions until they settle."""
+    """Call each kernel that runs many motions until they settle."""
     from impact_damper.kernel import batch
 
     pool, places = batch.make_pool(1), np.zeros(batch.LANES, np.int64)
@@ -107,11 +108,12 @@ def warm_up_settling() -> None:
 
 
 def warm_up_rivals(orders=()) -> None:
-    """Compile the kernels of all integrators that are compared, by a short run per stage.
+    """Compile the kernels of all integrators that are compared, by a short run for each stage.
 
-    `orders` are further pairs of orders of the Taylor series. Kernels loaded from the cache can
-    differ in the last digit from those compiled in the same process, which shows where a method
-    integrates through a jump. So this compiles them all before the jobs load them.
+    `orders` are further pairs of orders of the Taylor series. Results of a kernel loaded from the
+    cache can differ in the last digit from those of a kernel compiled in the same process, and a
+    method that integrates through a jump amplifies the difference. All kernels are therefore
+    compiled here, before jobs load them.
     """
     from impact_damper.motions.strobe_map import strobe_time
     from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode

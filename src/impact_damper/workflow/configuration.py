@@ -1,4 +1,4 @@
-"""Validation of the workflow's configuration: every problem in one line, before any job starts."""
+"""Validation of the workflow's configuration before any job starts, with a line per problem."""
 
 from pathlib import Path
 
@@ -23,8 +23,8 @@ class ConfigurationError(ValueError):
 def check_configuration(config) -> None:
     """Raise if the configuration cannot be run.
 
-    First each value is checked by itself. Only if all are allowed, contradictions between values
-    are looked for, and only without these, too large amounts of work.
+    First each value is checked by itself. If all are allowed, contradictions between values are
+    checked, and if there are none, the amount of work.
 
     Parameters
     ----------
@@ -50,15 +50,15 @@ def check_configuration(config) -> None:
 def problems_of(error) -> list:
     """Return a line for each problem that pydantic found, in the order of the keys."""
     details = error.errors(include_url=False)
-    # Paths mix names and positions in lists, which have no order among themselves.
+    # Paths mix names and positions in lists, which Python cannot compare.
     return [_line(detail) for detail in sorted(details, key=lambda d: [*map(str, d["loc"])])]
 
 
 def without_left_out(config) -> dict:
     """Return the configuration without the entries that are set to null.
 
-    A second configuration file leaves out an entry of the first by setting it to null. Figures then
-    draw their other entries; a figure without any is left out too.
+    A second configuration file removes an entry of the first by setting it to null. Figures then
+    draw their other entries; a figure without entries is removed too.
     """
     kept = {
         key: {name: entry for name, entry in value.items() if entry is not None}
@@ -85,7 +85,7 @@ def without_left_out(config) -> dict:
 def check_file(path) -> None:
     """Raise if a YAML file cannot be read, or if a mapping in it has a key twice.
 
-    A YAML reader would keep the last value of such a key without a word.
+    A YAML reader would silently keep the last value of such a key.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def check_file(path) -> None:
     problems, seen, nodes = [], set(), [root]
     while nodes:
         node = nodes.pop()
-        # By an alias a node is reached more than once, or even inside itself.
+        # With aliases a node can occur more than once, or even contain itself.
         if id(node) in seen:
             continue
         seen.add(id(node))

@@ -1,7 +1,7 @@
 """A job of the workflow: its log, its end, its timing, and its parameters as objects.
 
-Every script makes a `Job` of what Snakemake gives it before it computes anything. It imports this
-module before all others, because their import is quicker with the garbage collection set here.
+Every script first makes a `Job` from the variable `snakemake`. Scripts import this module before
+all others, because it sets the garbage collection such that other imports are faster.
 """
 
 import atexit
@@ -16,11 +16,11 @@ from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 
-# Collect garbage less often: the objects that imports make stay to the end, and a job makes few
-# more.
+# Collect garbage less often: objects made by imports stay until the end, and a job makes few
+# others.
 gc.set_threshold(10_000)
 
-# Seconds between checks that Snakemake is alive: less than a new run takes to start a job.
+# Seconds between checks that Snakemake is alive. A new run needs longer to start its first job.
 LOOK = 0.5
 # Units of `ru_maxrss` in a megabyte: bytes on macOS, kilobytes elsewhere.
 MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
@@ -65,25 +65,25 @@ class Entry:
 
     @property
     def settling(self):
-        """How long and how closely motions are run, a `system.settling.Settling`."""
+        """Length and accuracy of runs, a `system.settling.Settling`."""
         from impact_damper.system.settling import Settling
 
         return Settling(**self["settling"])
 
     def grid(self, key):
-        """Evenly spaced values of a range that is given as first, last and count."""
+        """Return evenly spaced values of a range given as first, last and count."""
         import numpy as np
 
         return np.linspace(*self[key])
 
     def powers(self, key):
-        """Values of a range with a constant ratio, given as first, last and count."""
+        """Return values with a constant ratio, of a range given as first, last and count."""
         import numpy as np
 
         return np.geomspace(*self[key])
 
     def counts(self, key):
-        """The values of `powers` as whole numbers."""
+        """Return the values of `powers` rounded to whole numbers."""
         return [int(value) for value in self.powers(key).round()]
 
     def save(self, data):
@@ -96,10 +96,10 @@ class Entry:
 class Job(Entry):
     """A job that Snakemake has started.
 
-    From here on all that the job prints goes to its log, and it ends soon after Snakemake has
-    ended. An error about a file is reported in one line, in the log and on the terminal, because on
-    a full disk nothing reaches the log. When the job ends, its time and memory are written into
-    `timings`, at the same place as its log in `logs`.
+    Creating the object redirects all output to the log, and ends the process soon if Snakemake
+    ends. An error about a file is reported in one line, in the log and on the terminal, since on a
+    full disk the log stays empty. When the job ends, its time and memory are written into
+    `timings`, at the same relative path as its log in `logs`.
 
     Parameters
     ----------
@@ -118,15 +118,15 @@ class Job(Entry):
         sys.stdout = sys.stderr = open(log, "w", buffering=1)
         timing = self.results / "timings" / log.relative_to(self.results / "logs")
         atexit.register(_write_timing, timing.with_suffix(".tsv"))
-        atexit.register(gc.freeze)  # else the end of the process begins with a search for garbage
+        atexit.register(gc.freeze)  # avoids a last garbage collection at the end of the process
 
     @property
     def running(self):
-        """Keywords for functions that use threads and show their progress."""
+        """Keywords `workers` and `progress` for functions that use threads."""
         return {"workers": self.snakemake.threads, "progress": self["name"]}
 
     def entries(self):
-        """Entries of a job that computes several; the first folder of outputs has their files."""
+        """Entries of a job that computes several; the first output's folder holds their files."""
         for name, given in self.given.items():
             path = Path(self.output).with_name(f"{name}.nc")
             yield Entry(given, path)
@@ -148,7 +148,7 @@ def _report_file_errors():
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):
-        # on a full disk, closing a figure's file may raise another error, which hides the first one
+        # on a full disk, closing the file of a figure may raise a second error that hides the first
         cause = error
         while not isinstance(cause, OSError) and cause is not None:
             cause = cause.__cause__ or cause.__context__
@@ -170,8 +170,8 @@ def _report_file_errors():
 def end_with_parent() -> None:
     """End this process soon after the process that started it has ended.
 
-    A job outlives a Snakemake that was killed. It could then overwrite the results of a newer run
-    with those of an older configuration.
+    Otherwise a job would continue after Snakemake was killed, and could overwrite the results of a
+    newer run with results of an older configuration.
     """
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
 
@@ -183,7 +183,7 @@ def _end_with(parent):
 
 
 def _write_timing(path):
-    """Write what this process and its children took: seconds, CPU seconds, and memory in MB."""
+    """Write seconds, CPU seconds and peak memory (MB) of this process and its children."""
     import psutil
 
     process = psutil.Process()
@@ -197,10 +197,10 @@ def _write_timing(path):
 
 
 def peak_memory() -> float:
-    """Return the peak memory in MB of this process or of the child that took the most.
+    """Return the peak memory in MB of this process, or of a child process that needed more.
 
-    On Linux `ru_maxrss` of a process starts at the value of the process that started it, here
-    Snakemake, so the peak of this process is read from `/proc` there.
+    On Linux `ru_maxrss` of a process begins with the value of its parent, here Snakemake. The peak
+    of this process is therefore read from `/proc` there.
     """
     own, children = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
     peak, largest_child = (resource.getrusage(who).ru_maxrss / MEGABYTE for who in (own, children))

@@ -1,4 +1,4 @@
-"""A machine in a YAML file, with the keys of an entry of `machines` in the configuration."""
+"""Reader of a machine's YAML file, with the keys of an entry of `machines`."""
 
 import re
 from pathlib import Path
@@ -12,13 +12,14 @@ from impact_damper.workflow.models.messages import SCIENTIFIC
 
 
 class _Loader(LOADER):
-    """Reads 2e5 as a number; YAML 1.1 takes it for text."""
+    """YAML loader that reads 2e5 as a number; in YAML 1.1 it is text."""
 
 
 _Loader.add_implicit_resolver(
     "tag:yaml.org,2002:float", re.compile(f"(?:{SCIENTIFIC.pattern})$"), list("-+.0123456789")
 )
-# For keys that a file may leave out. 73 starts, all quiet, show a share of 95 % at 95 % confidence.
+# Values of keys that a file may leave out. 73 starts that all lead to quiet motions prove a share
+# of 95 % at 95 % confidence.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # frequencies in the band
 
@@ -29,19 +30,19 @@ def read_machine_file(path) -> dict:
     Parameters
     ----------
     path : str or pathlib.Path
-        `band` may be the list of its two ends, in place of `first`, `last` and `points`.
+        In this file `band` may also be a list of two frequencies.
 
     Returns
     -------
     dict
-        With the keys of an entry of `machines` in the configuration.
+        The keys of an entry of `machines` in the configuration.
 
     Raises
     ------
     FileNotFoundError
         If there is no such file.
     ConfigurationError
-        If the file is not YAML, or a value in it is not allowed; a line for each problem.
+        If the file is not YAML or a value is not allowed, with a line for each problem.
     """
     check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)

@@ -1,4 +1,4 @@
-"""Provenance of results: versions, commit, configuration and machine."""
+"""Provenance of results: versions, commit, configuration and computer."""
 
 import hashlib
 import json
@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return what results depend on: configuration, code, packages and machine.
+    """Return the provenance of results: configuration, code, packages and computer.
 
     Parameters
     ----------
@@ -23,9 +23,9 @@ def provenance(configuration, root) -> dict:
     Returns
     -------
     dict
-        `configuration` and `lock` as SHA-256 digests; the `commit`, and whether tracked files were
-        `modified` since, or None outside of a repository; `versions` of Python and of all installed
-        packages that the lock file names; and the `machine`.
+        `configuration` and `lock`, SHA-256 digests; `commit`, and `modified`, whether tracked files
+        differ from it, both None outside of a repository; `versions` of Python and of all installed
+        packages in the lock file; and `machine`, the computer.
     """
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()
@@ -58,7 +58,7 @@ def processor() -> str:
 
 
 def _versions(lock):
-    """Installed versions of the packages in a lock file."""
+    """Return the installed versions of the packages in a lock file."""
     found = {}
     for name in ["impact-damper", *re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)]:
         try:

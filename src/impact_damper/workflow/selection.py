@@ -1,10 +1,10 @@
-"""Which entries of a configuration each stage, figure, table and chapter takes."""
+"""Selection of the entries of a configuration for each stage, figure, table and chapter."""
 
 from impact_damper.workflow.captions import cases_in_words, in_words, machine_in_words
 from impact_damper.workflow.registry import CHAPTERS, KINDS, PAPER, STAGES, TABLES, section_of
 from impact_damper.workflow.registry.values import oscillator
 
-# Name of the parameter, keyed by the key under which an entry holds several values of it.
+# Names of parameters, keyed by the keys of entries that hold several values of them.
 SWEPT = {
     "mass_ratios": "mass_ratio",
     "clearances": "clearance",
@@ -27,15 +27,15 @@ def read_by(config, stage, name) -> dict:
 
 
 def table_data(config, table) -> dict:
-    """Return the entries whose datasets a table condenses, keyed by stage."""
+    """Return the entries whose datasets a table summarises, keyed by stage."""
     return {stage: entries(config, stage) for stage in TABLES[table].stages}
 
 
 def figure_data(config, name) -> dict:
     """Return the entries that a figure draws, keyed by stage.
 
-    If the figure draws branches of orbits with a damper, the curves of the same oscillators without
-    a damper are added for the stage `branches`.
+    A figure that draws branches of orbits with a damper also draws the branches of the same
+    oscillators without a damper; these curves are added for the stage `branches`.
     """
     figure = config["figures"][name]
     kind, found = KINDS[figure["kind"]], {}
@@ -65,10 +65,10 @@ def figures_of(config, chapter) -> list:
 
 
 def figure_values(config, name) -> dict:
-    """Return what a figure draws and its caption states.
+    """Return the entry of a figure in the configuration, with two further keys.
 
-    This is the entry of the figure in the configuration, with the key `cases` for the parameters of
-    what is drawn, in words, and the key `drawn` for the result of `figure_data`.
+    `cases` holds the parameters of the entries drawn, as text for the caption. `drawn` holds the
+    result of `figure_data`.
     """
     figure = config["figures"][name]
     cases = {each: _case(config, figure["kind"], each) for each in figure["data"]}
@@ -89,7 +89,7 @@ def chapter_values(config, chapter) -> dict:
 
 
 def _case(config, kind, name):
-    """Return the parameters of an entry in words, keyed by symbol or name; a schematic has none."""
+    """Return the parameters of an entry as text, keyed by symbol or name; {} for a schematic."""
     section = section_of(kind)
     if section is None:
         return {}
@@ -100,7 +100,7 @@ def _case(config, kind, name):
 
 
 def chapter_data(config, chapter) -> dict:
-    """Return the entries whose datasets a chapter takes, keyed by stage."""
+    """Return the entries whose datasets a chapter reads, keyed by stage."""
     parts = [figure_data(config, name) for name in figures_of(config, chapter)]
     parts += [table_data(config, table.name) for table in CHAPTERS[chapter].TABLES]
     stages = dict.fromkeys(stage for part in parts for stage in part)

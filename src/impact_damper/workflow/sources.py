@@ -1,7 +1,7 @@
-"""Source files that a job runs: a script, and every module of the package that it imports.
+"""Source files of a job: its script, and every module of the package that the script imports.
 
-They are inputs of the job, so that Snakemake compares their contents. The sources of kernels are
-compared by the text of a marker file.
+The files are inputs of the job, so that Snakemake compares their contents. The sources of kernels
+are compared by a digest in a marker file.
 """
 
 import ast
@@ -13,7 +13,7 @@ from impact_damper.kernel import source_digest
 
 PACKAGE = Path(__file__).parents[1]
 
-# An import from the package. Parsing these statements alone saves half a second in a dry run.
+# An import from the package. Parsing only these statements saves half a second in a dry run.
 IMPORT = re.compile(
     rf"^ *((?:from|import) {PACKAGE.name}\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))", re.MULTILINE
 )
@@ -32,8 +32,8 @@ def sources(*paths) -> set:
 def _imports(path):
     """Return the files of the package that a Python file imports directly.
 
-    The `__init__.py` of a subpackage counts only if a name is imported from it. Python executes it
-    in any case, but then it changes no result.
+    The `__init__.py` of a subpackage counts only if a name is imported from it. Python always
+    executes this file, but otherwise it does not affect results.
     """
     statements = ast.parse("\n".join(IMPORT.findall(path.read_text()))).body
     names = []

@@ -1,6 +1,6 @@
-"""Check of the amount of work, so that no job runs for ever or out of memory.
+"""Check of the amount of work, so that no job runs without end or out of memory.
 
-Values that are allowed one by one can be too large together.
+Values that are allowed individually can be too large in combination.
 """
 
 import math
@@ -15,10 +15,10 @@ from impact_damper.workflow.models.section import parts
 from impact_damper.workflow.models.studies import Study
 from impact_damper.workflow.models.system import OSCILLATOR, Range
 
-# Cells that a study may have.
+# Largest number of cells of a study.
 MOST_CELLS = 10**8
-# Keys in the whole configuration whose product is the number of runs of a job. Those of a single
-# entry are listed in the attribute `counts` of its model.
+# Keys of the whole configuration whose product is the number of runs of a job. The attribute
+# `counts` of a model lists such keys within one entry.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -27,15 +27,15 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Forcing frequency assumed for a section that names no oscillator, whose frequencies are given as
-# ratios to the natural frequency.
+# Forcing frequency assumed for a section without an oscillator, whose frequencies are ratios to the
+# natural frequency.
 NATURAL = 1.0
-# Radius of the ball from which migration draws.
+# Radius of the ball from which the migration stages draw starts.
 MIGRATION_RADIUS = 2
 
 
 class Case(NamedTuple):
-    """Entry with a damper: its path, and values that determine the work for contacts and starts.
+    """Entry with a damper: its path, and values that determine the amount of work.
 
     Attributes
     ----------
@@ -43,9 +43,9 @@ class Case(NamedTuple):
     key : str
         Key of the mass ratio in the entry.
     mass_ratio, stiffness, frequency : float
-        Least mass ratio, greatest contact stiffness and lowest forcing frequency.
+        Smallest mass ratio, largest contact stiffness and lowest forcing frequency of the entry.
     clearances : list of (str, float)
-        Pairs of a key and the smallest clearance that it gives.
+        Keys with their smallest clearances.
     """
 
     path: tuple
@@ -57,7 +57,7 @@ class Case(NamedTuple):
 
 
 def workloads(config):
-    """Yield a line for each problem with the amount of work, if nothing contradicts itself."""
+    """Yield a line for each problem with the amount of work, in a valid configuration."""
     for keys in COUNTS:
         yield from _too_many((), config, keys)
     for path, section in parts(config):
@@ -173,14 +173,14 @@ def _given(section, *keys):
 
 
 def _least(value):
-    """Least of a number, a list or a range."""
+    """Return the smallest value of a number, a list or a range."""
     if isinstance(value, Range):
         return value.first
     return min(value) if isinstance(value, list) else value
 
 
 def _greatest(value):
-    """Greatest of a number, a list or a range."""
+    """Return the largest value of a number, a list or a range."""
     if isinstance(value, Range):
         return value.last
     return max(value) if isinstance(value, list) else value

@@ -1,7 +1,7 @@
 """The registry: one record for each stage, table and kind of figure, by chapter of the report.
 
 Rules, targets, scripts, the checks of the configuration and the tests take their lists from here.
-It is imported at every dry run, so it imports nothing that takes long.
+Every dry run imports the registry, so it must not import modules that load slowly.
 """
 
 from impact_damper.workflow.registry import (
@@ -15,7 +15,7 @@ from impact_damper.workflow.registry import (
     responses,
 )
 
-# One job draws the figures and makes the tables of a chapter.
+# Chapters of the report. One job draws the figures and makes the tables of a chapter.
 CHAPTERS = {
     "design": design,
     "responses": responses,
@@ -26,7 +26,7 @@ CHAPTERS = {
     "published": published,
     "machines": machines,
 }
-# Those of the paper, which `snakemake` alone makes.
+# Chapters of the paper, which `snakemake` without a target makes.
 PAPER = [name for name, chapter in CHAPTERS.items() if all(stage.paper for stage in chapter.STAGES)]
 STAGES = {stage.name: stage for chapter in CHAPTERS.values() for stage in chapter.STAGES}
 KINDS = {kind.name: kind for chapter in CHAPTERS.values() for kind in chapter.KINDS}
@@ -34,6 +34,6 @@ TABLES = {table.name: table for chapter in CHAPTERS.values() for table in chapte
 
 
 def section_of(kind) -> str | None:
-    """Section of the configuration whose entries a kind of figure draws; None for schematics."""
+    """Return the section whose entries a kind of figure draws; None for schematics."""
     stages = KINDS[kind].stages
     return STAGES[stages[0]].section if stages else None

@@ -5,26 +5,27 @@ from typing import NamedTuple
 
 
 class Stage(NamedTuple):
-    """A stage; its rule, script, folder of results and key of datasets all have the name `name`.
+    """A stage. Its rule, script, folder of results and key of datasets all have its name.
 
     Attributes
     ----------
     name : str
     section : str
-        Section of the configuration. The stage makes a dataset of each entry; an entry of `curves`
-        lists the stages that it goes through.
+        Section of the configuration. The stage makes a dataset for each entry. An entry of `curves`
+        lists its stages.
     parameters : callable
-        Maps the configuration and the name of an entry to the parameters of the entry's job: the
-        values that the job reads and no others, since a change of any of them reruns the job.
+        Function of the configuration and the name of an entry that returns the parameters of the
+        entry's job. These are only the values that the job uses, since a change of any parameter
+        reruns the job.
     reads : tuple of str
         Stages whose datasets of the same entry the job reads.
     paper : bool
-        Whether the command `snakemake` without a target makes its data. Otherwise only the target
-        `all_<name>` makes them, together with the figures and tables of its chapter. The stages of
-        one chapter must agree in this.
+        Whether the command `snakemake` without a target makes the data of the stage. Otherwise only
+        the target `all_<name>` does, together with the figures and tables of its chapter. All
+        stages of a chapter must have the same value.
     page : tuple of str
-        Figures of the page of each entry, stored in a folder with the name of the entry; empty if
-        the stage makes no pages.
+        Figures of the page of each entry, in a folder with the name of the entry; empty if the
+        stage makes no pages.
     """
 
     name: str
@@ -38,16 +39,16 @@ class Stage(NamedTuple):
 class Table(NamedTuple):
     """A table, made by the function with the same name as the table.
 
-    Its CSV has all columns. `SHOWN` of its module, keyed by name of table, has the heads of the
-    columns of its Markdown, at most nine.
+    The CSV file has all columns. The Markdown file has at most nine, whose heads are in `SHOWN` of
+    the module, keyed by the name of the table.
 
     Attributes
     ----------
     name : str
     module : str
-        Its module in the package, as "tables.design".
+        Its module in the package, such as "tables.design".
     stages : tuple of str
-        Stages whose datasets it condenses.
+        Stages whose datasets it summarises.
     caption : str
         Its caption in the report.
     pictures : bool
@@ -69,13 +70,14 @@ class Kind(NamedTuple):
     ----------
     name : str
     stages : tuple of str
-        Stages whose datasets it draws. An entry of `curves` must go through the first one.
+        Stages whose datasets it draws. An entry of `curves` must have the first of these stages.
     module : str
         Its module in the package, if that is not "figures.<name>".
     most : int
-        Most entries that a figure draws.
+        Largest number of entries in a figure.
     damper : bool
-        Whether the curves it draws have a damper. Their free oscillators are drawn with them.
+        Whether its curves have a damper. The curves without damper of the same oscillators are then
+        drawn too.
     named : bool
         Whether the caption names each entry.
     """
