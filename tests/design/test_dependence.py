@@ -8,7 +8,8 @@ from helpers.symmetric import CENTRAL, converged, linear_orbit
 
 import impact_damper as idm
 from impact_damper.design.refine import dependence
-from impact_damper.design.task import NOMINAL, VARIED, Task
+from impact_damper.design.task import Task
+from impact_damper.design.tolerances import NOMINAL, VARIED
 from impact_damper.system.packed import CLEARANCE
 
 STEP = 4e-4

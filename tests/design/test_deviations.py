@@ -19,7 +19,8 @@ from impact_damper.design.deviations import (
     promise,
     sampled_factors,
 )
-from impact_damper.design.task import VARIED, Task
+from impact_damper.design.task import Task
+from impact_damper.design.tolerances import VARIED
 
 TOLERANCES = {"gap": 0.2, "restitution": 0.1, "stiffness": 0.05, "damping": 0.5, "force": 0.3}
 TASK = Task(

@@ -1,7 +1,7 @@
 """Label states of an oscillator with its damper by the motion that they lead to.
 
 Where the loose mass bounces, no neighbourhood of an attractor is proven: each motion is run until
-it has settled (`motions.settling`).
+it has settled (`motions.watch`).
 """
 
 import numpy as np

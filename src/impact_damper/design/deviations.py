@@ -10,7 +10,8 @@ from scipy.stats import qmc
 from impact_damper.data.shares import wilson
 from impact_damper.design.choose import Choice
 from impact_damper.design.outcomes import Case, run, summarise
-from impact_damper.design.task import NOMINAL, VARIED, spread
+from impact_damper.design.task import spread
+from impact_damper.design.tolerances import NOMINAL, VARIED
 
 # Number of samples of the tolerances, a power of 2 for Sobol's sequence. Largest number of
 # frequencies, and starts, with which each sample is run.

@@ -7,7 +7,7 @@ from impact_damper.data.datasets import SOURCE, flag
 from impact_damper.data.shares import BOUNDS
 from impact_damper.design.choose import Comparison
 from impact_damper.design.masses import is_best
-from impact_damper.design.task import VARIED
+from impact_damper.design.tolerances import VARIED
 from impact_damper.machine.results import shown_variable
 
 SIDES = ["lower", "upper"]

@@ -11,7 +11,7 @@ import numpy as np
 
 from impact_damper.data.datasets import flag
 from impact_damper.design.outcomes import Case, are_quiet, run
-from impact_damper.design.task import VARIED
+from impact_damper.design.tolerances import VARIED
 from impact_damper.edges.maps import map_edges
 from impact_damper.orbits.shooting import shoot
 from impact_damper.system.bounds import RESTITUTION_RANGE

@@ -11,7 +11,8 @@ import numpy as np
 
 from impact_damper.data.datasets import is_settled
 from impact_damper.data.shares import wilson_intervals
-from impact_damper.design.task import LATER, NOMINAL
+from impact_damper.design.task import LATER
+from impact_damper.design.tolerances import NOMINAL
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, CHAOTIC, NON_COLLIDING, SETTLED
 from impact_damper.motions.start_states import random_starts

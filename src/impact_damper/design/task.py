@@ -9,6 +9,7 @@ import numpy as np
 
 from impact_damper.data.shares import starts_needed
 from impact_damper.design.band import checked_band, grid_over, resonance_of, resonances_within
+from impact_damper.design.tolerances import NOMINAL, TOLERANCES, VARIED, checked_tolerances
 from impact_damper.machine.dampers import MachineDamper
 from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import check_si
@@ -26,10 +27,6 @@ from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling, check_settling
 from impact_damper.theory.free_oscillator import balance_amplitudes
 
-# Quantities of a machine and its damper that may deviate from their nominal values.
-VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
-NOMINAL = (1.0,) * len(VARIED)
-TOLERANCES = {"gap": 0.2}
 # Least gap that a design considers, divided by the gap of rule (18).
 LEAST_GAP = 0.3
 # Comparisons stop a chaotic motion after LEAST_PATIENCE cycles, or after PATIENT times the time in
@@ -123,7 +120,7 @@ class Task:
         settle(self, "settling", settling)
         self._check_excitation()
         settle(self, "band", checked_band(self.machine, self.band, self.resonance))
-        settle(self, "tolerances", self._checked_tolerances())
+        settle(self, "tolerances", checked_tolerances(self.tolerances))
         check_count("seed", self.seed, **SEED_RANGE)
         check_number("share", self.share, least=0.5, most=0.999)
         least = starts_needed(self.share)
@@ -162,23 +159,6 @@ class Task:
             self.damper(gap, factors).check_for(self.machine)
             for frequency in self.band:
                 self.packed(gap, frequency, factors)
-
-    def _checked_tolerances(self):
-        if not isinstance(self.tolerances, Mapping):
-            raise TypeError(f"tolerances = {shown(self.tolerances)}: must be a dictionary")
-        found = {}
-        for name, value in self.tolerances.items():
-            if name not in VARIED:
-                raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
-            found[name] = check_si(
-                f"tolerances[{name!r}]",
-                value,
-                "number",
-                least=0,
-                most=0.9,
-                why="relative deviation: at 1 the nominal value would become 0",
-            )
-        return found
 
     @cached_property
     def resonance(self) -> tuple[float, float]:

@@ -16,10 +16,10 @@ from impact_damper.data.shares import escape_rate, survival, wilson
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
 from impact_damper.migration import legs
 from impact_damper.motions import ensemble
+from impact_damper.motions.catalogue import Catalogue
 from impact_damper.motions.following import record_at
 from impact_damper.motions.records import MOTION, NEVER
 from impact_damper.motions.simulate import random_states
-from impact_damper.motions.sweep import Catalogue
 from impact_damper.system.bounds import FREQUENCY_RANGE, LEAD
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import main_solutions

@@ -14,8 +14,8 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.motions.records import ESCAPED, NEVER, UNRESOLVED, measure, trace
-from impact_damper.motions.settling import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
+from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # A run is captured by an orbit after the last strobe at which its distance from the orbit, in Z1

@@ -21,8 +21,8 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.single import advance, assign, side_of, workspace
 from impact_damper.migration.release_set import depth_of
 from impact_damper.motions import ensemble
-from impact_damper.motions.settling import NEAR, RING, nearby_period
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.motions.watch import NEAR, RING, nearby_period
 from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 
 SETTLED, HOLD, PHASE, STATE = range(4)

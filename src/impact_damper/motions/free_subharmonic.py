@@ -6,9 +6,10 @@ import numpy as np
 
 from impact_damper.data.datasets import flag
 from impact_damper.motions import records, strobe_map
+from impact_damper.motions.catalogue import SAME
 from impact_damper.motions.following import record_at
 from impact_damper.motions.start_states import search_starts
-from impact_damper.motions.sweep import SAME, sweep
+from impact_damper.motions.sweep import sweep
 from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.settling import check_settling

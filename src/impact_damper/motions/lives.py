@@ -14,7 +14,8 @@ from impact_damper.data.datasets import flag
 from impact_damper.data.shares import escape_rate
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import CHAOTIC, MOTION, UNRESOLVED
-from impact_damper.motions.settling import NEAR, settle_many
+from impact_damper.motions.settling import settle_many
+from impact_damper.motions.watch import NEAR
 from impact_damper.system.packed import FREQUENCY
 
 # Largest distance by which the runs of one motion differ at the beginning, in Z1 and Z1'.

@@ -25,8 +25,8 @@ from impact_damper.motions.records import (
     UNRESOLVED,
 )
 from impact_damper.motions.rotation_numbers import find_rotation
-from impact_damper.motions.settling import CONFIDENCE, LONGEST_PERIOD, NEAR
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
+from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Most forcing periods of the first block.

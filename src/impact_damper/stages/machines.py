@@ -14,7 +14,8 @@ from impact_damper.data.datasets import SOURCE
 from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.restitutions import free_restitution
 from impact_damper.design.stiffness import contact_stiffness_of
-from impact_damper.design.task import TOLERANCES, Task
+from impact_damper.design.task import Task
+from impact_damper.design.tolerances import TOLERANCES
 from impact_damper.design.words import conclusion
 from impact_damper.machine.machine import describe_si
 from impact_damper.stages.design_steps import DesignSteps

@@ -9,9 +9,10 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.optimum_words import optimum_in_words
+from impact_damper.motions.catalogue import SAME
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.sweep import SAME, reached, sweep
+from impact_damper.motions.sweep import reached, sweep
 from impact_damper.stages.branch_minimum import Branch, minimum_table
 from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.system.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count, shown

@@ -7,6 +7,7 @@ periods). With the damper, every motion whose period is a multiple of 3 counts a
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, touches_no_wall
+from impact_damper.motions.catalogue import SAME
 from impact_damper.motions.free_subharmonic import (
     SEARCHED,
     branch_ends,
@@ -16,7 +17,7 @@ from impact_damper.motions.free_subharmonic import (
 )
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.sweep import SAME, reached, sweep
+from impact_damper.motions.sweep import reached, sweep
 from impact_damper.system.bounds import SEED_RANGE, check_count
 from impact_damper.system.checks import check_frequencies, check_starts
 from impact_damper.system.packed import FREQUENCY, pack

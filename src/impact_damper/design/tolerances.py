@@ -1,0 +1,35 @@
+"""Quantities of a machine and its damper that may deviate from their nominal values."""
+
+from collections.abc import Mapping
+
+from impact_damper.machine.units import check_si
+from impact_damper.system.bounds import shown
+
+VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
+NOMINAL = (1.0,) * len(VARIED)
+TOLERANCES = {"gap": 0.2}
+
+
+def checked_tolerances(tolerances) -> dict:
+    """Return the largest relative deviations, keyed by names of VARIED, as numbers.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a name or a value is not allowed.
+    """
+    if not isinstance(tolerances, Mapping):
+        raise TypeError(f"tolerances = {shown(tolerances)}: must be a dictionary")
+    found = {}
+    for name, value in tolerances.items():
+        if name not in VARIED:
+            raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
+        found[name] = check_si(
+            f"tolerances[{name!r}]",
+            value,
+            "number",
+            least=0,
+            most=0.9,
+            why="relative deviation: at 1 the nominal value would become 0",
+        )
+    return found

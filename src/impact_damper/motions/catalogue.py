@@ -1,0 +1,77 @@
+"""A catalogue of the distinct motions at one value of a swept parameter."""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag, is_settled
+from impact_damper.motions.matching import SIMILAR, size_ratio
+
+# Motions whose max |Z1| differs relatively by less are the same, if periods and contacts agree.
+# The same limit tells a symmetric motion by its asymmetry.
+SAME = 1e-6
+# Differences of max |Z1| below this one are rounding, for a machine that has come to rest.
+ROUNDING = 1e-11
+# Outcomes of which all motions are the same: their displacement is infinite, or 0.
+ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
+
+
+class Catalogue:
+    """Distinct motions at one value of the swept parameter.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    numbering : iterator of int
+        Gives new motions their numbers.
+
+    Attributes
+    ----------
+    records : list of records.MOTION
+    numbers : list of int
+        Numbers of the motions, unique over the sweep.
+    origins : list of int
+        Flags of `origin`: how each motion was first reached, from a random start, from a placed
+        one, or by Newton's method only.
+    starts : list of int
+        Numbers of random starts that lead to the motions.
+    """
+
+    def __init__(self, p, numbering):
+        self.p = p
+        self.numbering = numbering
+        self.records, self.numbers, self.origins, self.starts = [], [], [], []
+
+    def find(self, record):
+        """Return the index of a motion or of its mirror image, or None."""
+        for i, known in enumerate(self.records):
+            if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
+                continue
+            if record["outcome"] in ALIKE:
+                return i
+            size = known["maximum_displacement"]
+            near = abs(record["maximum_displacement"] - size) < max(SAME * size, ROUNDING)
+            near = near and abs(record["contacts"] - known["contacts"]) < 1e-9
+            if near or (not is_settled(record) and size_ratio(record, known) < SIMILAR):
+                return i
+        return None
+
+    def add(self, record, origin):
+        """Return the index of a motion, which is entered if it is new.
+
+        Of two records of one motion that has not settled the larger is kept.
+        """
+        i = self.find(record)
+        if i is None:
+            i = len(self.records)
+            self.records.append(record)
+            self.numbers.append(next(self.numbering))
+            self.origins.append(flag("origin", origin))
+            self.starts.append(0)
+        elif record["maximum_displacement"] > self.records[i]["maximum_displacement"] + SAME:
+            self.records[i] = record
+        self.starts[i] += origin == "random_start"
+        return i
+
+    def order(self):
+        """Return the indices of the motions in order of falling max |Z1|."""
+        return np.argsort([record["maximum_displacement"] for record in self.records])[::-1]

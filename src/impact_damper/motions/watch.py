@@ -1,0 +1,244 @@
+"""Judge a motion at each strobe: whether it has settled on a stable orbit, and how chaotic it is.
+
+States n periods apart approach each other geometrically as a motion settles. Once the sum of the
+remaining geometric series is small, Newton's method on the n-period map, with its exact
+derivative, moves the state onto the orbit. The motion has settled if that orbit is close and
+stable. A slow passage near a fold, where states hardly change, is thus not taken for an orbit.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.kernel.compiling import inlined, kernel_only
+from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped
+from impact_damper.motions.growth import BLOCK, RECENT, exponent, follow_tangent
+from impact_damper.motions.records import (
+    AT_REST,
+    CHAOTIC,
+    DIVERGED,
+    DRIFTING,
+    ESCAPED,
+    NON_COLLIDING,
+    SETTLED,
+    UNRESOLVED,
+)
+from impact_damper.motions.strobe_map import (
+    POLISH_TOLERANCE,
+    distance,
+    polish,
+    repeats_sooner,
+    speed_weight,
+)
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
+
+# Longest period looked for, in forcing periods, and number of strobe states kept for it.
+LONGEST_PERIOD = 12
+RING = 2 * LONGEST_PERIOD + 1
+# Lyapunov exponent: number of standard errors by which it must be positive, and value per unit time
+# below which it is weak.
+CONFIDENCE = 4.0
+WEAK = 0.05
+# Distance from an orbit at which Newton's method is first tried, and at which it is tried last.
+NEAR = 1e-4
+NEAREST = 1e-9
+# Without forcing a motion is at rest once its energy is below this share of the first energy.
+REST = 1e-9
+# What is remembered of one motion while it runs: its index; the number of strobes and of periods
+# without contact so far; the distance from an orbit at which Newton's method is tried next; without
+# forcing the energy at the first strobe. Of its tangent vector, for the Lyapunov exponent: periods,
+# logarithmic growth in the present batch, and mean, squares and last values of complete batches.
+SEEN = np.dtype(
+    [
+        ("index", "i8"),
+        ("strobes", "i8"),
+        ("quiet", "i8"),
+        ("near", "f8"),
+        ("energy", "f8"),
+        ("periods", "i8"),
+        ("batch", "f8"),
+        ("mean", "f8"),
+        ("squares", "f8"),
+        ("recent", "f8", RECENT),
+    ]
+)
+
+
+@kernel_only
+def nearby_period(ring, k, weight, floor, tolerance):
+    """Return the period of an orbit within `tolerance` of the motion, or 0.
+
+    `ring[k % RING]` is the last of k + 1 strobe states; distances below `floor` are errors of the
+    integration.
+    """
+    last = ring[k % RING]
+    for n in range(1, LONGEST_PERIOD + 1):
+        if k < 2 * n:
+            return 0
+        middle = ring[(k - n) % RING]
+        now = distance(last, middle, weight)
+        if now > tolerance:
+            continue
+        if now <= floor:
+            return n
+        ratio = now / distance(middle, ring[(k - 2 * n) % RING], weight)
+        if ratio < 1.0 and now * ratio / (1.0 - ratio) <= tolerance:
+            return n
+    return 0
+
+
+@inlined
+def move_onto_orbit(p, y, periods, near, out):
+    """Move a state y onto the stable orbit near it; return whether there is one.
+
+    A motion that spirals towards an orbit seems to repeat after a multiple of its period, so the
+    divisors of `periods` are tried first. At a distance below NEAREST a motion counts as an orbit
+    even if Newton's method fails, since the map may not be smooth there; its residual and
+    multiplier are then NaN.
+    """
+    multiplier = complex(np.nan, np.nan)
+    for n in range(1, periods + 1):
+        if periods % n == 0:
+            found, residual, multiplier = polish(p, y, n, 100.0 * NEAR, POLISH_TOLERANCE)
+            if found or (n == periods and near <= NEAREST):
+                out.period, out.residual, out.multiplier = n, residual, multiplier
+                break
+    stable = out.period > 0 and not abs(multiplier) >= 1.0
+    if not stable or repeats_sooner(p, y, np.int64(out.period), POLISH_TOLERANCE):
+        out.period = 0
+        return False
+    out.outcome = SETTLED
+    return True
+
+
+@inlined
+def leave_transient(p, out):
+    """Replace the exponent of the run before an orbit by that of the orbit, which has no error."""
+    duration = out.period * 2.0 * math.pi / p[FREQUENCY]
+    out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
+    out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
+
+
+@kernel_only
+def stays_without_contact(p, y, ring, k, out):
+    """Move a state y without contacts onto the orbit of the primary mass near it, if there is one.
+
+    The loose mass keeps its distance from the primary mass and its speed. Returns whether there is
+    such an orbit, stable and of at most LONGEST_PERIOD.
+    """
+    for n in range(1, min(k, LONGEST_PERIOD) + 1):
+        before = ring[(k - n) % RING]
+        if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
+            found, residual, multiplier = polish(p, y, n, 100.0 * NEAR, POLISH_TOLERANCE)
+            if found and abs(multiplier) < 1.0:
+                out.period, out.residual, out.multiplier = n, residual, multiplier
+                leave_transient(p, out)
+                return True
+    return False
+
+
+@inlined
+def begin_watch(seen, index, out):
+    """Reset `seen` and the record `out` before the motion `index` is run."""
+    seen.index, seen.strobes, seen.quiet, seen.near = index, 0, 0, NEAR
+    seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
+    out.outcome, out.period = UNRESOLVED, 0
+    out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
+    out.lyapunov_exponent, out.lyapunov_error = np.nan, np.nan
+    out.first_frequency, out.second_frequency, out.frequency_error = np.nan, np.nan, np.nan
+    out.reach = 0.0
+
+
+@kernel_only
+def watch_free(p, y, seen, out):
+    """Judge a motion without forcing as `watch` does; set a motion at rest exactly to rest."""
+    left = energy(p, y)
+    if seen.strobes == 0:
+        seen.energy = left
+    seen.strobes += 1
+    if left > REST * seen.energy:
+        return False
+    y[0], y[1], y[3] = 0.0, 0.0, 0.0
+    y[2] = min(max(y[2], -p[CLEARANCE]), p[CLEARANCE])
+    out.outcome, out.residual = AT_REST, 0.0
+    return True
+
+
+@inlined
+def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
+    """Judge a motion at a strobe; return whether it can be stopped.
+
+    It is stopped
+
+    - when it has settled, diverged or escaped, or at `limit`;
+    - as at rest when there is no forcing and its energy, which can only fall, is below the share
+      REST of that at the first strobe. A motion without forcing is stopped for no other reason
+      than this, an escape, a divergence, or `limit`;
+    - as non-colliding when it has settled without contacts, or when the loose mass has touched no
+      wall for `patience` periods and would drift by less than 1 % of the clearance until `limit`,
+      while the primary mass is on an orbit;
+    - as drifting at `limit` if the loose mass has touched no wall for `patience` periods and drifts
+      farther, while the primary mass is on an orbit;
+    - as chaotic after `patience` periods if the largest Lyapunov exponent is positive by
+      CONFIDENCE standard errors and recent batches grow too (a chaotic transient may just have
+      ended). With a WEAK exponent it is stopped only at `limit`, because a slow spiral can look
+      like weak chaos for a while.
+
+    The exponent is computed from one tangent, from half of `patience` on; on an orbit it follows
+    from the dominant multiplier, since the run before it is a transient. From there on `reach` is
+    the largest distance sqrt(Z1^2 + (Z1'/W)^2) at a strobe. Outcome, period, residual, dominant
+    multiplier, periods_run, reach and the exponent per unit time are written to the record `out`; y
+    is moved onto the orbit if there is one.
+    """
+    k = seen.strobes
+    bounded = p[CLEARANCE] < math.inf
+    if k == limit:
+        untouched = bounded and contacts == 0 and side == 0 and seen.quiet >= patience
+        if untouched and stays_without_contact(p, y, ring, k, out):
+            out.outcome = DRIFTING
+        return True
+    period = 2.0 * math.pi / p[FREQUENCY]
+    for i in range(4):
+        ring[k % RING, i] = y[i]
+    out.periods_run = k
+    if k > 0:
+        seen.quiet = seen.quiet + 1 if contacts == 0 and side == 0 else 0
+    if has_escaped(p, y[0], y[1]):
+        out.outcome = ESCAPED
+        return True
+    if not abs(y[0]) + abs(y[1]) + abs(y[3]) < math.inf:
+        out.outcome = DIVERGED
+        return True
+    if forcing_amplitude(p) == 0.0:
+        return watch_free(p, y, seen, out)
+    n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
+    if n > 0:
+        if move_onto_orbit(p, y, n, seen.near, out):
+            if seen.quiet >= out.period and bounded:
+                out.outcome = NON_COLLIDING
+            leave_transient(p, out)
+            return True
+        seen.near = max(0.1 * seen.near, NEAREST)
+    drift = abs(y[3] - y[1]) * limit * period
+    if bounded and seen.quiet >= patience and drift < 0.01 * p[CLEARANCE]:
+        if stays_without_contact(p, y, ring, k, out):
+            out.outcome = NON_COLLIDING
+            return True
+    half = patience // 2
+    if k == half:
+        for i in range(4):
+            tangent[i] = 0.5
+    elif k > half:
+        follow_tangent(tangent, seen)
+        out.reach = max(out.reach, math.hypot(y[0], y[1] / p[FREQUENCY]))
+    if (k - half) // BLOCK > RECENT and (k - half) % BLOCK == 0:
+        mean, error, growing = exponent(seen)
+        out.lyapunov_exponent = mean / (BLOCK * period)
+        out.lyapunov_error = error / (BLOCK * period)
+        last = k >= limit - BLOCK
+        ripe = last or (k >= patience and out.lyapunov_exponent > WEAK)
+        if ripe and growing and mean > CONFIDENCE * error:
+            out.outcome = CHAOTIC
+            return True
+    seen.strobes += 1
+    return False
