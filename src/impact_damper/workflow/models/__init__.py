@@ -1,9 +1,9 @@
 """Models of the configuration, a file for each subject; `Configuration` is the whole.
 
-A model states the keys of a section as fields: types and bounds (`values`, `system`), what they
-mean, and in `contradictions` what must hold between them. The messages about a wrong value, and the
-reference of the configuration (`python -m impact_damper.workflow.models`), come from the same
-fields. A file lists its sections with named entries in `SECTIONS`.
+A model states the keys of a section as fields, with types, bounds (`values`, `system`) and
+meanings. Its method `contradictions` checks conditions between keys. Messages about wrong values
+and the reference of the configuration (`python -m impact_damper.workflow.models`) come from the
+same fields. Each file lists its sections with named entries in `SECTIONS`.
 """
 
 from pydantic import create_model
@@ -42,7 +42,7 @@ class Settings(Section):
     results: RESULTS
     seed: SEED
     contact_stiffness: CONTACT_STIFFNESS
-    chunks: count("jobs that a study is cut into", least=1, most=100000)
+    chunks: count("number of jobs into which a study is divided", least=1, most=100000)
     points: Points
     search: Search
     settling: Settling

@@ -1,4 +1,4 @@
-"""Harmonic balance: its convergence, rules for the clearance, and maps of where it fails."""
+"""Harmonic balance: its convergence, rules for the clearance, and maps of its errors."""
 
 from typing import ClassVar
 
@@ -27,7 +27,7 @@ from impact_damper.workflow.models.values import choice, count, number, several
 
 
 class HarmonicConvergence(MaybeWithDamper):
-    """Motions by harmonic balance with more and more harmonics, and their errors."""
+    """Motions by harmonic balance with a rising number of harmonics, and their errors."""
 
     whole: ClassVar = (*NEEDED, "contact_stiffness")
 
@@ -38,7 +38,7 @@ class HarmonicConvergence(MaybeWithDamper):
 
 
 class DesignRules(WithOscillator):
-    """Grids of dampers and frequencies on which rules for the clearance meet the optimum."""
+    """Grids of dampers and frequencies on which rules for the clearance are compared."""
 
     mass_ratios: several(
         MASS_RATIO,
@@ -66,7 +66,7 @@ class DesignRules(WithOscillator):
 class BalanceMap(
     keys_of(OSCILLATOR, needed=["linear_frequency"]), keys_of(DAMPER, without=[COMMON])
 ):
-    """Maps of where harmonic balance fails, over frequency and another parameter."""
+    """Maps of the errors of harmonic balance, over frequency and another parameter."""
 
     parameter: choice("parameter that changes from row to row", *MAPPED)
     values: range_of(

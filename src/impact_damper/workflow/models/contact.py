@@ -1,4 +1,4 @@
-"""The contact: its model, the limit of rigid walls, and how integrators handle contacts."""
+"""The contact: its model, the limit of rigid walls, and failures of integrators at contacts."""
 
 from typing import ClassVar
 
@@ -44,13 +44,13 @@ class ContactCells(Section):
 
 
 class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON]), WithOscillator):
-    """One contact in closed form over restitution and load, and contacts of motions there."""
+    """One contact in closed form over restitution and load, and contacts of simulated motions."""
 
     restitutions: several(RESTITUTION, "increasing restitutions of the motions", least=2)
     frequencies: several(FREQUENCY, "increasing frequencies of the motions", least=1)
     periods: count("forcing periods over which contacts are logged", **PERIODS_RANGE)
     cells: ContactCells
-    smallest_restitution: number("e, where the map ends", **BOUNDS["restitution"])
+    smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"])
     largest_load: number(
         "largest acceleration over natural frequency and approach speed", **LOAD_RANGE
     )
@@ -74,7 +74,7 @@ class RigidCells(Section):
 
 
 class RigidLimit(WithDamper):
-    """The quiet motion between rigid walls against that with compliant contact."""
+    """The quiet motion between rigid walls, compared with the one with compliant contact."""
 
     frequency: FREQUENCY
     frequencies: FREQUENCIES
@@ -85,10 +85,10 @@ class RigidLimit(WithDamper):
 
 
 class MissedContacts(WithOscillator):
-    """Contacts near grazing, and which of them integrators miss."""
+    """Contacts near grazing that integrators find and miss."""
 
     frequency: FREQUENCY
-    passages: count("random free flights of a forcing period", **RUNS_RANGE)
+    passages: count("random flights without contact, of a forcing period each", **RUNS_RANGE)
     implicit_passages: count(
         "number of passages, the first ones, on which the implicit Radau method is run",
         **RUNS_RANGE,

@@ -1,4 +1,4 @@
-"""Figures: what is drawn, of which entries, and the texts of their captions."""
+"""Figures: kind of drawing, entries drawn, and texts of the caption."""
 
 from impact_damper.workflow.models.messages import dotted, one_of, problem
 from impact_damper.workflow.models.section import Section
@@ -7,7 +7,7 @@ from impact_damper.workflow.models.system import Range
 from impact_damper.workflow.models.values import choice, several, text
 from impact_damper.workflow.registry import KINDS, section_of
 
-# Drawings that a figure of the kind `schematic` names in place of entries.
+# Names of drawings, which a figure of the kind `schematic` has in place of entries.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
 
@@ -22,7 +22,7 @@ class Figure(Section):
         most=max(kind.most for kind in KINDS.values()),
         distinct=True,
     )
-    title: text("first sentence of the caption, without its stop", least=1)
+    title: text("first sentence of the caption, without the full stop", least=1)
     remark: text("rest of the caption, which may be empty")
 
     def contradictions(self, path, config):

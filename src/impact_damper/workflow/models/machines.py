@@ -19,7 +19,7 @@ from impact_damper.workflow.models.values import Allowed, count, number
 
 
 class AllowedQuantity(Allowed):
-    """What a physical quantity may be; the value stays as the user wrote it.
+    """The allowed values of a physical quantity; the value stays as the user wrote it.
 
     Parameters
     ----------
@@ -50,12 +50,12 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", **bounds):
-    """Type of a physical quantity within bounds in SI units."""
+    """Return the type of a physical quantity within bounds in SI units."""
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning)]
 
 
 def fields_of(part, **meanings):
-    """Fields of a model for those of a dataclass in SI units, with what each means."""
+    """Return the fields of a model for a dataclass in SI units, with the meaning of each."""
     found = {}
     for each in fields(part):
         if "quantity" in each.metadata:
@@ -67,7 +67,7 @@ def fields_of(part, **meanings):
 
 
 class Given(Section):
-    """Base of models of a dataclass in SI units."""
+    """Base of the models for a dataclass in SI units."""
 
     def values(self) -> dict:
         """Return the values that are given."""
@@ -101,7 +101,7 @@ Damper = create_model(
     contact_stiffness=(
         quantity_of(
             "stiffness",
-            "stiffness of the contact; without it that of `contact`, after Hertz",
+            "stiffness of the contact; if left out, computed from `contact`, after Hertz",
             above=0,
         ),
         None,
@@ -115,7 +115,7 @@ Body = create_model(
         mass="mass without the loose mass",
         linear_stiffness="of the spring",
         cubic_stiffness="of the spring, negative if it softens",
-        damping_ratio="share of the critical damping; or damping in its place",
+        damping_ratio="damping divided by the critical damping; or damping in its place",
         damping="coefficient of the dashpot",
         force="amplitude of the force; or one of the next three in its place",
         base_displacement="amplitude with which the base moves",
@@ -146,7 +146,7 @@ Ball = create_model(
     radius=(
         quantity_of(
             "displacement",
-            "radius of the loose mass where it touches; without it no pressure",
+            "radius of the loose mass where it touches; if left out, no pressure is computed",
             above=0,
         ),
         None,
@@ -157,7 +157,7 @@ Ball = create_model(
             Material,
             youngs_modulus="of loose mass and walls",
             poissons_ratio="of loose mass and walls",
-            yield_strength="in tension; without it nothing is said about yielding",
+            yield_strength="in tension; if left out, yielding is not judged",
         ).items()
     },
 )
@@ -172,10 +172,15 @@ class MachineEntry(Section):
     band: span_of("frequency", "forcing frequency of the band")
     candidates: count("gaps that are compared", least=4, most=1000)
     starts: starts_of("at each gap and frequency")
-    share: number("share of the starts that must end quiet", least=0.5, most=0.999)
+    share: number(
+        "least share of the starts that must lead to quiet motions", least=0.5, most=0.999
+    )
     tolerances: Tolerances
     displacement_limit: (
-        quantity_of("displacement", "largest displacement of a quiet motion", above=0) | None
+        quantity_of(
+            "displacement", "quiet limit, the largest displacement of a quiet motion", above=0
+        )
+        | None
     ) = None
 
     counts: ClassVar = ("band.points", "candidates", "starts")
@@ -194,7 +199,7 @@ class MachineEntry(Section):
             yield f"{dotted(where)}.{_in_entry(str(error))}"
 
     def _lacking(self, path):
-        """Yield a line for each key without which the contact is not known."""
+        """Yield a line for each missing key of the contact."""
         ball = self.contact.values()
         for key in ("radius", "youngs_modulus", "poissons_ratio"):
             if ball and key not in ball:
@@ -204,7 +209,7 @@ class MachineEntry(Section):
             yield missing((*path, "damper", "contact_stiffness"), reason)
 
     def _task(self, machine):
-        """Return the task of the design; the modules import SciPy, so they are imported here."""
+        """Return the task of the design; its modules are imported here because they load SciPy."""
         from impact_damper.design.stiffness import contact_stiffness_of
         from impact_damper.design.task import Task
 

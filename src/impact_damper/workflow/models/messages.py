@@ -5,7 +5,8 @@ import reprlib
 
 from impact_damper.system.names import nearest
 
-# Numbers that YAML 1.1 takes for text: those with an exponent, without a point or without its sign.
+# Numbers that are text in YAML 1.1: with an exponent, but without a point or a sign of the
+# exponent.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 
@@ -17,7 +18,7 @@ def problem(path, value, reason) -> str:
 
 
 def _point(text):
-    """Return a number in scientific notation with the point and the sign that YAML 1.1 wants."""
+    """Return a number in scientific notation with the point and the sign that YAML 1.1 requires."""
     mantissa, exponent = text.lower().split("e")
     mantissa += "" if "." in mantissa else ".0"
     return f"{mantissa}e{exponent if exponent[0] in '+-' else f'+{exponent}'}"
@@ -39,6 +40,6 @@ def one_of(name, known) -> str:
 
 
 def _word(key):
-    """Return a key as it is, or quoted if it contains a line break or is long."""
+    """Return a key unchanged, or quoted if it contains a line break or is long."""
     plain = isinstance(key, str) and key.isprintable() and len(key) <= 80
     return key if plain else reprlib.repr(key)

@@ -38,7 +38,9 @@ COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
 DECREASING = several(
     number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
 )
-EVALUATIONS = count("evaluations of the rate a forcing period", least=1, most=1000000)
+EVALUATIONS = count(
+    "evaluations of the equations of motion per forcing period", least=1, most=1000000
+)
 ORDER = count("order of the series", least=6, most=60)
 
 
@@ -54,12 +56,14 @@ class FreeVerdict(Section):
     orbit_frequency: number("W at which the orbit is found", **BOUNDS["frequency"])
     near: state("state close to the orbit at W T = pi/2")
     period: count(
-        "period of the orbit in forcing periods, at most the number that is looked back on",
+        "period of the orbit in forcing periods, at most the number of states compared at the end",
         least=1,
         most=LONGEST_PERIOD,
     )
-    offset: state("added to the state of the orbit to start the run")
-    periods: count("forcing periods of a run, enough to look back on", **VERDICT_PERIODS_RANGE)
+    offset: state("difference between the start of the run and the state of the orbit")
+    periods: count(
+        "forcing periods of a run, at least the number of states compared", **VERDICT_PERIODS_RANGE
+    )
     scipy_every: count(
         "SciPy's slow methods are run at every tolerance whose number is a multiple of this, "
         "or never if it is 0",
@@ -73,7 +77,7 @@ class DampedVerdict(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), FreeVerdic
 
 
 class Verdicts(WithOscillator):
-    """Verdicts of integrators, by tolerance, on motions near orbits whose stability is known."""
+    """Verdicts on integrators, by tolerance, on motions near orbits whose stability is known."""
 
     tolerances: TOLERANCES
     steps: STEPS
@@ -94,14 +98,14 @@ class Verdicts(WithOscillator):
 
 
 class Accuracy(Section):
-    """The error of a quantity that a user of the scene accepts."""
+    """The error of a quantity that is acceptable on a scene."""
 
-    quantity: choice("quantity that a user of the scene reads off", *ERRORS, *STATISTICS)
+    quantity: choice("quantity whose error counts", *ERRORS, *STATISTICS)
     within: number("largest error accepted; 0 for a number of contacts", least=0, most=1)
 
 
 class Scene(MaybeWithDamper):
-    """Motions on which methods and models are compared, by error and work."""
+    """Motions on which the errors and the work of methods and models are compared."""
 
     frequency: FREQUENCY
     state: state("first state, at W T = pi/2")
@@ -132,7 +136,7 @@ class Scene(MaybeWithDamper):
 Evaluations = create_model(
     "Evaluations",
     __base__=Section,
-    __doc__="Evaluations of the rate at which a run of a slow integrator is given up.",
+    __doc__="Numbers of evaluations after which a run of a slow integrator is given up.",
     **dict.fromkeys(LIMITED, (EVALUATIONS, ...)),
 )
 ByTolerances = create_model(
@@ -144,7 +148,7 @@ ByTolerances = create_model(
 
 
 class Comparison(ByTolerances):
-    """Settings with which each method is run on the scenes."""
+    """Settings of the methods that are compared on the scenes."""
 
     orders: several(
         several(ORDER, "in flight and in contact", least=2, most=2),

@@ -36,11 +36,11 @@ NEED_DAMPER = ("design_orbit", "subharmonic")
 
 
 class Curve(MaybeWithDamper):
-    """Response curves over frequency, of an oscillator with a damper or without."""
+    """Response curves over frequency, of an oscillator with or without a damper."""
 
     clearance: CLEARANCE_OR_RULE = None
     stages: several(
-        choice("", *STAGES_OF_CURVES), "stages to compute of the curve", least=1, distinct=True
+        choice("", *STAGES_OF_CURVES), "stages to compute for the curve", least=1, distinct=True
     )
 
     def contradictions(self, path, config):
@@ -72,7 +72,7 @@ class Motion(WithDamper):
 
 
 class Collision(WithDamper):
-    """Shares of random starts that lead to a collision; starts beyond the walls count too."""
+    """Shares of random starts that lead to a collision, including starts beyond the walls."""
 
     frequency: FREQUENCY
 
@@ -107,13 +107,13 @@ class ReleaseScan(WithDamper):
 
     frequencies: FREQUENCIES
     lifetime: count(
-        "forcing periods within which the unsettled motion is released, not at once",
+        "forcing periods within which the motion that has not settled is released",
         **SCAN_LIFETIME_RANGE,
     )
 
 
 class Basins(MaybeWithDamper):
-    """Planes of states of the primary mass, and the motions that they lead to."""
+    """Planes of states of the primary mass, and the motions to which they lead."""
 
     frequency: FREQUENCY
     displacement: number("half width of the plane in Z1", above=0, most=FARTHEST)
@@ -147,7 +147,7 @@ class ReleasePolicies(WithOscillator):
 
 
 class RestitutionCut(Section):
-    """Damper of which the restitution is varied."""
+    """Damper whose restitution varies."""
 
     mass_ratio: MASS_RATIO
     clearance: CLEARANCE

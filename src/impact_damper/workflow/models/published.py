@@ -39,7 +39,7 @@ class RigidWalls(Section):
 
 
 class Falling(Section):
-    """Mass ratios that fall."""
+    """Base of groups with falling mass ratios."""
 
     mass_ratios: several(MASS_RATIO, FALLING, least=2)
 
@@ -57,7 +57,7 @@ class VibroImpact(Falling):
 
 
 class RingDown(Falling):
-    """Free decays with the vibro-impact absorber."""
+    """Unforced decays with the vibro-impact absorber."""
 
     restitution: RESTITUTION
     contact_stiffness: CONTACT_STIFFNESS

@@ -1,4 +1,4 @@
-"""Reference of the configuration, made from the models: every key with its allowed values."""
+"""Reference of the configuration, generated from the models: every key with its allowed values."""
 
 from typing import get_args, get_origin
 
@@ -8,15 +8,15 @@ from impact_damper.workflow.models.values import NAME, Allowed
 
 HEAD = f"""# Reference of the configuration
 
-Every key of `config.yaml` and what it may hold. This page is made from the models that check the
-configuration: `python -m impact_damper.workflow.models > config/reference.md`. `NAME` stands for a
-name that is free to choose: {NAME.__metadata__[-1].words}.
+Every key of `config.yaml` with its allowed values. This page is generated from the models that
+check the configuration, by `python -m impact_damper.workflow.models > config/reference.md`. `NAME`
+stands for a name of your choice: {NAME.__metadata__[-1].words}.
 """
 COLUMNS = "| key | must be | meaning |\n|---|---|---|"
 
 
 def reference() -> str:
-    """Return the page."""
+    """Return the page as Markdown."""
     sections = {
         key: field.annotation
         for key, field in Settings.model_fields.items()
@@ -37,7 +37,7 @@ def _table(model, prefix, keys):
 
 
 def _rows(key, field):
-    """Yield a line of the table for a field, or one for each key in it."""
+    """Yield a line of the table for a field, or for each key inside the field."""
     kind = field.annotation
     if _is_section(kind):
         yield from _inner(f"{key}.", kind)

@@ -8,10 +8,10 @@ from impact_damper.workflow.models.messages import problem
 
 
 class Section(BaseModel):
-    """Keys with values; an unknown key is refused, and every key without a default is needed.
+    """Keys with values. An unknown key is an error, as is a missing key without a default.
 
-    Subclasses state their keys as fields, and in `contradictions` the problems between values
-    that are each allowed by themselves.
+    Subclasses state their keys as fields. Their method `contradictions` finds problems between
+    values that are allowed individually.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -24,14 +24,14 @@ class Section(BaseModel):
         path : tuple of str
             Keys that lead to this section.
         config : Section
-            The whole configuration, each of its values allowed by itself.
+            The whole configuration, whose values are allowed individually.
         """
         yield from ()
 
     @model_validator(mode="wrap")
     @classmethod
     def _name_keys(cls, value, handler):
-        """Report unknown and missing keys with the keys that are known here."""
+        """Report unknown and missing keys, with the keys known in this section."""
         try:
             return handler(value)
         except ValidationError as error:
@@ -42,13 +42,13 @@ class Section(BaseModel):
 
     @classmethod
     def _worded(cls, value, detail):
-        """Return an error of pydantic in our words, with its place and the value given."""
+        """Return an error of pydantic with the message of this package, its path and its value."""
         kind, path, given = detail["type"], detail["loc"], detail["input"]
         known = sorted(cls.model_fields)
         if not path:
             words = "must be keys with values"
         elif kind in ("extra_forbidden", "invalid_key"):
-            if kind == "invalid_key":  # a key that is no text; pydantic reports it, not its value
+            if kind == "invalid_key":  # a key that is not text; pydantic reports the key as input
                 given = value[given]
             kind = "unknown"
             words = f"unknown key; known: {', '.join(known)}{nearest(path[-1], known)}"

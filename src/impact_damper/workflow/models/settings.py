@@ -1,4 +1,4 @@
-"""Settings that many stages share: grids, searches, settling, and the controller."""
+"""Settings of many stages: grids, searches, settling, and the controller."""
 
 from impact_damper.system.bounds import (
     FURTHER_RANGE,
@@ -21,7 +21,7 @@ RESULTS = text(
     "folder below the working directory, without spaces or leading dots",
     pattern="[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*",
 )
-RADIUS = number("radius of the ball from which random initial conditions are drawn", **RADIUS_RANGE)
+RADIUS = number("radius of the ball from which random starts are drawn", **RADIUS_RANGE)
 
 
 class Points(Section):
@@ -37,19 +37,19 @@ class Points(Section):
 
 
 def starts_of(meaning):
-    """Type of a number of random starts."""
-    return count(f"random initial conditions {meaning}", **RUNS_RANGE)
+    """Return the type of a number of random starts."""
+    return count(f"random starts {meaning}", **RUNS_RANGE)
 
 
 class Search(Section):
-    """Random initial conditions from which motions are searched for."""
+    """Random starts (initial states) from which motions are searched for."""
 
     starts: starts_of("at each frequency of a response")
     sweep_starts: starts_of("at each clearance of the sweep for an optimum")
     scan_starts: starts_of("at each frequency of a release scan")
     study_starts: starts_of("in each cell of a study")
     radius: RADIUS
-    life_runs: count("runs by which the life of a chaotic motion is found", least=0, most=1000)
+    life_runs: count("runs that measure the life of a chaotic motion", least=0, most=1000)
     life_periods: count("forcing periods of these runs", **LIFETIME_RANGE)
 
 
@@ -58,11 +58,17 @@ class Settling(Section):
 
     scene: text("name of an entry of `scenes` that has a tolerance")
     patience: count(
-        "forcing periods after which a motion that is chaotic is stopped", **PATIENCE_RANGE
+        "forcing periods after which a motion that is certainly chaotic is stopped",
+        **PATIENCE_RANGE,
     )
-    limit: count("forcing periods after which every motion is stopped", **LIMIT_RANGE)
-    further: count("most forcing periods for which an undecided motion is run on", **FURTHER_RANGE)
-    watched: count("forcing periods over which an unsettled motion is measured", **WATCHED_RANGE)
+    limit: count("forcing periods after which every other motion is stopped", **LIMIT_RANGE)
+    further: count(
+        "largest number of forcing periods for which an undecided motion is continued",
+        **FURTHER_RANGE,
+    )
+    watched: count(
+        "forcing periods over which a motion that has not settled is measured", **WATCHED_RANGE
+    )
 
     def contradictions(self, path, config):
         if self.limit < self.patience:
@@ -76,7 +82,7 @@ class Settling(Section):
 
 
 class Controller(Section):
-    """The migration controller of figure 17, and its trials."""
+    """The migration controller of figure 17, and its runs."""
 
     trials: count("runs of each case", **RUNS_RANGE)
     periods: count("forcing periods of a run after which no switching begins", **PERIODS_RANGE)

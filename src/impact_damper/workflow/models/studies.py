@@ -15,7 +15,7 @@ from impact_damper.workflow.models.values import number_or_range
 
 
 def axis(name):
-    """Type of an axis of the grid: one value of a parameter, or a range with its points."""
+    """Return the type of an axis of the grid: a value, or a range with its number of points."""
     several = range_of(PARAMETERS[name], points=True)
     return number_or_range(several, f"{MEANINGS[name]}, one value or an even range", **BOUNDS[name])
 
@@ -35,12 +35,12 @@ class Study(WithOscillator):
             yield problem(("chunks",), config.chunks, reason)
 
     def cells(self) -> int:
-        """Combinations of the points of the axes."""
+        """Return the number of combinations of the points of the axes."""
         return math.prod(points(getattr(self, key)) for key in AXES)
 
 
 def points(given) -> int:
-    """Points of an axis, which is a number or a range."""
+    """Return the number of points of an axis, which is a number or a range."""
     return getattr(given, "points", 1)
 
 

@@ -1,8 +1,8 @@
 """Keys for the parameters of the model: oscillator, damper, forcing, and ranges of them.
 
 The keys of an oscillator and of a damper are the fields of `Oscillator` and `Damper`, which hold
-their bounds and meaning: a new field is a new key wherever all of them may be given. Only `shaker`
-is no key: linear machines on a shaker are entries of `machines`.
+their bounds and meanings. A new field becomes a new key of all sections with an oscillator or
+damper. Only `shaker` is not a key: linear machines on a shaker are entries of `machines`.
 """
 
 from dataclasses import fields
@@ -39,12 +39,12 @@ CLEARANCE_OR_RULE = number_or_word(
 
 
 def points_of(meaning):
-    """Type of the number of points of a grid."""
+    """Return the type of the number of points of a grid."""
     return count(meaning, **POINTS_RANGE)
 
 
 def keys_of(names, *, needed=(), without=()):
-    """Base of models, with a key for each of some parameters; those not needed may be left out."""
+    """Return a base of models with keys for parameters; all but those needed are optional."""
     types = {
         name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
         for name in names
@@ -54,7 +54,7 @@ def keys_of(names, *, needed=(), without=()):
 
 
 class Range(Section):
-    """Range whose first value is less than its last."""
+    """A range whose first value is less than its last."""
 
     def contradictions(self, path, config):
         if self.first >= self.last:
@@ -63,7 +63,7 @@ class Range(Section):
 
 
 def range_of(kind, *, points=False):
-    """Model of a range of values of a type, with the number of its points or without."""
+    """Return the model of a range of values of a type, with or without a number of points."""
     types = {"first": kind, "last": kind} | (
         {"points": points_of("points of the grid")} if points else {}
     )
@@ -79,7 +79,7 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
     frequencies: FREQUENCIES
 
     def built(self) -> Oscillator:
-        """The oscillator itself."""
+        """Return the oscillator as an object."""
         return Oscillator(**given(self, OSCILLATOR))
 
 
@@ -118,11 +118,11 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Whether any of the damper's parameters is given."""
+        """Whether any parameter of the damper is given."""
         return bool(given(self, self.whole))
 
 
 def given(section, names) -> dict:
-    """Values of a section under those of the names that are given."""
+    """Return the values in a section for those of the names that it has."""
     found = {name: getattr(section, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}

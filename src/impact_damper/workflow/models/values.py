@@ -1,9 +1,9 @@
-"""Types of values in the configuration; each states in words which values it allows.
+"""Types of values in the configuration, with a text on the values that each allows.
 
-The functions return types for fields of pydantic models. They are strict: 3.0 is no whole number,
-and neither NaN, infinity nor text is a number. `meaning` says what the value is, `why` gives the
-reason for its bounds; both are shown when a value is rejected, and in the reference of the
-configuration.
+The functions return types for fields of pydantic models. The types are strict: 3.0 is not a whole
+number, and neither NaN, infinity nor text is a number. `meaning` describes the value, and `why`
+gives the reason for its bounds. Both are shown when a value is rejected, and in the reference of
+the configuration.
 """
 
 from typing import Annotated, Literal
@@ -18,17 +18,17 @@ NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """The allowed values in words, which replace the message of pydantic.
+    """A text on the allowed values, which replaces the message of pydantic.
 
     Parameters
     ----------
     words : str
-        Kind and bounds of the value, as they follow "must be".
+        Kind and bounds of the value, the text after "must be".
     meaning, why : str
-        What the value is, and the reason for its bounds.
+        Description of the value, and reason for its bounds.
     test : callable, optional
-        For a list or mapping: checks its type and length. The words are the message of this test
-        only; values inside have other messages.
+        For a list or mapping: a check of its type and length. `words` is the message of this check
+        only; values inside have their own messages.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -62,7 +62,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Type of a finite number within bounds; `also` names what else the value may be."""
+    """Return the type of a finite number within bounds; `also` names another kind of value."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -70,14 +70,14 @@ def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
 
 
 def number_or_word(word, meaning, **bounds):
-    """Type of a finite number within bounds, or of one word."""
+    """Return the type of a finite number within bounds, or of one word."""
     of_number = number(meaning, **bounds, also="text")
     words = f"{of_number.__metadata__[-1].words}, of the form {word}"
     return Annotated[of_number | Literal[word], Allowed(words, meaning)]
 
 
 def number_or_range(model, meaning, **bounds):
-    """Type of a finite number within bounds, or of a range by the model `model`."""
+    """Return the type of a finite number within bounds, or of a range by the model `model`."""
     of_number = number(meaning, **bounds, also="keys with values")
 
     def kind(value):
@@ -89,14 +89,14 @@ def number_or_range(model, meaning, **bounds):
 
 
 def count(meaning, *, least, most, why=""):
-    """Type of a whole number within bounds."""
+    """Return the type of a whole number within bounds."""
     words = ["a whole number", *_bounds({"at least": least, "at most": most})]
     kind = conint(strict=True, ge=least, le=most)
     return Annotated[kind, Allowed(", ".join(words), meaning, why)]
 
 
 def text(meaning, *, pattern="", least=0):
-    """Type of a text, of at least some length, that matches a pattern as a whole."""
+    """Return the type of a text with at least `least` characters that matches a pattern."""
     words = ["text"]
     words += [f"of the form {pattern}"] if pattern else []
     words += [f"with {least} or more characters"] if least else []
@@ -105,12 +105,12 @@ def text(meaning, *, pattern="", least=0):
 
 
 def choice(meaning, *words):
-    """Type of a text that is one of some words."""
+    """Return the type of a text that is one of the words."""
     return Annotated[Literal[words], Allowed(f"one of {', '.join(words)}", meaning)]
 
 
 def several(item, meaning="", *, least=0, most=None, distinct=False):
-    """Type of a list with entries of the type `item`."""
+    """Return the type of a list with entries of the type `item`."""
     words = ["a list"]
     if least == most:
         words += [f"with {least} entries"]
@@ -131,7 +131,7 @@ def several(item, meaning="", *, least=0, most=None, distinct=False):
 
 
 def entries(model, *, least=1):
-    """Type of a mapping of names that are free to choose to entries of the type `model`."""
+    """Return the type of a mapping from freely chosen names to entries of the type `model`."""
     words = "keys with values" + (f", with {least} or more entries" if least else "")
 
     def test(value):
