@@ -45,9 +45,9 @@ class Broken(NamedTuple):
     Attributes
     ----------
     place, value
-        Path of keys, and the value that is set there; GONE removes the key.
+        Path of keys, and the value that is set there. The value GONE removes the key.
     told, shown
-        Path of keys and value that the message must name; GONE if it names the key only.
+        Path of keys and value that the message must name. GONE if the message names the key only.
     """
 
     place: tuple
@@ -200,7 +200,7 @@ def empty(draw):
     texts = [path for path in TEXTS if path[-1] != "remark"]
     path = draw(st.sampled_from(LISTS + FIXED[1:] + named + texts))
     made = changed(path, type(at(path))())
-    # for a mapping the message names the missing keys
+    # For a mapping the message names the missing keys in place of the value.
     return made._replace(shown=GONE) if path in FIXED else made
 
 

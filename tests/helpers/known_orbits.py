@@ -13,7 +13,7 @@ PAPER = Oscillator(0.215)
 DESIGN = Damper(0.12, 2.0)
 INELASTIC = Damper(0.25, 1.0, restitution=0.75)
 
-# Damper, frequency and a state near each orbit at W T = pi/2, where all of them are in free flight.
+# Damper, frequency, and a state near each orbit at W T = pi/2. All these states are in flight.
 STARTS = {
     "resonance": (None, 2.0, (2.35, -0.78, 2.35, -0.78)),
     "non-resonance": (None, 2.0, (0.027, 0.5, 0.027, 0.5)),
@@ -25,12 +25,12 @@ IMPACTING = ["design", "inelastic", "large"]
 
 
 class KnownOrbit(NamedTuple):
-    """A periodic orbit of one forcing period.
+    """An orbit of period 1.
 
     Attributes
     ----------
     parameters : numpy.ndarray
-        Packed, see `system.packed`.
+        Packed parameters, see `system.packed`.
     state : numpy.ndarray, shape (4,)
         Z1, Z1', Z2, Z2' at the strobe, W T = pi/2.
     damper : Damper or None
@@ -45,7 +45,7 @@ class KnownOrbit(NamedTuple):
 
     @property
     def period(self):
-        """Forcing period."""
+        """Length of a forcing cycle."""
         return 2 * math.pi / self.frequency
 
     @property
@@ -55,9 +55,9 @@ class KnownOrbit(NamedTuple):
 
 
 def polished_orbit(name):
-    """Return the orbit of `STARTS` with this name, its state converged to 1e-13."""
+    """Return the orbit of `STARTS` with this name, with a state accurate to 1e-13."""
     damper, frequency, start = STARTS[name]
     p, state = pack(PAPER, damper, frequency), np.array(start)
-    found, _, _ = strobe_map.polish(p, state, 1, 0.1, 1e-13)
-    assert found
+    converged, _, _ = strobe_map.polish(p, state, 1, 0.1, 1e-13)
+    assert converged
     return KnownOrbit(p, state, damper, frequency)

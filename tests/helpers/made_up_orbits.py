@@ -6,10 +6,11 @@ from impact_damper.data.datasets import dataset, flag
 
 
 def branch(frequency, size, *, stable=True, **others):
-    """Columns of one branch, by name: `size` is max |Z1|, a scalar or an array over `frequency`.
+    """Return the columns of one branch, keyed by name.
 
-    So are `stable` and, in `others`, `period`, `contacts`, `phase` (of Z1 relative to Z2),
-    `asymmetry` and `restitution`.
+    `size` is max |Z1|. It is a scalar or an array over `frequency`, and so are `stable` and the
+    other columns `period`, `contacts`, `phase` (of Z1 relative to Z2), `asymmetry` and
+    `restitution`.
     """
     usual = {"period": 1, "contacts": 2.0, "phase": np.pi, "asymmetry": 0.0, "restitution": np.nan}
     given = {"size": size, "multiplier": np.where(stable, 0.5, 2.0)} | usual | others
@@ -18,7 +19,7 @@ def branch(frequency, size, *, stable=True, **others):
 
 
 def branches(*parts, folds=(), parameters):
-    """Dataset of branches made by `branch`, with `folds` on them as (branch number, W, size)."""
+    """Return the dataset of branches from `branch`, with `folds` as (branch number, W, size)."""
     table = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     number = np.repeat(np.arange(len(parts)), [len(part["frequency"]) for part in parts])
     count = len(number)

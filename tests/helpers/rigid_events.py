@@ -1,4 +1,4 @@
-"""Rigid impacts located by the events of SciPy, as an independent reference."""
+"""Rigid impacts located by SciPy's events, as an independent reference."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -7,7 +7,7 @@ TIGHT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
 
 
 def flight_rate(oscillator, frequency):
-    """Return the derivative of (Z1, Z1', x2, x2') in flight, for an oscillator with any spring."""
+    """Return the function (t, y) -> y' of the state y = (Z1, Z1', x2, x2') in flight."""
 
     def rate(t, y):
         force = oscillator.forcing_amplitude(frequency) * np.cos(frequency * t)

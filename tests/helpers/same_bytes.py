@@ -1,8 +1,9 @@
-"""Compare the bytes of two runs: on one core and on two, the latter in a folder with a space.
+"""Compare the results of two runs byte by byte.
 
     PYTHONPATH=src:tests python -m helpers.same_bytes [config/smoke.yaml]
 
-Every file of the results is compared, except logs, timings and the like (`OF_THE_RUN`).
+The first run uses one core. The second run uses two cores, in a folder whose name has a space. All
+files of the results are compared, except files about the run (`OF_THE_RUN`), such as logs.
 """
 
 import hashlib
@@ -15,7 +16,7 @@ import yaml
 
 from helpers.running import copy_of_project, snakemake
 
-# Files about the run itself: logs, times and the machine.
+# Files about the run: logs, times and the computer.
 OF_THE_RUN = ("logs", "timings", "benchmarks", "provenance.json")
 
 

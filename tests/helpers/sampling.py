@@ -6,9 +6,9 @@ from impact_damper.motions import records
 
 
 def sample(p, state, start, times, tolerance=1e-14):
-    """Run the kernel from `start` through increasing `times`.
+    """Run the kernel from the time `start` through increasing `times`.
 
-    Returns the states, shape (n, 4), and the contacts, shape (k, 5): wall, beginning, end, and Z2'
+    Return the states, shape (n, 4), and the contacts, shape (k, 5): wall, beginning, end, and Z2'
     at both.
     """
     states, log = np.empty((len(times), 4)), np.empty((4096, 5))
@@ -19,7 +19,7 @@ def sample(p, state, start, times, tolerance=1e-14):
 
 
 def gauss(breaks, longest=0.1, order=12):
-    """Nodes and weights of Gauss-Legendre quadrature from the first to the last of the breaks.
+    """Return nodes and weights of Gauss-Legendre quadrature from the first to the last break.
 
     Each interval between breaks is divided into panels no longer than `longest`, so the quadrature
     converges spectrally for functions that are smooth between the breaks.

@@ -1,4 +1,4 @@
-"""Motions of a machine with a damper in SI units, integrated by SciPy with the walls as events."""
+"""Motions of a machine with a damper in SI units, by SciPy with contacts located as events."""
 
 import math
 
@@ -7,23 +7,23 @@ from scipy.integrate import solve_ivp
 
 
 class SiMotion:
-    """A machine with its damper, or without, under a given force.
+    """A machine, with or without a damper, under a given force.
 
-    A state is x, v and the displacement and speed of the machine relative to the loose mass; then
-    follow the works of the force, of the machine's dashpot and of the dashpots at the walls, and
-    the impulse of the walls.
+    A state consists of displacement and velocity of the machine, and of displacement and velocity
+    of the machine relative to the loose mass. The integrated vector also has the work of the force,
+    of the machine's dashpot and of the dashpots at the walls, and the impulse of the walls.
 
     Parameters
     ----------
     machine : Machine
     damper : MachineDamper or None
     force : callable
-        Force in N of the time in s.
+        Force in N as a function of the time in s.
     """
 
     def __init__(self, machine, damper, force):
         self.machine, self.damper, self.force = machine, damper, force
-        self.gap = damper.gap / 2 if damper else math.inf
+        self.clearance = damper.gap / 2 if damper else math.inf
         self.dashpot = 0.0
         if damper:
             logarithm = math.log(damper.restitution)
@@ -32,13 +32,14 @@ class SiMotion:
             self.dashpot = 2 * ratio * math.sqrt(damper.contact_stiffness * mass)
 
     def push(self, y, wall):
-        """Force of the wall in contact, N."""
+        """Return the force of the wall in contact, N."""
         if not wall:
             return 0.0
-        return self.damper.contact_stiffness * (wall * y[2] - self.gap) + self.dashpot * wall * y[3]
+        depth = wall * y[2] - self.clearance
+        return self.damper.contact_stiffness * depth + self.dashpot * wall * y[3]
 
     def slope(self, t, y, wall):
-        """Time derivative of a state."""
+        """Return the time derivative of the integrated vector y."""
         machine, push, force = self.machine, self.push(y, wall), self.force(t)
         loss = machine.viscous_damping * y[1]
         spring = machine.linear_stiffness * y[0] + machine.cubic_stiffness * y[0] ** 3
@@ -51,7 +52,7 @@ class SiMotion:
         """Yield each flight and each contact: its wall, 0 in flight, and SciPy's solution."""
 
         def reached(t, y, wall):
-            return abs(y[2]) - self.gap
+            return abs(y[2]) - self.clearance
 
         def turned(t, y, wall):
             return y[1]

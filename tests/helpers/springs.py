@@ -1,4 +1,4 @@
-"""Oscillators with springs and forces of every kind, and one system in other units."""
+"""Oscillators with springs and forces of every kind, and conversion of a system to other units."""
 
 from dataclasses import replace
 
@@ -16,10 +16,10 @@ SPRINGS = {
 
 
 def in_other_units(oscillator, damper, frequency, length, time):
-    """Oscillator, damper and frequency of the motion Z/length over T/time.
+    """Return the oscillator, damper and frequency of the motion Z/length over T/time.
 
-    Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2 + V/W^2) cos(W T) keeps its form. With
-    powers of two for both units every number keeps its digits.
+    The equation Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2 + V/W^2) cos(W T) keeps its
+    form. If both units are powers of two, the conversion is exact.
     """
     acceleration = length / time**2
     other = replace(

@@ -1,4 +1,4 @@
-"""Orbits, among them symmetric ones, and differences of high order, for tests of derivatives."""
+"""Converged orbits and a central difference of high order, for tests of derivatives."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ CENTRAL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 
 
 def converged(p, state, phase, symmetric):
-    """Return the orbit of period 1 near a state, converged as far as rounding allows."""
+    """Return the orbit of period 1 near a state, converged up to rounding errors."""
     for _ in range(12):
         orbit, end = shoot(p, state, 1, phase, symmetric=symmetric)
         n = orbit.active
@@ -30,14 +30,15 @@ def converged(p, state, phase, symmetric):
 def linear_orbit(oscillator, damper, frequency, ratio):
     """Return the symmetric orbit near Masri and Caughey's motion between rigid walls.
 
-    It is found with a linear spring first, then with the coefficient of the cubic spring rising.
+    The orbit is first found with a linear spring. Then the coefficient of the cubic spring is
+    increased in steps.
     """
     linear = replace(oscillator, cubic=0.0)
     flight = flight_with_speed(linear, damper, frequency, ratio)
     damper = replace(damper, clearance=flight.clearance)
     state, phase = flight.state, flight.phase
-    for share in np.linspace(0, 1, 6):
-        changed = replace(oscillator, cubic=share * oscillator.cubic)
+    for factor in np.linspace(0, 1, 6):
+        changed = replace(oscillator, cubic=factor * oscillator.cubic)
         orbit = converged(pack(changed, damper, frequency), state, phase, True)
         state = orbit.state
     return orbit

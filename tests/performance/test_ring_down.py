@@ -10,7 +10,12 @@ from scipy.special import ellipk
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.performance.ring_down import MOST_WINDOWS, free_amplitude, free_period, ring_down
+from impact_damper.performance.ring_down import (
+    MOST_WINDOWS,
+    ring_down,
+    unforced_amplitude,
+    unforced_period,
+)
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
 LINEAR = idm.Machine(**SPRING, force=40)
@@ -110,7 +115,7 @@ def test_period_is_that_of_the_equation_of_motion(stiffness, cubic, amplitude):
         return y[1]
 
     stopped.direction, stopped.terminal = 1, True
-    period = free_period(stiffness, cubic, amplitude)
+    period = unforced_period(stiffness, cubic, amplitude)
     run = solve_ivp(
         lambda t, y: [y[1], -stiffness * y[0] - cubic * y[0] ** 3],
         (0, 2 * period),
@@ -123,12 +128,12 @@ def test_period_is_that_of_the_equation_of_motion(stiffness, cubic, amplitude):
     # at the other end of the motion
     assert run.t_events[0][-1] == pytest.approx(period / 2, rel=1e-9)
     energy = stiffness * amplitude**2 / 2 + cubic * amplitude**4 / 4
-    assert free_amplitude(stiffness, cubic, energy) == pytest.approx(amplitude, rel=1e-13)
+    assert unforced_amplitude(stiffness, cubic, energy) == pytest.approx(amplitude, rel=1e-13)
 
 
 def test_limits_of_the_period():
-    assert free_period(4.0, 0.0, 0.7) == pytest.approx(math.pi, rel=1e-15)
-    assert free_period(0.0, 1.0, 2.0) == pytest.approx(2 * ellipk(0.5), rel=1e-15)
-    assert free_period(1.0, -1.0, 1.0) == math.inf
-    assert free_amplitude(1.0, -1.0, 0.25) == math.inf
-    assert free_amplitude(1.0, -1.0, 0.0) == 0
+    assert unforced_period(4.0, 0.0, 0.7) == pytest.approx(math.pi, rel=1e-15)
+    assert unforced_period(0.0, 1.0, 2.0) == pytest.approx(2 * ellipk(0.5), rel=1e-15)
+    assert unforced_period(1.0, -1.0, 1.0) == math.inf
+    assert unforced_amplitude(1.0, -1.0, 0.25) == math.inf
+    assert unforced_amplitude(1.0, -1.0, 0.0) == 0

@@ -146,7 +146,7 @@ def test_a_machine_that_escapes_says_so():
         ({"band": (0, 20)}, "band[0] = 0 Hz: must be at least"),
         ({"rate": 0}, "rate = 0 Hz/s: must be greater than 0 Hz/s"),
         ({"rate": "1 Hz"}, "rate = '1 Hz': must be a number in Hz/s"),
-        ({"rate": 5}, "rate = 5 Hz/s: must be at most 4 Hz/s (1 % of band[0] in a forcing period)"),
+        ({"rate": 5}, "rate = 5 Hz/s: must be at most 4 Hz/s (1 % of band[0] in a forcing cycle)"),
         ({"rate": 1e-6}, "rate = 1e-06 Hz/s: must be at least 4.2e-05 Hz/s (a sweep lasts"),
         ({"band": (20, 20.01)}, "rate = 0.5 Hz/s: must be at most 0.20005 Hz/s (a sweep lasts"),
     ],

@@ -1,1 +1,1 @@
-"""Independent references: 80-bit arithmetic in C, heyoka.py, and stored results of AUTO-07p."""
+"""Independent references for tests: 80-bit arithmetic in C, heyoka.py, and results of AUTO-07p."""

@@ -1,4 +1,4 @@
-"""Motions by heyoka.py with terminal events: an integrator independent of the kernels.
+"""Motions by heyoka.py with terminal events, an integrator that is independent of the kernels.
 
 State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `packed.pack`.
 """
@@ -11,9 +11,11 @@ import numpy as np
 
 from impact_damper.system import packed
 
-# heyoka's tolerance is relative to the largest term of the events too: no distant wall.
+# Clearance in place of a larger one. heyoka's tolerance is relative to the largest term of the
+# events, so a distant wall would make the integration inaccurate.
 BEYOND_ALL_MOTIONS = 16.0
-# Number of parameters in flight, which come first, and in contact, the wall touched the last one.
+# Number of parameters in flight (False) and in contact (True). The parameters in flight come first,
+# and the wall in contact is the last parameter.
 PARAMETERS = {False: packed.CLEARANCE + 1, True: packed.COUNT + 1}
 
 
@@ -30,7 +32,7 @@ class Reference:
     Parameters
     ----------
     longest : float
-        Longest step allowed. Runs with two different limits check that no contact is missed.
+        Longest step. Two runs with different limits verify that no contact is missed.
     """
 
     def __init__(self, longest=math.inf):
@@ -47,7 +49,7 @@ class Reference:
             heyoka.t_event(z - clearance, direction=rising),
             heyoka.t_event(z + clearance, direction=falling),
         ]
-        release = [heyoka.t_event(side * z - clearance, direction=falling)]
+        separation = [heyoka.t_event(side * z - clearance, direction=falling)]
         pushed = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
         self.longest = longest
         self.flight = heyoka.taylor_adaptive(
@@ -57,11 +59,11 @@ class Reference:
             t_events=entries,
         )
         self.contact = heyoka.taylor_adaptive(
-            pushed, np.zeros(4), pars=np.zeros(PARAMETERS[True]), t_events=release
+            pushed, np.zeros(4), pars=np.zeros(PARAMETERS[True]), t_events=separation
         )
 
     def _leg(self, p, side, state, t, end):
-        """Integrate to the next event or to the end; returns outcome, state and time."""
+        """Integrate to the next event or to the end; return outcome, state and time."""
         motion = self.contact if side else self.flight
         motion.time = t
         motion.state[:] = state
@@ -72,7 +74,7 @@ class Reference:
         return outcome, motion.state.copy(), motion.time
 
     def run(self, p, state, start, times, side=0):
-        """Integrate from `start` through increasing times, with `side` the wall touched first."""
+        """Integrate from `start` through increasing times; `side` is the first wall in contact."""
         t, clearance = start, min(p[packed.CLEARANCE], BEYOND_ALL_MOTIONS)
         contacts = [[side, t, np.nan, state[3], np.nan]] if side else []
         samples = []
@@ -88,6 +90,7 @@ class Reference:
             else:
                 side = 1 if int(outcome) == -1 else -1
                 contacts.append([side, t, np.nan, state[3], np.nan])
-                # A hair beyond: on the wall, a release within the same step could be hidden.
+                # The state is moved slightly beyond the wall. On the wall heyoka could miss a
+                # separation within the same step.
                 state[2] = side * np.nextafter(clearance, math.inf)
         return Run(np.array(samples), np.array(contacts).reshape(-1, 5))

@@ -1,8 +1,8 @@
-"""Monodromy matrices by heyoka's variational equations, with the jumps at events by the book.
+"""Monodromy matrices by heyoka's variational equations, with jumps at events from a textbook.
 
-At an event a tangent d becomes d + (f_after - f_before) (n d)/(n f_before), where n is the normal
-of the wall and f the vector field on both sides (Leine and Nijmeijer, Dynamics and Bifurcations
-of Non-Smooth Mechanical Systems, 2004, section 7).
+At an event a tangent d becomes d + (f_after - f_before) (n d)/(n f_before), with the normal n of
+the wall and the vector field f before and after the event (Leine and Nijmeijer, Dynamics and
+Bifurcations of Non-Smooth Mechanical Systems, 2004, section 7).
 """
 
 import math
@@ -24,7 +24,7 @@ def _fields():
 
 
 def _forces(pars, state, cosine):
-    """Acceleration in flight, force of the contact, and mass of the primary over the loose mass."""
+    """Return acceleration in flight, force of the contact, and primary mass over loose mass."""
     frequency, damping, stiffness, cubic, amplitude, unbalance, shaker, *contact, side = pars
     clearance, spring, inverse_mass, dashpot = contact
     x, v, z, w = state
@@ -35,7 +35,7 @@ def _forces(pars, state, cosine):
 
 
 def field(pars, state, t, touching):
-    """The vector field at a state, in flight or in contact."""
+    """Return the vector field at a state, in flight or in contact."""
     free, force, inverse_mass = _forces(pars, state, math.cos(pars[0] * t))
     force *= touching
     return np.array([state[1], free - force, state[3], free - force - inverse_mass * force])
@@ -65,7 +65,7 @@ class Variational:
             )
 
     def monodromy(self, p, state, begin, length):
-        """State and derivative (4, 4) of the flow from `begin` in flight over a length."""
+        """Return state and derivative (4, 4) of the flow over a length of time from a flight."""
         pars = np.append(p, 0.0)
         pars[CLEARANCE] = min(p[CLEARANCE], BEYOND_ALL_MOTIONS)
         full = np.concatenate([state, np.eye(4).ravel()])

@@ -13,7 +13,7 @@ from impact_damper.data.shares import missed_share
 from impact_damper.figures.missed_contacts import draw_missed_contacts
 from impact_damper.rivals import merson
 from impact_damper.rivals.methods import integrators
-from impact_damper.rivals.passages import draw_passages, free_flight
+from impact_damper.rivals.passages import draw_passages, without_walls
 from impact_damper.rivals.scipy_methods import UNLIMITED, derivative
 from impact_damper.stages import missed_contacts as missed
 from impact_damper.system.packed import pack
@@ -77,7 +77,7 @@ def test_the_taylor_series_misses_none_and_invents_none(passages):
 def test_scipy_events_find_what_the_ends_of_steps_show(method, passages):
     """Runs with an event for each depth find the same contacts on the same flights."""
     p, drawn = passages
-    free = free_flight(p)
+    free = without_walls(p)
 
     def wall(level):
         return lambda t, y, *_: abs(y[2]) - level
@@ -139,7 +139,7 @@ def test_every_passage_is_counted_once(counted):
 def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
     """A rate that is never finite makes every run fail."""
     p, drawn = passages
-    p = free_flight(p)
+    p = without_walls(p)
     p[2] = -np.inf
     integrator = integrators()[method]
     touching, spurious, error, steps = missed._counts(integrator, p, drawn[:2], DEPTHS, 1e-8)
@@ -150,7 +150,7 @@ def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
 def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
     p, drawn = passages
     monkeypatch.setattr(merson, "MOST_FLIGHT_ENDS", 10)
-    given = free_flight(p), drawn[0].state, PERIOD, 1e-8, drawn[0].time
+    given = without_walls(p), drawn[0].state, PERIOD, 1e-8, drawn[0].time
     assert integrators()["merson"].flight(*given) is None
 
 

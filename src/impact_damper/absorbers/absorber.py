@@ -11,11 +11,11 @@ from impact_damper.system.names import names_arguments
 @names_arguments
 @dataclass(frozen=True, kw_only=True)
 class TunedAbsorber:
-    """A mass that hangs on a machine by a spring and a dashpot; all in SI units.
+    """A mass that is connected to a machine by a spring and a dashpot; all values in SI units.
 
-    Each value is a number in the SI unit, text with units, or a quantity of pint. At the
-    displacement u of the machine relative to the absorber its spring and dashpot hold the machine
-    back with the force stiffness u + cubic_stiffness u^3 + damping u'.
+    Each value is a number in the SI unit, text with units, or a quantity of pint. Let u be the
+    displacement of the machine relative to the absorber. Spring and dashpot act on the machine with
+    the force stiffness u + cubic_stiffness u^3 + damping u', against u.
 
     Attributes
     ----------
@@ -51,9 +51,9 @@ class TunedAbsorber:
                 "that restores it the absorber drifts away)"
             )
 
-    def detuned(self, share) -> "TunedAbsorber":
-        """Return the absorber with both stiffnesses raised by a share: 0.1 is 10 per cent."""
-        factor = 1 + check_number("detuning", share, above=-1, most=10)
+    def detuned(self, detuning) -> "TunedAbsorber":
+        """Return the absorber with both stiffnesses times 1 + detuning."""
+        factor = 1 + check_number("detuning", detuning, above=-1, most=10)
         return replace(
             self,
             stiffness=self.stiffness * factor,
@@ -67,7 +67,7 @@ def check_mass(machine, mass) -> float:
     Raises
     ------
     TypeError, ValueError
-        If `machine` is no machine, or the mass is out of range for it.
+        If `machine` is not a `Machine`, or the mass is too small or too large for this machine.
     """
     if not isinstance(machine, Machine):
         raise TypeError(f"machine = {shown(machine)}: must be a Machine")

@@ -1,10 +1,10 @@
-"""The best absorber for a machine with a cubic spring at its own force, by direct search.
+"""The best absorber for a machine with a cubic spring at the machine's own force, by direct search.
 
-For a cubic spring the closed forms are approximations, and without linear stiffness there is none.
-The search minimises the largest displacement over a band, by choice of stiffness, damping and cubic
-stiffness. It takes displacements from the balance of one harmonic, of all solutions, stable or not.
-This is quick but misses motions without a period, so that the absorber must be judged by its exact
-motions afterwards.
+For a cubic spring the closed forms are approximations, and without linear stiffness there is no
+closed form. The search chooses stiffness, damping and cubic stiffness of the absorber to minimise
+the largest displacement over a band. It takes the displacements from all solutions, stable or
+unstable, of single-term harmonic balance. This is quick, but it misses motions that are not
+periodic. Therefore the absorber must be judged by its exact motions afterwards.
 """
 
 from itertools import product
@@ -24,17 +24,19 @@ from impact_damper.motions.smooth_runs import (
     LINK_STIFFNESS,
 )
 
-# Grid of the search: natural frequency of the absorber, from LOWEST times the lowest frequency of
-# the band to its highest; ratio of the damping to 2 m w at the middle of the band; ratio of the
-# cubic stiffness to `tuned_cubic`. A second grid combines the exact absorber with each cubic
-# stiffness. Numbers of forcing frequencies: COARSE on the grids, FINE where their best are refined.
+# First grid of the search. TUNINGS: number of natural frequencies of the absorber, which go from
+# LOWEST times the lowest frequency of the band to its highest frequency. DAMPINGS: ratios of the
+# damping to 2 m w, with the middle frequency w of the band. CUBICS: ratios of the cubic stiffness
+# to `tuned_cubic`. A second grid combines the exact absorber with each of CUBICS. COARSE and FINE:
+# numbers of forcing frequencies on the grids, and in the refinement of the best grid points.
 TUNINGS, LOWEST = 16, 0.3
 DAMPINGS = np.geomspace(0.03, 0.5, 5)
 CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
 COARSE, FINE = 25, 45
-# With MARGIN times the machine's force the largest displacement may be up to MOST_RISE times as
-# large. If it is larger, a detached resonance is near. The balance of one harmonic predicts the
-# force of its onset with an error of some per cent, so that then the larger displacement counts.
+# With MARGIN times the machine's force the largest displacement should be at most MOST_RISE times
+# as large. If it is larger, a detached resonance begins at a force near that of the machine. The
+# balance predicts this force with an error of some per cent, so the larger displacement is then
+# minimised.
 MARGIN, MOST_RISE = 1.1, 1.3
 # Number of points of each grid that are refined, and tolerance of the logarithms of the unknowns.
 REFINED = 2
@@ -42,12 +44,12 @@ TOLERANCE = 2e-3
 
 
 def best_absorber(machine, mass, band) -> TunedAbsorber:
-    """Return the absorber with the least largest displacement over a band at the machine's force.
+    """Return the absorber that minimises the largest displacement over a band.
 
     Parameters
     ----------
     machine : Machine
-        With a cubic stiffness.
+        It must have a cubic stiffness. Its own excitation is used.
     mass : float, str or pint.Quantity
         kg.
     band : sequence of 2 floats
@@ -56,8 +58,8 @@ def best_absorber(machine, mass, band) -> TunedAbsorber:
     Raises
     ------
     TypeError, ValueError
-        If an argument is out of range, or the machine's spring is linear: `exact_absorber` is
-        exact then.
+        If an argument is out of range, or if the machine's spring is linear. For a linear spring
+        use `tuning.exact_absorber`.
     """
     mass = check_mass(machine, mass)
     if machine.cubic_stiffness == 0:
@@ -83,7 +85,7 @@ def best_absorber(machine, mass, band) -> TunedAbsorber:
     for grid in grids:
         points = np.log(list(grid))
         starts.extend(points[np.argsort(worst(points, COARSE))[:REFINED]])
-    found = [
+    minima = [
         minimize(
             lambda values: worst(values[None], FINE)[0],
             start,
@@ -92,7 +94,7 @@ def best_absorber(machine, mass, band) -> TunedAbsorber:
         )
         for start in starts
     ]
-    best = np.exp(min(found, key=lambda each: each.fun).x) * unit
+    best = np.exp(min(minima, key=lambda each: each.fun).x) * unit
     names = "stiffness", "damping", "cubic_stiffness"
     return TunedAbsorber(mass=mass, **dict(zip(names, map(float, best), strict=True)))
 
@@ -104,10 +106,14 @@ def _unit(machine, mass, frequency):
     return np.array([mass * w**2, 2 * mass * w, cubic])
 
 
-def _largest(machine, mass, absorbers, frequencies, share):
-    """Return the largest displacement of each absorber (rows of SI values), dimensionless."""
+def _largest(machine, mass, absorbers, frequencies, factor):
+    """Return the largest displacement of the machine with each absorber, dimensionless.
+
+    The rows of `absorbers` are stiffness, damping and cubic stiffness in SI units. The machine's
+    excitation is multiplied by `factor`.
+    """
     scales = machine.scales
-    bare = problems_of(machine, None, frequencies, [share])
+    bare = problems_of(machine, None, frequencies, [factor])
     w = scales.from_si(frequencies, "frequency")
     problems = np.tile(bare, (len(absorbers), 1))
     problems[:, INVERSE_MASS] = 1 / scales.from_si(mass, "mass")

@@ -1,8 +1,9 @@
 """Response of a linear machine with a linear absorber in closed form, and its exact maxima.
 
-Frequencies r are divided by the natural frequency of the machine, s = r^2. With the damping ratio
-z1 of the machine and the mass ratio m, tuning f and damping ratio z of the absorber, the square of
-the machine's displacement is g(s) N(s)/D(s), in units of the excitation:
+Frequencies r are divided by the natural frequency of the machine, and s = r^2. The machine has the
+damping ratio z1. The absorber has the mass ratio m, the tuning f (its natural frequency divided by
+the machine's) and the damping ratio z. The square of the machine's displacement, in the unit of the
+table, is g(s) N(s)/D(s) with
 
     N = (f^2 - s)^2 + 4 z^2 f^2 s
     D = [(1 - s)(f^2 - s) - 4 z1 z f s - m f^2 s]^2 + 4 s [z1 (f^2 - s) + z f (1 - s) - m z f s]^2
@@ -13,7 +14,9 @@ the machine's displacement is g(s) N(s)/D(s), in units of the excitation:
     displacement A of the base        A                       1 + 4 z1^2 s
     acceleration B of the base        B/w1^2                  (1 + 4 z1^2 s)/s^2
 
-g N and D are polynomials, so that all maxima of the response follow from the roots of a polynomial.
+m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. g N and D are
+polynomials, apart from the denominator s^2, so all maxima of the response follow from the roots of
+a polynomial.
 """
 
 import math
@@ -25,7 +28,7 @@ from numpy.polynomial import polynomial
 from impact_damper.literature.tuned_mass_damper import Tuning
 from impact_damper.machine.machine import Machine
 
-# Largest imaginary part of a real root, relative to the width of the resonance.
+# A root counts as real if its imaginary part is at most REAL times the width of the resonance.
 REAL = 1e-6
 
 
@@ -37,7 +40,7 @@ class LinearMachine(NamedTuple):
     damping_ratio : float
         z1.
     forcing : numpy.ndarray
-        Coefficients of the polynomial g(s), without its denominator.
+        Coefficients of the polynomial g(s) without its denominator, lowest power first.
     falling : int
         2 if g(s) has the denominator s^2, else 0.
     unit : float
@@ -54,7 +57,7 @@ class LinearMachine(NamedTuple):
 
 
 def linear_machine(machine: Machine) -> LinearMachine:
-    """Return the numbers of a machine, without its cubic stiffness.
+    """Return the dimensionless numbers of a machine. Its cubic stiffness is ignored.
 
     Raises
     ------
@@ -75,14 +78,14 @@ def linear_machine(machine: Machine) -> LinearMachine:
         "base_displacement": (based, 0, machine.base_displacement),
         "base_acceleration": (based, 2, (machine.base_acceleration or 0.0) * mass / stiffness),
     }
-    given = next(name for name in kinds if getattr(machine, name) is not None)
-    return LinearMachine(ratio, *kinds[given], machine.natural_frequency)
+    kind = next(name for name in kinds if getattr(machine, name) is not None)
+    return LinearMachine(ratio, *kinds[kind], machine.natural_frequency)
 
 
 def squared(linear, tuning, frequency):
-    """Return the squared displacement, in squared units, at frequencies r; broadcasts.
+    """Return the squared displacement, in units of `LinearMachine.unit` squared, at frequencies r.
 
-    Without an absorber `tuning` is None.
+    Without an absorber `tuning` is None. The arguments are broadcast.
     """
     s = np.square(frequency)
     forcing = polynomial.polyval(s, linear.forcing) / s**linear.falling
@@ -97,7 +100,7 @@ def squared(linear, tuning, frequency):
 def response(machine, absorber, frequencies):
     """Return the amplitude of a linear machine, m, at forcing frequencies in Hz.
 
-    The cubic stiffnesses are left out.
+    The cubic stiffnesses are ignored.
 
     Parameters
     ----------
@@ -115,7 +118,7 @@ def response(machine, absorber, frequencies):
 def tuning_of(machine, absorber) -> Tuning:
     """Return mass ratio, tuning and damping ratio of an absorber on a machine.
 
-    The absorber needs a linear stiffness.
+    The absorber must have a linear stiffness.
     """
     own = math.sqrt(absorber.stiffness / absorber.mass)
     frequency = own / (2 * math.pi * machine.natural_frequency)
@@ -127,8 +130,9 @@ def tuning_of(machine, absorber) -> Tuning:
 def maxima(linear, tuning, band):
     """Return frequencies r and squared displacements at the maxima within a band.
 
-    The polynomial is written in t with s = 1 + w t, where w is the width of the resonance: in s the
-    roots for a light absorber lie so close together that they cannot be told apart.
+    The maxima are roots of a polynomial. It is written in t with s = 1 + w t, where w is the width
+    of the resonance. In s the roots for a light absorber would be so close together that rounding
+    errors merge them.
 
     Parameters
     ----------
@@ -140,8 +144,8 @@ def maxima(linear, tuning, band):
     Returns
     -------
     tuple of numpy.ndarray, shape (count,)
-        All stationary points within the band and the finite ends of the band, by rising frequency.
-        The largest of these values is the maximum.
+        Frequencies of all stationary points within the band and of the finite ends of the band, in
+        ascending order, and the values there. The largest value is the maximum over the band.
     """
     (mass, f, z), z1 = tuning, linear.damping_ratio
     width = min(math.sqrt(mass) + z1, 1.0)
@@ -164,14 +168,14 @@ def maxima(linear, tuning, band):
     places = np.sqrt(roots.real[(np.abs(roots.imag) <= REAL * width) & (roots.real > 0)])
     ends = np.array([end for end in band if math.isfinite(end)])
     inside = places[(places > band[0]) & (places < band[1])]
-    found = np.sort(np.concatenate([ends, inside]))
-    return found, squared(linear, tuning, found)
+    stationary = np.sort(np.concatenate([ends, inside]))
+    return stationary, squared(linear, tuning, stationary)
 
 
 def _composed(coefficients, inner):
-    """Return the coefficients of a polynomial of a polynomial."""
-    found = np.zeros(1)
+    """Return the coefficients of a polynomial whose argument is the polynomial `inner`."""
+    composed = np.zeros(1)
     for coefficient in coefficients[::-1]:
-        found = np.convolve(found, inner)
-        found[0] += coefficient
-    return found
+        composed = np.convolve(composed, inner)
+        composed[0] += coefficient
+    return composed

@@ -1,4 +1,4 @@
-"""Periodic orbits by Newton's method on the map over their period, with multipliers."""
+"""Find periodic orbits of a machine with an absorber by Newton's method, with their multipliers."""
 
 from typing import NamedTuple
 
@@ -7,14 +7,15 @@ import numpy as np
 from impact_damper.absorbers.problems import COARSE, FINE, active_size, steps_for
 from impact_damper.motions.smooth_runs import SIZE, run
 
-# Newton's method, with coarse and then with fine steps. It stops after a correction below the share
-# LAST of the largest state of the orbit; it fails after a correction above the share FARTHEST.
+# Newton's method runs with coarse and then with fine integration steps. A correction is compared
+# with the largest components of the state along the orbit. The method ends after a correction below
+# LAST times these components, and fails after a correction above FARTHEST times these components.
 LAST = {COARSE: 1e-3, FINE: 1e-6}
 CORRECTIONS = {COARSE: 10, FINE: 4}
 FARTHEST = 10.0
-# Largest relative distance between the state and the state a period later.
+# Largest relative distance of a converged state from the state a period later.
 CLOSED = 1e-9
-# Two orbits count as one if their states differ by less than this share of the largest state.
+# Two orbits are the same if their states differ by less than SAME times their largest components.
 SAME = 1e-5
 
 
@@ -24,19 +25,20 @@ class Orbits(NamedTuple):
     Attributes
     ----------
     problem : numpy.ndarray of int, shape (n,)
-        Index of the problem of each orbit.
+        Index of the problem (a row of parameters, see `problems`) of each orbit.
     period : numpy.ndarray of int, shape (n,)
-        In forcing periods.
+        Period in forcing cycles.
     state : numpy.ndarray, shape (n, SIZE)
         State at T = 0.
     converged : numpy.ndarray of bool, shape (n,)
         Whether the orbit closes after its period.
     multipliers : numpy.ndarray of complex, shape (n, SIZE)
-        Floquet multipliers over the period; without an absorber two of them are 0. NaN if Newton's
-        method has not converged, as `largest`.
+        Floquet multipliers over the period. Without an absorber two of them are 0. NaN if Newton's
+        method has not converged.
     largest : numpy.ndarray, shape (n, SIZE)
-        Largest modulus of each component of the state: exact for displacements, of samples for
-        velocities.
+        Largest modulus of each component of the state along the orbit. For displacements the value
+        is exact, for velocities it is the largest of samples. NaN if Newton's method has not
+        converged.
     """
 
     problem: np.ndarray
@@ -48,20 +50,20 @@ class Orbits(NamedTuple):
 
     @property
     def stable(self):
-        """Mask of the orbits that were found and whose multipliers are all below 1 in modulus."""
+        """Mask of the converged orbits whose multipliers are all below 1 in modulus."""
         with np.errstate(invalid="ignore"):
             return self.converged & (np.abs(self.multipliers).max(axis=1) < 1)
 
     def take(self, chosen) -> "Orbits":
-        """Return the orbits with some indices."""
+        """Return the orbits with the indices, or in the mask, `chosen`."""
         return Orbits(*(each[chosen] for each in self))
 
-    def joined(self, others) -> "Orbits":
-        """Return these orbits and others."""
-        return Orbits(*(np.concatenate(pair) for pair in zip(self, others, strict=True)))
+    def joined(self, more) -> "Orbits":
+        """Return these orbits followed by `more` orbits."""
+        return Orbits(*(np.concatenate(pair) for pair in zip(self, more, strict=True)))
 
     def distinct(self) -> "Orbits":
-        """Return the orbits without those that agree with an earlier one of the same problem."""
+        """Return the orbits without those that repeat an earlier orbit of the same problem."""
         order = np.argsort(self.problem, kind="stable")
         problem, state, largest = self.problem[order], self.state[order], self.largest[order]
         again = np.zeros(len(order), bool)
@@ -72,7 +74,7 @@ class Orbits(NamedTuple):
 
 
 def find_orbits(problems, index, guesses, period=1) -> Orbits:
-    """Return the orbits to which Newton's method leads from guesses of their states.
+    """Return the orbits that Newton's method finds from guesses of their states.
 
     Parameters
     ----------
@@ -82,7 +84,7 @@ def find_orbits(problems, index, guesses, period=1) -> Orbits:
     guesses : numpy.ndarray, shape (n, SIZE)
         States at T = 0.
     period : int
-        Period of the orbits in forcing periods.
+        Period of the orbits in forcing cycles.
     """
     problems, state, active = problems[index], guesses.copy(), np.arange(len(guesses))
     with np.errstate(all="ignore"):
@@ -122,7 +124,7 @@ def _corrected(problems, state, active, steps, period, longest):
 
 
 def _period_map(problems, state, steps, period):
-    """Return the change of states after a period, the map's derivative, and largest components."""
+    """Return the change of states over a period, the map's derivative, and largest components."""
     after, largest = state.copy(), np.empty_like(state)
     slopes = np.empty((len(state), SIZE, SIZE))
     run(problems, after, steps, period, slopes, largest)

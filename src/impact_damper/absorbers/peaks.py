@@ -1,4 +1,4 @@
-"""Largest displacement within a band, also between the frequencies of its grid."""
+"""Find the largest displacement within a band, also between the frequencies of a grid."""
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -9,9 +9,9 @@ from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.seeds import harmonic_seeds
 from impact_damper.motions.smooth_runs import FORCE
 
-# Frequencies tried between the two neighbours of a peak of the grid, and how often the interval is
-# narrowed. At a fold the peak is the last stable orbit before it. Peaks of the grid below LOWER
-# times the highest peak are left out.
+# A peak of the grid is refined by POINTS frequencies between its two neighbours, and the interval
+# is narrowed ROUNDS times. At a fold the peak is the last stable orbit before the fold. Peaks of
+# the grid below LOWER times the highest peak are not refined.
 POINTS = 9
 ROUNDS = 4
 LOWER = 0.7
@@ -41,21 +41,24 @@ def linear_peak(machine, absorber, frequencies):
 
 
 def orbit_peaks(machine, absorber, frequencies, shares, orbits):
-    """Return frequency (Hz) and height of the highest stable orbit in a band, by force share.
+    """Return frequency (Hz) and height of the highest stable orbit in a band, for each force share.
+
+    A force share is a factor of the machine's excitation.
 
     Parameters
     ----------
     machine : Machine
     absorber : TunedAbsorber or None
     frequencies, shares : numpy.ndarray
-        Grid of the band, Hz, and of force shares.
+        Grid of frequencies in Hz, and force shares.
     orbits : Orbits
-        Stable orbits on the grid, as `search` returns them.
+        Stable orbits on the grid, from `search.search`.
 
     Returns
     -------
-    tuple of numpy.ndarray, shape (number of shares,)
-        The height in the scale of the machine; NaN where there is no stable orbit of one period.
+    frequency, height : numpy.ndarray, shape (number of shares,)
+        The height is dimensionless, in the scale of the machine. Both are NaN where there is no
+        stable orbit of period 1.
     """
     grid = np.full((len(frequencies), len(shares)), -1)
     for place in np.argsort(orbits.largest[:, 0], kind="stable"):
@@ -64,30 +67,30 @@ def orbit_peaks(machine, absorber, frequencies, shares, orbits):
     heights = np.full(grid.shape, -np.inf)
     heights[grid >= 0] = orbits.largest[grid[grid >= 0], 0]
     places, columns = _grid_peaks(heights)
-    found = np.full((2, len(shares)), np.nan)
+    highest = np.full((2, len(shares)), np.nan)
     refined = _refined(
         machine, absorber, frequencies, places, shares[columns], orbits.take(grid[places, columns])
     )
     for column, *peak in sorted(zip(columns, *refined, strict=True), key=lambda each: each[2]):
-        found[:, column] = peak
-    return tuple(found)
+        highest[:, column] = peak
+    return tuple(highest)
 
 
 def _grid_peaks(heights):
-    """Return the rows and columns of local maxima along columns that are high enough (LOWER)."""
+    """Return the rows and columns of the local maxima along columns, without low ones (LOWER)."""
     around = np.pad(heights, ((1, 1), (0, 0)), constant_values=-np.inf)
     top = (heights >= around[:-2]) & (heights >= around[2:])
     return np.nonzero(top & np.isfinite(heights) & (heights >= LOWER * heights.max(axis=0)))
 
 
 def _beside(frequencies, places):
-    """Return the neighbours of grid frequencies; the ends of the grid are their own neighbours."""
+    """Return the grid frequencies before and after places; at an end of the grid, the end."""
     last = len(frequencies) - 1
     return frequencies[np.maximum(places - 1, 0)], frequencies[np.minimum(places + 1, last)]
 
 
 def _refined(machine, absorber, frequencies, places, shares, orbits):
-    """Return frequencies and heights of the highest orbits near given orbits of a grid."""
+    """Return frequencies and heights of the highest orbits near the given orbits of the grid."""
     first, last = low, high = _beside(frequencies, places)
     frequency, height, state = frequencies[places], orbits.largest[:, 0].copy(), orbits.state.copy()
     for _ in range(ROUNDS if len(places) else 0):

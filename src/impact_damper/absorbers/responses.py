@@ -1,11 +1,11 @@
-"""Absorbers that one could build in place of an impact damper, and how far the machine moves.
+"""Displacements of a machine with absorbers that could be built in place of an impact damper.
 
-`absorber_responses` compares, for one machine and one added mass, over forcing frequencies and
-forcing amplitudes, each with its stiffness as designed and detuned:
+`absorber_responses` compares four competitors for one machine and one added mass, over forcing
+frequencies and forcing amplitudes. The stiffness of each absorber is as designed, and detuned.
 
     bare        the machine alone
     tuned       the absorber tuned exactly to the machine, with a linear spring
-    nonlinear   the tuned absorber with a cubic spring added that keeps the peaks equal
+    nonlinear   the tuned absorber with an additional cubic spring that keeps the peaks equal
     best        the absorber that minimises the largest displacement at the machine's own force
 """
 
@@ -27,7 +27,7 @@ from impact_damper.system.bounds import MOST_RUNS, SEED_RANGE, check_count, show
 from impact_damper.system.checks import check_numbers
 
 COMPETITORS = ("bare", "tuned", "nonlinear", "best")
-# Factors of the excitation, from a quarter to four times the machine's.
+# Force shares: factors of the machine's excitation, from a quarter to four.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
 SPRING = ("stiffness", "damping", "cubic_stiffness")
@@ -56,7 +56,7 @@ def absorber_responses(
     """Return the displacements of a machine without and with tuned absorbers.
 
     With linear springs the response has a closed form. Otherwise the motions are exact periodic
-    orbits, and random starts show that none of those they reach is missing.
+    orbits, and runs from random starts find motions that the search for orbits missed.
 
     Parameters
     ----------
@@ -68,27 +68,32 @@ def absorber_responses(
     force_shares : sequence of float
         Increasing factors of the machine's excitation.
     detunings : sequence of float
-        Increasing shares by which the absorbers' springs are stiffer than designed.
+        Increasing relative changes of the absorbers' stiffnesses; 0.1 is 10 per cent stiffer than
+        designed.
     band : sequence of 2 floats, optional
-        Lowest and highest frequency, Hz, over which the absorbers are tuned. If not given, all
-        frequencies (`tuning.exact_absorber`); for the best, from the first to the last of
-        `frequencies` (`direct.best_absorber`); so for both with `base_acceleration`.
+        Lowest and highest frequency, Hz, over which the absorbers are tuned. By default the tuned
+        absorber is tuned over all frequencies (`tuning.exact_absorber`), and the best absorber from
+        the first to the last of `frequencies` (`direct.best_absorber`). For a machine with
+        `base_acceleration` the default for both is from the first to the last of `frequencies`.
     starts : int
-        Random starts at each frequency and force share.
+        Number of random starts at each frequency and force share.
     seed : int
 
     Returns
     -------
     xarray.Dataset
-        In SI units, over `competitor`, `detuning`, `frequency` and `force_share`: the largest
-        displacements (mm) of the largest and of the smallest motion, how many stable periodic
-        motions there are, the shares of starts that lead to the largest motion and that escape,
-        and how the search for motions ended; over the force share the largest displacement between
-        the first and the last frequency, sought between the frequencies too, and where it is; over
-        `competitor` and `detuning` the stiffness, damping and cubic stiffness of the absorbers. The
-        machine alone has the same values at all
-        detunings. The attribute `remarks` says in words, keyed by competitor, why one is not
-        possible.
+        In SI units.
+
+        - Over `competitor`, `detuning`, `frequency` and `force_share`: the largest displacements
+          (mm) of the largest and of the smallest motion, the number of stable periodic motions, the
+          shares of starts that lead to the largest motion and that escape, and the status of the
+          search for motions.
+        - Over `competitor`, `detuning` and `force_share`: the largest displacement from the first
+          to the last frequency, also between the given frequencies, and its frequency.
+        - Over `competitor` and `detuning`: stiffness, damping and cubic stiffness of the absorbers.
+
+        The machine alone has the same values at all detunings. The attribute `remarks` (JSON) maps
+        each competitor that is not possible to the reason.
 
     Raises
     ------
@@ -99,8 +104,8 @@ def absorber_responses(
     --------
     >>> import impact_damper as idm
     >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.05, force=40)
-    >>> found = idm.absorber_responses(machine, "0.6 kg", [19, 20, 21])
-    >>> found.competitor.values.tolist()
+    >>> responses = idm.absorber_responses(machine, "0.6 kg", [19, 20, 21])
+    >>> responses.competitor.values.tolist()
     ['bare', 'tuned', 'nonlinear', 'best']
     """
     mass = check_mass(machine, mass)
@@ -114,17 +119,17 @@ def absorber_responses(
     check_count("starts", starts, least=1, most=most, why=why)
     check_count("seed", seed, **SEED_RANGE)
     absorbers, remarks = competitors(machine, mass, frequencies, band)
-    found = _not_possible((len(COMPETITORS), len(detunings), len(frequencies), len(shares)))
+    table = _not_possible((len(COMPETITORS), len(detunings), len(frequencies), len(shares)))
     sizes = None
     for name, absorber in absorbers.items():
         row = COMPETITORS.index(name)
         for column, detuning in enumerate(detunings if absorber else [None]):
-            # all detunings of the machine alone at once
+            # The machine alone has no detuning, so its values are written to all columns.
             column = column if absorber else slice(None)
             built = absorber and absorber.detuned(detuning)
             values, sizes = _responses(machine, built, frequencies, shares, starts, seed, sizes)
             for key, value in values.items():
-                found[key][row, column] = value
+                table[key][row, column] = value
     scales = machine.scales
     coordinates = {
         "competitor": list(COMPETITORS),
@@ -135,26 +140,27 @@ def absorber_responses(
     parameters = {"absorber_mass": mass, "starts": starts, "seed": seed}
     if band is not None:
         parameters["band"] = band
-    data = dataset(found, coordinates, parameters, "A machine without and with tuned absorbers")
+    data = dataset(table, coordinates, parameters, "A machine without and with tuned absorbers")
     return in_si(data, machine).assign_attrs(remarks=json.dumps(remarks))
 
 
 def competitors(machine, mass, frequencies, band=None):
     """Return the absorbers keyed by competitor, and remarks on those that are not possible.
 
-    The absorber of the machine alone is None. Arguments as of `absorber_responses`.
+    The absorber of the competitor "bare", the machine alone, is None. The arguments are those of
+    `absorber_responses`.
     """
     absorbers, remarks = {"bare": None}, {}
     if machine.linear_stiffness == 0:
         remarks["tuned"] = remarks["nonlinear"] = (
-            "not possible: the machine has no linear stiffness, so that its natural frequency "
-            "depends on the amplitude and there is none to tune to"
+            "not possible: the machine has no linear stiffness, so its natural frequency depends "
+            "on the amplitude, and an absorber cannot be tuned to it"
         )
     else:
         absorbers["tuned"] = exact_absorber(machine, mass, band)
     if machine.cubic_stiffness == 0:
         remarks["nonlinear"] = remarks["best"] = (
-            "not apart: on a machine with a linear spring it is the tuned absorber"
+            "not listed separately: on a machine with a linear spring it is the tuned absorber"
         )
         return absorbers, remarks
     if "tuned" in absorbers:
@@ -167,11 +173,17 @@ def competitors(machine, mass, frequencies, band=None):
 
 
 def check_grid(machine, frequencies, force_shares):
-    """Return frequencies and force shares as arrays, or raise an error that names what is wrong."""
+    """Return frequencies and force shares as arrays.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not allowed; the message names it.
+    """
     if not isinstance(machine, Machine):
         raise TypeError(f"machine = {shown(machine)}: must be a Machine")
     if machine.force == 0:
-        raise ValueError("force = 0 N: must be greater than 0 N (without excitation all rests)")
+        raise ValueError("force = 0 N: must be greater than 0 N (without excitation nothing moves)")
     listed = frequencies if isinstance(frequencies, list | tuple) else np.atleast_1d(frequencies)
     checked = [machine.check_frequency(f"frequencies[{i}]", each) for i, each in enumerate(listed)]
     shares = check_numbers("force_shares", force_shares, above=0, most=1e6)
@@ -179,28 +191,28 @@ def check_grid(machine, frequencies, force_shares):
 
 
 def _responses(machine, absorber, frequencies, shares, starts, seed, sizes):
-    """Return values over frequencies and shares, keyed by variable, and the sizes for `search`.
+    """Return the values of one competitor, keyed by variable, and the argument `sizes` of `search`.
 
-    The values are in the machine's scales.
+    The values, over frequencies and force shares, are in the machine's scales.
     """
     scales, shape = machine.scales, (len(frequencies), len(shares))
     if machine.cubic_stiffness == 0 and (absorber is None or absorber.cubic_stiffness == 0):
         grid = scales.from_si(response(machine, absorber, frequencies), "displacement")
         most, one = np.outer(grid, shares), np.ones(shape)
-        found = Search(most, most, one, one, 0 * one, flag("competitor_status", "found") * one)
+        motions = Search(most, most, one, one, 0 * one, flag("competitor_status", "found") * one)
         frequency, height = linear_peak(machine, absorber, frequencies)
         peak = scales.from_si(height, "displacement") * shares
     else:
         problems = problems_of(machine, absorber, frequencies, shares)
-        found, orbits, sizes = search(problems, shape, starts, seed, sizes)
-        found = Search(*(each.reshape(shape) for each in found))
+        motions, orbits, sizes = search(problems, shape, starts, seed, sizes)
+        motions = Search(*(each.reshape(shape) for each in motions))
         frequency, peak = orbit_peaks(machine, absorber, frequencies, shares, orbits)
-        # a motion without a period, or of a longer one, may be larger
-        place = np.where(np.isnan(found.most), -np.inf, found.most).argmax(axis=0)
-        highest = found.most[place, np.arange(len(shares))]
+        # A motion that is not periodic, or has a period above 1, may be larger.
+        place = np.where(np.isnan(motions.most), -np.inf, motions.most).argmax(axis=0)
+        highest = motions.most[place, np.arange(len(shares))]
         frequency = np.where(peak >= highest, frequency, frequencies[place])
         peak = np.fmax(peak, highest)
-    values = {f"competitor_{NAMES[name]}": value for name, value in found._asdict().items()}
+    values = {f"competitor_{NAMES[name]}": value for name, value in motions._asdict().items()}
     values["competitor_peak"] = peak
     values["competitor_peak_frequency"] = scales.from_si(frequency, "frequency")
     if absorber is not None:
@@ -211,13 +223,13 @@ def _responses(machine, absorber, frequencies, shares, starts, seed, sizes):
 
 
 def _not_possible(shape):
-    """Return arrays for all competitors, filled as if none were possible."""
-    found = {f"competitor_{name}": np.full(shape, np.nan) for name in NAMES.values()}
-    found["competitor_motions"] = np.zeros(shape, int)
-    found["competitor_status"] = np.full(shape, flag("competitor_status", "not_possible"))
+    """Return arrays for all competitors with the values of a competitor that is not possible."""
+    table = {f"competitor_{name}": np.full(shape, np.nan) for name in NAMES.values()}
+    table["competitor_motions"] = np.zeros(shape, int)
+    table["competitor_status"] = np.full(shape, flag("competitor_status", "not_possible"))
     for name in PEAK:
-        found[name] = np.full((*shape[:2], shape[3]), np.nan)
-    return found | {f"absorber_{name}": np.full(shape[:2], np.nan) for name in SPRING}
+        table[name] = np.full((*shape[:2], shape[3]), np.nan)
+    return table | {f"absorber_{name}": np.full(shape[:2], np.nan) for name in SPRING}
 
 
 def _increasing(name, values):

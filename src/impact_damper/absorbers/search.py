@@ -1,10 +1,10 @@
-"""All stable motions found over a grid of frequencies and forces, and where random starts end.
+"""Find stable motions over a grid of frequencies and forces, and the motions that starts lead to.
 
-Orbits come first from the balance of one harmonic (`seeds`), then from random starts that end near
-none of these orbits (`settling`). An orbit that was found by a random start is looked for at the
-neighbouring frequencies and forces too. Motions without a period are found in runs from random
-starts, from states beside unstable orbits (`_without_period`), and from motions without a period
-that were found at neighbouring frequencies and forces.
+Orbits are found from single-term harmonic balance (`seeds`), and from random starts that lead to
+none of these orbits (`settling`). An orbit that was found by a random start is followed to the
+neighbouring frequencies and forces. Motions that are not periodic are found by runs from three
+kinds of starts: random starts, states near unstable orbits (`_without_period`), and states of such
+motions at neighbouring frequencies and forces.
 """
 
 from typing import NamedTuple
@@ -17,23 +17,24 @@ from impact_damper.absorbers.settling import ESCAPED, UNSETTLED, WANDERING, rand
 from impact_damper.data.datasets import flag
 from impact_damper.motions.smooth_runs import SIZE
 
-# Most rounds in which the neighbours of the motions that the last round found are searched.
+# Largest number of rounds. A round searches the grid neighbours of the motions that the round
+# before found.
 ROUNDS = 50
-# A start beside an unstable orbit is the state of the orbit times this factor.
+# A start near an unstable orbit is the state of the orbit times BESIDE.
 BESIDE = 1.01
-# Two motions without a period count as one if the ratio of their displacements is above this.
+# Two motions that are not periodic count as one if the ratio of their displacements exceeds ALIKE.
 ALIKE = 0.95
 NEIGHBOURS = ((-1, 0), (1, 0), (0, -1), (0, 1))
 
 
 class Search(NamedTuple):
-    """Motions and ends of starts for each problem of a grid, arrays of shape (n,).
+    """Summary of the motions of each problem of a grid, arrays of shape (n,).
 
     Attributes
     ----------
     most, least : numpy.ndarray
-        Largest |x| in the largest and in the smallest motion, NaN if there is none. A motion
-        without a period counts with its largest |x| while it was watched.
+        max |x| of the largest and of the smallest motion, NaN if there is no motion. For a motion
+        that is not periodic, the largest |x| while it was watched.
     motions : numpy.ndarray of int
         Number of stable periodic motions.
     share : numpy.ndarray
@@ -53,32 +54,34 @@ class Search(NamedTuple):
 
 
 def search(problems, shape, starts, seed, sizes=None):
-    """Search motions over a grid.
+    """Search for motions over a grid of frequencies and force shares.
 
     Parameters
     ----------
     problems : numpy.ndarray, shape (n, COUNT)
     shape : tuple of 2 ints
-        Numbers of frequencies and of force shares; their product is n.
+        Numbers of frequencies and of force shares (factors of the excitation). Their product is n.
     starts, seed : int
-        Random starts of each problem, and their seed.
+        Number of random starts of each problem, and their seed.
     sizes : numpy.ndarray, shape (number of shares, SIZE), optional
-        Largest components of known motions for each force share; starts extend beyond them.
+        Largest components of the states of known motions for each force share. Random starts extend
+        beyond these.
 
     Returns
     -------
-    found : Search
+    summary : Search
     orbits : Orbits
-        The stable orbits, as in `settling.Settled`.
+        The stable orbits, in the form of `settling.Settled.orbits`.
     sizes : numpy.ndarray, shape (number of shares, SIZE)
-        For each force share the largest components of the orbits and of the given `sizes`.
+        For each force share the largest components of the orbits and of the argument `sizes`.
     """
     found = find_orbits(problems, *harmonic_seeds(problems))
     known = _stable(found)
     most = np.zeros((shape[1], SIZE)) if sizes is None else sizes.copy()
     np.maximum.at(most, known.problem % shape[1], known.largest)
     wide = most.copy()
-    # the absorber may be as far from the machine as the machine is from its rest
+    # The displacement of the machine relative to the absorber may be as large as the displacement
+    # of the machine.
     wide[:, 2:] = np.maximum(wide[:, 2:], wide[:, :2])
     wide = np.tile(wide, (shape[0], 1))
     problem = np.repeat(np.arange(len(problems)), starts)
@@ -92,9 +95,10 @@ def search(problems, shape, starts, seed, sizes=None):
 
 
 def _without_period(orbits) -> Orbits:
-    """Return the unstable orbits beside which motions without a period are looked for.
+    """Return the unstable orbits near which motions that are not periodic are searched for.
 
-    Their largest multiplier is complex (a torus lies beside) or negative (a doubled period).
+    The largest multiplier of such an orbit is complex (a quasi-periodic motion may be near) or
+    negative (a motion of twice the period may be near).
     """
     orbits = orbits.take(orbits.converged & ~orbits.stable).distinct()
     place = np.abs(orbits.multipliers).argmax(axis=1)
@@ -103,11 +107,15 @@ def _without_period(orbits) -> Orbits:
 
 
 def _stable(orbits) -> Orbits:
+    """Return the stable orbits, each once."""
     return orbits.take(orbits.stable).distinct()
 
 
 def _neighbours(index, shape):
-    """Return the grid neighbours of problems, and for each the place in `index` of its problem."""
+    """Return the grid neighbours of the problems in `index`.
+
+    For each neighbour also the place in `index` of the problem beside it is returned.
+    """
     frequency, force = np.unravel_index(index, shape)
     there = [(frequency + i, force + j) for i, j in NEIGHBOURS]
     frequency, force = np.concatenate(there, axis=1)
@@ -117,7 +125,7 @@ def _neighbours(index, shape):
 
 
 def _with_neighbours(problems, orbits, first, shape):
-    """Return orbits, extended by following those from index `first` on to neighbouring problems."""
+    """Follow the orbits from index `first` on to neighbouring problems; return all orbits."""
     for _ in range(ROUNDS):
         new = orbits.take(slice(first, None))
         first = len(orbits.problem)
@@ -132,7 +140,7 @@ def _with_neighbours(problems, orbits, first, shape):
 
 
 def _with_wandering(problems, ends, shape, sizes):
-    """Return ends of runs, extended by runs from motions without a period at neighbours."""
+    """Return `ends` with runs added that begin at motions without a period of grid neighbours."""
     tried = np.zeros(len(problems), bool)
     first = 0
     for _ in range(ROUNDS):
@@ -151,7 +159,7 @@ def _with_wandering(problems, ends, shape, sizes):
 
 
 def _summary(ends, count, starts) -> Search:
-    """Return the values of each problem; shares count the first `starts` runs of each problem."""
+    """Return the summary of each problem; shares refer to the first `starts` runs of a problem."""
     orbits = ends.orbits
     displacement = orbits.largest[:, 0]
     settled, wandering = ends.orbit >= 0, ends.orbit == WANDERING
@@ -164,7 +172,7 @@ def _summary(ends, count, starts) -> Search:
         np.minimum.at(least, problem, sizes)
     reached = ends.displacement.copy()
     reached[settled] = displacement[ends.orbit[settled]]
-    # several runs on one motion without a period reach somewhat different displacements
+    # Runs that lead to the same motion without a period have slightly different displacements.
     worst = reached >= ALIKE * most[ends.problem]
 
     def share(mask):

@@ -1,15 +1,18 @@
-"""Approximate periodic motions, as starts of Newton's method: balance of one harmonic.
+"""Approximate periodic motions by single-term harmonic balance, first guesses of Newton's method.
 
-A given motion u = U cos(T + phase) of the machine relative to the absorber determines the force in
-the absorber's spring and dashpot, this the motion x of the machine, and this the external force f
-that the motion needs. So f is an explicit function of U, even if several motions belong to one f.
-With q = U^2 it is
+Let u = U cos(T + phase) be the motion of the machine relative to the absorber. It determines the
+force in the absorber's spring and dashpot. This force determines the motion x of the machine, and x
+determines the external force of amplitude f that the motion needs. Therefore f is an explicit
+function of U, even if several motions have the same f. Let the machine have the stiffness k,
+damping h and cubic stiffness k3, and the absorber the mass m, stiffness kappa, damping eta and
+cubic stiffness kappa3, all divided by the mass of the machine and with the unit of time of
+`problems`. With q = U^2
 
     f^2 = q |P(q)|^2,    P = A (c0 + c1 q) + h0 + h1 q,    A = k - 1 + i h + (3/4) k3 |x|^2
     x = U (c0 + c1 q),   c0 = 1 - h0/m,   c1 = -h1/m,   h0 = kappa + i eta,   h1 = (3/4) kappa3
 
-Hence all motions of one harmonic, detached resonances too, are roots of a polynomial of degree 9.
-Without an absorber x takes the place of u, with c0 = 1 and c1 = h0 = h1 = 0.
+All motions with one harmonic, also detached resonances, are therefore roots of a polynomial of
+degree 9. Without an absorber x takes the place of u, with c0 = 1 and c1 = h0 = h1 = 0.
 """
 
 import numpy as np
@@ -26,14 +29,14 @@ from impact_damper.motions.smooth_runs import (
     STIFFNESS,
 )
 
-# Largest imaginary part of a root 1/q, relative to its real part. REAL allows for rounding. Near a
-# fold the exact motions may exist where two roots of the balance have just become complex; seeds
-# therefore come from all roots within NEARLY_REAL.
+# Largest imaginary part of a root 1/q, relative to its real part. REAL allows for rounding errors.
+# Near a fold, exact motions may exist although two roots of the balance have just become complex.
+# Therefore the first guesses come from all roots within NEARLY_REAL.
 REAL, NEARLY_REAL = 1e-5, 0.1
 
 
 def harmonic_seeds(problems):
-    """Return the states at T = 0 of all solutions of the balance.
+    """Return the states at T = 0 of all solutions of the balance, as first guesses of orbits.
 
     Parameters
     ----------
@@ -51,17 +54,17 @@ def harmonic_seeds(problems):
 
 
 def harmonic_displacements(problems):
-    """Return the amplitude of x in the largest solution of the balance, shape (n,)."""
+    """Return the largest amplitude of x among the solutions of the balance, shape (n,)."""
     index, amplitude = _solutions(problems, REAL)
-    found = np.zeros(len(problems))
-    np.maximum.at(found, index, np.abs(_motion(problems[index], amplitude)[0]))
-    return found
+    largest = np.zeros(len(problems))
+    np.maximum.at(largest, index, np.abs(_motion(problems[index], amplitude)[0]))
+    return largest
 
 
 def _solutions(problems, allowed):
     """Return the problem and the amplitude of u (or x) of all roots that are nearly real."""
     power, force = _polynomial(problems), problems[:, FORCE]
-    # q = scale/y, where the polynomial in y has the first coefficient 1 and the second -1
+    # With q = scale/y the polynomial in y has the leading coefficient 1 and the next one -1.
     scale, degree = force**2 / power[0], len(power)
     companion = np.zeros((len(problems), degree, degree))
     companion[:, 0, :] = (power * scale ** np.arange(1, degree + 1)[:, None] / force**2).T
@@ -93,15 +96,15 @@ def _polynomial(problems):
         g * (size[2] * c0 + size[1] * c1),
         g * size[2] * c1,
     )
-    found = np.zeros((2 * len(p) - 1, len(problems)))
+    product = np.zeros((2 * len(p) - 1, len(problems)))
     for i, one in enumerate(p):
         for j, other in enumerate(p):
-            found[i + j] += (one * np.conj(other)).real
-    return found
+            product[i + j] += (one * np.conj(other)).real
+    return product
 
 
 def _motion(problems, amplitude):
-    """Return x and u as complex amplitudes, turned so that the force is f cos T."""
+    """Return x and u as complex amplitudes with the phase for which the force is f cos T."""
     c0, c1, h0, h1 = _coefficients(problems)
     q = amplitude**2
     x = amplitude * (c0 + c1 * q)

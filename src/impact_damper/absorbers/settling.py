@@ -1,4 +1,4 @@
-"""Where random starts end: on known orbits, on new ones, on no orbit, or outside."""
+"""Run starts until they settle to a known or new orbit, escape, or prove to be not periodic."""
 
 from typing import NamedTuple
 
@@ -9,47 +9,49 @@ from impact_damper.absorbers.orbits import Orbits, find_orbits
 from impact_damper.absorbers.problems import COARSE, FINE, active_size, springs, steps_for
 from impact_damper.motions.smooth_runs import DAMPING, SIZE, run
 
-# Random starts: size of the largest start over the largest known motion, and of the smallest start
-# over the largest.
+# Random starts. SPREAD: size of the largest start over the largest known motion. SMALLEST: size of
+# the smallest start over the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# The runs are inspected every STRETCH forcing periods, a multiple of each of PERIODS. At the share
-# SEARCHED of all inspections Newton's method looks for orbits of the periods PERIODS, from the
-# states of the runs that are near no known orbit.
+# The runs are inspected every STRETCH forcing cycles. STRETCH is a multiple of each of PERIODS.
+# After the fraction SEARCHED of all inspections, Newton's method searches for orbits of the periods
+# PERIODS from the states of those runs that are near no known orbit.
 STRETCH = 12
 PERIODS = (1, 2, 3)
 SEARCHED = 0.75
-# A run has reached an orbit when its distance, divided by the size of the orbit, is below this.
-# This size is taken at least as SMALL times the largest known motion under the same force.
+# A run has reached an orbit when its distance from the orbit, divided by the size of the orbit, is
+# below NEAR. In this test the size of an orbit is at least SMALL times the largest known motion
+# under the same force.
 NEAR, SMALL = 0.02, 0.1
-# A run that is still near no orbit after a linear vibration of the machine alone would have decayed
-# by exp(-DECAY), or after LONGEST inspections, is watched for WATCHED further ones. If its mean
-# distance from an orbit falls from each quarter of these to the next, in all below the share
-# FALLEN, it approaches this orbit. Otherwise, if its largest displacement falls in this way, it is
-# unsettled.
+# A run may be near no orbit after a time in which a linear vibration of the machine alone decays by
+# exp(-DECAY), or after LONGEST inspections. Such a run is watched for WATCHED further inspections,
+# which are divided into quarters. A quantity falls if its mean decreases from each quarter to the
+# next, and in total below FALLEN times the first mean. If the distance from an orbit falls, the run
+# approaches this orbit. Otherwise, if the largest displacement falls, the run is unsettled.
 DECAY, LONGEST = 9.0, 40
 WATCHED, FALLEN = 20, 0.95
-# A run has escaped when it exceeds the largest known motion by this factor.
+# A run has escaped when it exceeds OUTSIDE times the largest known motion.
 OUTSIDE = 100.0
-# Ends of runs on no orbit, in place of the index of an orbit. WANDERING: a motion without a period.
+# Results of runs that lead to no orbit, in place of the index of an orbit. WANDERING: the motion is
+# not periodic.
 WANDERING, ESCAPED, UNSETTLED = -1, -2, -3
 
 
 class Settled(NamedTuple):
-    """Ends of random starts.
+    """Results of runs from n starts.
 
     Attributes
     ----------
     orbits : Orbits
-        The known orbits and those that starts led to. An orbit with a period of n forcing periods
-        occurs n times, once for each of its states at the beginning of a forcing period.
+        The known orbits and the orbits that starts led to. An orbit with a period of k forcing
+        cycles occurs k times, once for each of its states at the beginning of a cycle.
     problem : numpy.ndarray of int, shape (n,)
         Problem of each start.
     orbit : numpy.ndarray of int, shape (n,)
-        Index of the orbit on which it ends, or one of WANDERING, ESCAPED and UNSETTLED.
+        Index of the orbit that the start leads to, or one of WANDERING, ESCAPED and UNSETTLED.
     displacement : numpy.ndarray, shape (n,)
         Largest |x| of a WANDERING run while it was watched; NaN for other runs.
     state : numpy.ndarray, shape (n, SIZE)
-        Last state of the run at the beginning of a forcing period.
+        Last state of the run at the beginning of a forcing cycle.
     """
 
     orbits: Orbits
@@ -59,23 +61,22 @@ class Settled(NamedTuple):
     state: np.ndarray
 
     def joined(self, later) -> "Settled":
-        """Return these ends and the ends of later runs, which knew the orbits of these."""
+        """Return these results and those of later runs, which began with the orbits of these."""
         pairs = zip(self[1:], later[1:], strict=True)
         return Settled(later.orbits, *(np.concatenate(pair) for pair in pairs))
 
 
 def random_starts(problems, sizes, count, seed):
-    """Return random states at T = 0, shape (n count, SIZE), `count` for each problem in turn.
+    """Return random states at T = 0, shape (n count, SIZE), with `count` rows for each problem.
 
-    Their components have all proportions, and their sizes are spread evenly over the logarithm, so
-    that small and large motions are tried alike. With a softening spring they stay within its
-    barriers.
+    The directions of the states are random, and their sizes are distributed evenly on a logarithmic
+    scale. With a softening spring the states stay within the barriers of the spring.
 
     Parameters
     ----------
     problems : numpy.ndarray, shape (n, COUNT)
     sizes : numpy.ndarray, shape (n, SIZE)
-        Components of the largest motions.
+        Largest components of the states of known motions.
     count, seed : int
     """
     most = SPREAD * sizes
@@ -94,7 +95,7 @@ def random_starts(problems, sizes, count, seed):
 
 
 def settle(problems, orbits, problem, starts, sizes) -> Settled:
-    """Run starts until they are near a stable orbit, have escaped, or are given up.
+    """Run starts until they are near a stable orbit or have escaped, or until a limit.
 
     Parameters
     ----------
@@ -104,8 +105,9 @@ def settle(problems, orbits, problem, starts, sizes) -> Settled:
     problem : numpy.ndarray of int, shape (m,)
         Problem of each start.
     starts : numpy.ndarray, shape (m, SIZE)
+        States at T = 0.
     sizes : numpy.ndarray, shape (n, SIZE)
-        Components of the largest motions.
+        Largest components of the states of known motions.
     """
     state, end = starts.copy(), np.full(len(starts), UNSETTLED)
     bound = OUTSIDE * sizes.max(axis=0)
@@ -129,16 +131,17 @@ def settle(problems, orbits, problem, starts, sizes) -> Settled:
         problems, orbits, problem[active], state[active], sizes, bound
     )
     if active_size(problems) < SIZE and needed > looks:
-        # beats of a free vibration that has not yet decayed look like a motion without a period
+        # The beats of an unforced vibration that has not yet decayed look like a motion that is not
+        # periodic.
         end[end == WANDERING] = UNSETTLED
     return Settled(orbits, problem, end, displacement, state)
 
 
 def _watch(problems, orbits, problem, state, sizes, bound):
-    """Watch runs that were long near no orbit.
+    """Watch runs that are near no orbit after the limit of `settle`.
 
-    Return their ends, the largest |x| of the wandering ones, and their last states. A run of which
-    a component is not below `bound` at the end has escaped.
+    Return their results (`Settled.orbit`), the largest |x| of WANDERING runs, and the last states.
+    A run has escaped if a component of its last state is not below `bound`.
     """
     distances, displacements = [], []
     for _ in range(WATCHED):
@@ -155,13 +158,13 @@ def _watch(problems, orbits, problem, state, sizes, bound):
 
 
 def _falls(values):
-    """Return whether the mean of each quarter of rows is below that of the quarter before."""
+    """Return for each column whether the values fall from quarter to quarter (see WATCHED)."""
     means = values.reshape(4, WATCHED // 4, values.shape[1]).mean(axis=1)
     return (means[1:] < means[:-1]).all(axis=0) & (means[-1] < FALLEN * means[0])
 
 
 def _run(problems, state, longest, periods):
-    """Return states after some periods, and the largest moduli of their components."""
+    """Return the states after a number of cycles, and the largest moduli of their components."""
     after, largest = state.copy(), np.empty_like(state)
     steps = steps_for(problems, state, longest)
     with np.errstate(all="ignore"):
@@ -180,7 +183,7 @@ def _candidates(orbits, problem):
 
 
 def _distances(orbits, problem, state, sizes):
-    """Return the relative distances of states from the orbits of `_candidates`."""
+    """Return relative distances of states from the orbits of `_candidates`, shape (count, n)."""
     candidates = _candidates(orbits, problem)
     if not len(orbits.problem):
         return np.full(candidates.shape, np.inf)
@@ -193,31 +196,31 @@ def _nearest(orbits, problem, state, sizes):
     """Return the index of the orbit that is near each state, or UNSETTLED."""
     away, columns = _distances(orbits, problem, state, sizes), np.arange(len(state))
     best = away.argmin(axis=0)
-    found = _candidates(orbits, problem)[best, columns]
-    return np.where(away[best, columns] < NEAR, found, UNSETTLED)
+    nearest = _candidates(orbits, problem)[best, columns]
+    return np.where(away[best, columns] < NEAR, nearest, UNSETTLED)
 
 
 def _with_new(problems, orbits, problem, state, sizes):
-    """Return orbits, extended by the stable ones that Newton's method finds from states of runs.
+    """Return `orbits` with the stable orbits added that Newton's method finds from states of runs.
 
-    If an orbit of a short period is found from a run, longer periods are not tried from it.
+    If an orbit of a short period is found from a run, longer periods are not tried from this run.
     """
     for period in PERIODS:
         far = np.flatnonzero(_nearest(orbits, problem, state, sizes) == UNSETTLED)
         if not len(far):
             break
-        found = find_orbits(problems, problem[far], state[far], period)
-        found = found.take(found.stable)
+        new = find_orbits(problems, problem[far], state[far], period)
+        new = new.take(new.stable)
         if period > 1:
-            found = _all_phases(problems, found)
-        orbits = orbits.joined(found).distinct()
+            new = _all_phases(problems, new)
+        orbits = orbits.joined(new).distinct()
     return orbits
 
 
 def _all_phases(problems, orbits):
-    """Return each orbit once for each of its states at the beginning of a forcing period."""
-    found, state = orbits, orbits.state
+    """Return each orbit once for each of its states at the beginning of a forcing cycle."""
+    phases, state = orbits, orbits.state
     for _ in range(1, orbits.period.max(initial=1)):
         state, _ = _run(problems[orbits.problem], state, FINE, 1)
-        found = found.joined(find_orbits(problems, orbits.problem, state, orbits.period[0]))
-    return found.take(found.stable)
+        phases = phases.joined(find_orbits(problems, orbits.problem, state, orbits.period[0]))
+    return phases.take(phases.stable)

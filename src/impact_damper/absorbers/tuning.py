@@ -1,10 +1,11 @@
 """Ways to tune an absorber of given mass to a machine.
 
-`exact_absorber` is the H-infinity optimum for the given machine, with its damping and its kind of
-excitation, over all frequencies or a band. `den_hartog_absorber` and
-`undamped_optimum` are closed forms for an undamped machine under a force. `nonlinear_absorber` adds
-the cubic spring that keeps the peaks of a machine with a cubic spring equal. All need a linear
-stiffness of the machine: without one it has no natural frequency to tune to.
+`exact_absorber` is the H-infinity optimum, which minimises the largest displacement over all
+frequencies or over a band. It is computed for the given machine with its damping and its kind of
+excitation. `den_hartog_absorber` and `undamped_optimum` are closed forms for an undamped machine
+under a force. `nonlinear_absorber` adds a cubic spring that keeps the peaks equal on a machine with
+a cubic spring. All functions require a linear stiffness of the machine, because a machine without
+linear stiffness has no natural frequency to which an absorber can be tuned.
 """
 
 import math
@@ -19,10 +20,11 @@ from impact_damper.literature.nonlinear_absorber import tuned_cubic
 from impact_damper.literature.tuned_mass_damper import Tuning, den_hartog, exact_optimum
 from impact_damper.system.bounds import shown
 
-# Grid on which the optimum is looked for before it is refined. Tunings: the tuning of the closed
-# form and STEPS tunings on either side, the nearest at NARROW times the width of the resonance, the
-# last at WIDE; with a band also PLACES frequencies in it. Damping ratios: the closed form's times
-# DAMPINGS, and with a band also BAND_DAMPINGS.
+# Grid on which the optimum is found before it is refined. Its tunings are the tuning of the closed
+# form and STEPS tunings on each side of it; their logarithms differ from that of the closed form by
+# NARROW times the width of the resonance up to WIDE. Its damping ratios are DAMPINGS times the
+# damping ratio of the closed form. For a band also PLACES tunings in the band and the damping
+# ratios BAND_DAMPINGS belong to the grid.
 STEPS, NARROW, WIDE = 10, 0.1, 0.4
 DAMPINGS = np.geomspace(0.3, 10, 12)
 PLACES = 9
@@ -32,7 +34,7 @@ TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-11, 1e-10
 
 
 def den_hartog_absorber(machine, mass) -> TunedAbsorber:
-    """Return the absorber by Den Hartog's tuning and Brock's damping, for an undamped machine.
+    """Return the absorber with Den Hartog's tuning and Brock's damping, for an undamped machine.
 
     Raises
     ------
@@ -43,21 +45,21 @@ def den_hartog_absorber(machine, mass) -> TunedAbsorber:
 
 
 def undamped_optimum(machine, mass) -> TunedAbsorber:
-    """Return the absorber by the exact optimum of Nishihara and Asami, for an undamped machine.
+    """Return the absorber of the exact optimum of Nishihara and Asami, for an undamped machine.
 
     Raises
     ------
     TypeError, ValueError
-        As by `den_hartog_absorber`.
+        If the mass is out of range, or the machine has no linear stiffness.
     """
     return _absorber(machine, exact_optimum(_mass_ratio(machine, mass)))
 
 
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber with which the largest displacement over a band is least.
+    """Return the absorber that minimises the largest displacement over a band.
 
-    The machine's cubic stiffness is left out. The two highest maxima, or a maximum and an end of
-    the band, are then equally high.
+    The machine's cubic stiffness is ignored. At the optimum the two highest maxima, or a maximum
+    and an end of the band, are equally high.
 
     Parameters
     ----------
@@ -65,14 +67,14 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     mass : float, str or pint.Quantity
         kg.
     band : sequence of 2 floats, optional
-        Lowest and highest forcing frequency, Hz; all frequencies if not given. In a narrow band the
-        best damping is small; damping ratios below BAND_DAMPINGS[0] are not tried.
+        Lowest and highest forcing frequency, Hz; by default all frequencies. In a narrow band the
+        best damping is small. Damping ratios below BAND_DAMPINGS[0] are not tried.
 
     Raises
     ------
     TypeError, ValueError
-        If an argument is out of range, the machine has no linear stiffness, or a base moves with
-        given acceleration and there is no band.
+        If an argument is out of range, if the machine has no linear stiffness, or if the machine
+        has a `base_acceleration` and `band` is not given.
     """
     ratio, linear = _mass_ratio(machine, mass), linear_machine(machine)
     limits = _limits(machine, linear, band)
@@ -82,7 +84,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         return maxima(linear, tuning, limits)[1].max()
 
     def best_tuning(log_damping):
-        # at the optimum two maxima cross: a method that fits parabolas stops too early there
+        # At the optimum two maxima cross. A method that fits parabolas would stop too early there.
         return minimize_scalar(
             highest, bracket=tunings, args=(log_damping,), method="golden", tol=TUNING_TOLERANCE
         )
@@ -98,17 +100,17 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
 
 def nonlinear_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber of `exact_absorber` with a cubic spring that follows the machine's.
+    """Return the absorber of `exact_absorber` with an additional cubic spring.
 
     The cubic stiffness is 2 m^2 k3/(1 + 4 m) for the mass ratio m and the cubic stiffness k3 of the
-    machine (Habib, Detroux, Viguie and Kerschen 2015): the peaks then stay equal to first order in
-    the cubic force. The absorber of a softening machine softens too.
+    machine (Habib, Detroux, Viguie and Kerschen 2015). With this stiffness the two peaks stay equal
+    to first order in the cubic force. For a softening machine the absorber is softening too.
 
     Raises
     ------
     TypeError, ValueError
-        As by `exact_absorber`, and if the machine's spring is linear: the best absorber is then
-        that of `exact_absorber`.
+        As `exact_absorber`, and if the machine's spring is linear. For a linear spring use
+        `exact_absorber`.
     """
     if check_mass(machine, mass) and machine.cubic_stiffness == 0:
         raise ValueError(
@@ -129,7 +131,7 @@ def _mass_ratio(machine, mass):
 
 
 def _absorber(machine, tuning):
-    """Return the absorber of a tuning on a machine."""
+    """Return the absorber in SI units with a given dimensionless tuning on a machine."""
     linear = linear_machine(machine)
     mass = tuning.mass_ratio * machine.mass
     own = 2 * math.pi * linear.natural_frequency * tuning.frequency
@@ -139,7 +141,13 @@ def _absorber(machine, tuning):
 
 
 def check_band(machine, band) -> tuple:
-    """Return lowest and highest frequency in Hz, or raise an error that names what is wrong."""
+    """Return lowest and highest frequency of a band in Hz.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the band is not a pair of frequencies in ascending order; the message names it.
+    """
     if np.ndim(band) != 1 or len(band) != 2:
         raise TypeError(f"band = {shown(band)}: must be lowest and highest frequency")
     ends = tuple(machine.check_frequency(f"band[{place}]", end) for place, end in enumerate(band))
@@ -149,7 +157,7 @@ def check_band(machine, band) -> tuple:
 
 
 def _limits(machine, linear, band):
-    """Return a band as lowest and highest r."""
+    """Return a band as lowest and highest r, frequencies divided by the natural frequency."""
     if band is not None:
         return tuple(end / linear.natural_frequency for end in check_band(machine, band))
     if linear.falling:
@@ -161,7 +169,7 @@ def _limits(machine, linear, band):
 
 
 def _around_optimum(ratio, limits, highest):
-    """Return bounds of the logarithms of tuning and damping ratio around the best of a grid."""
+    """Return bounds of the logarithms of tuning and damping ratio around the best grid point."""
     closed = exact_optimum(ratio)
     factors = np.geomspace(NARROW * math.sqrt(ratio), WIDE, STEPS)
     tunings = np.log(closed.frequency) + np.concatenate([-factors[::-1], [0.0], factors])

@@ -1,1 +1,1 @@
-"""Basins of attraction: what each state leads to, and where the boundaries between basins lie."""
+"""Basins of attraction: the motion that each state leads to, and the boundaries between basins."""

@@ -1,21 +1,25 @@
-"""The attracting motions of the free oscillator at one frequency, with proven neighbourhoods.
+"""Attracting orbits of the free oscillator at one frequency, each with a proven neighbourhood.
 
-A neighbourhood is an ellipse around a state of the orbit at a strobe, the phase W T = pi/2 of the
-forcing. Every motion that passes through it at a strobe tends to the orbit, so that it need not be
-run any further.
+A strobe is a time at which the forcing has the phase W T = pi/2. A neighbourhood is an ellipse
+around a state of the orbit at a strobe. Every motion that is in the ellipse at a strobe tends to
+the orbit, so the integration of such a motion can stop.
 
-Proof. Let x(t) be the orbit of period T and F(t) the matrix of its variational equations, F(0) = 1,
-M = F(T) = V R V^-1 with |R| = max |multiplier| < 1. A difference d from the orbit is written as
-d = F(t) V w(t). The equation of motion with the spring k3 Z1^3 then gives exactly
+Proof. Let x(t) be the orbit and P its period. Let F(t) be the matrix of its variational equations,
+with F(0) = 1 and F(P) = V R V^-1, where the norm |R| is the largest modulus of a multiplier and is
+below 1. Write the difference of a motion from the orbit as d = F(t) V w(t). The equation of motion
+with the spring k3 Z1^3 then gives, without approximation,
 
-    w' = -k3 c(t) [3 x1(t) d1^2 + d1^3],    c = V^-1 F(t)^-1 (0, 1),    d1 = (F(t) V w)_1,
+    w' = -k3 c(t) [3 x1(t) d1^2 + d1^3],    c = V^-1 F(t)^-1 (0, 1),    d1 = (F(t) V w)_1.
 
-so that |w|' <= |k3| |c| (3 |x1| g^2 |w|^2 + g^3 |w|^3) with g = |first row of F(t) V|. The bound
-r(T) on |w(T)| that follows from |w(0)| = r solves the scalar equation with equality. After a period
-V^-1 d = R w(T): if |R| r(T) < r, the ellipse |V^-1 d| < r is mapped into itself, and since
-r(T)/r grows with r, with a contraction at each return: its motions tend to the orbit. The scalar
-equation is integrated numerically, with STEPS steps a period in which each coefficient has the
-largest value at the ends of the step; FACTOR is kept as a reserve.
+With g = |first row of F(t) V| it follows that |w|' <= |k3| |c| (3 |x1| g^2 |w|^2 + g^3 |w|^3). Let
+r(t) solve this relation as an equation, from r(0) = r0. It bounds |w(t)| for all |w(0)| <= r0.
+After a period V^-1 d = R w(P). If |R| r(P) < r0, the ellipse |V^-1 d| < r0 is therefore mapped into
+itself. The ratio r(P)/r0 grows with r0, so smaller ellipses contract too, and all motions in the
+ellipse tend to the orbit.
+
+The scalar equation for r is integrated numerically. In each of STEPS steps in a forcing cycle a
+coefficient has the larger of its values at the ends of the step. In place of |R| r(P) < r0 the
+program requires |R| r(P) < FACTOR r0.
 """
 
 from typing import NamedTuple
@@ -28,28 +32,28 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.system.packed import CUBIC, FREQUENCY
 
-# Steps per forcing period in the proof, contraction that is asked for, and halvings of an interval
-# that holds the radius.
+# STEPS: steps in a forcing cycle in the proof. FACTOR: required contraction. HALVINGS: bisections
+# that determine the size r0 of the ellipse.
 STEPS = 256
 FACTOR = 0.98
 HALVINGS = 30
-# Displacements by which the same motion, found twice, may differ.
+# Two orbits are the same if their states at a strobe differ by less than ALIKE.
 ALIKE = 1e-6
 
 
 class Attractors(NamedTuple):
-    """Attracting orbits of the free oscillator, by rising max |Z1|, and their neighbourhoods.
+    """Attracting orbits of the free oscillator, by ascending max |Z1|, and their neighbourhoods.
 
     Attributes
     ----------
     records : numpy.ndarray of records.MOTION, shape (k,)
     owner : numpy.ndarray of int, shape (m,)
-        Index of the orbit that each neighbourhood belongs to: an orbit of period n has n of them.
+        Index of the orbit of each neighbourhood. An orbit of period n has n neighbourhoods.
     centre : numpy.ndarray, shape (m, 2)
         States Z1, Z1' at strobes.
     shape : numpy.ndarray, shape (m, 2, 2)
-        Matrices S: the neighbourhood of a centre c is |S (z - c)| < 1. Infinite where no
-        neighbourhood could be proven; it then holds the centre only.
+        Matrices S such that |S (z - c)| < 1 is the neighbourhood of a centre c. If no neighbourhood
+        was proven, S is infinite, so the neighbourhood is empty.
     """
 
     records: np.ndarray
@@ -59,7 +63,7 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling, workers=1) -> Attractors:
-    """Return the attracting orbits that states at a strobe lead to.
+    """Return the attracting orbits that the motions from given states at a strobe lead to.
 
     Parameters
     ----------
@@ -69,17 +73,17 @@ def find_attractors(p, states, settling, workers=1) -> Attractors:
         Z1 and Z1' at the strobe.
     settling : Settling
     workers : int
-        Threads.
+        Number of threads.
     """
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
-    found = ensemble.settle(
+    motions = ensemble.settle(
         np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True, workers=workers
     )
-    return with_neighbourhoods(p, _distinct(p, found[is_settled(found)]))
+    return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 
 def with_neighbourhoods(p, records) -> Attractors:
-    """Return orbits, given by their records, with the neighbourhoods of their strobe states."""
+    """Return the `Attractors` of orbits, which are passed as records of type `records.MOTION`."""
     owner, centres, shapes = [], [], []
     for index, record in enumerate(records):
         for state in strobe_states(p, record):
@@ -104,10 +108,10 @@ def strobe_states(p, record):
     return np.array(states)
 
 
-def _distinct(p, found):
-    """Return one record of each orbit, by rising max |Z1|; mirror images are two orbits."""
+def _distinct(p, motions):
+    """Return one record of each orbit, by ascending max |Z1|; mirror images are two orbits."""
     kept, seen = [], []
-    for record in found[np.argsort(found["maximum_displacement"], kind="stable")]:
+    for record in motions[np.argsort(motions["maximum_displacement"], kind="stable")]:
         known = any(
             len(orbit) == record["period"]
             and np.min(np.max(np.abs(orbit - record["state"][:2]), axis=1)) < ALIKE
@@ -116,11 +120,11 @@ def _distinct(p, found):
         if not known:
             kept.append(record)
             seen.append(strobe_states(p, record))
-    return np.array(kept, found.dtype)
+    return np.array(kept, motions.dtype)
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 of an orbit and its matrices F(t) at STEPS times a forcing period, with the end.
+    """Return Z1 of an orbit and the matrices F(t), at STEPS times in each cycle and at the end.
 
     Returns
     -------
@@ -140,7 +144,8 @@ def linear_flow(p, state, periods):
 def neighbourhood(p, state, periods):
     """Return the matrix S of the proven neighbourhood |S d| < 1 of a state of a free orbit.
 
-    Infinite if the proof fails, as for an orbit that is not stable.
+    S is infinite if the proof fails, for example for an unstable orbit. `periods` is the period of
+    the orbit in forcing cycles.
     """
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
@@ -163,10 +168,11 @@ def neighbourhood(p, state, periods):
 
 
 def _radius(coefficients, step, contraction):
-    """Return the largest r whose bound after the period, times the contraction, is below r.
+    """Return the largest r0 for which `contraction` r(P) < FACTOR r0 (see the module docstring).
 
-    In a step the bound r' = a r^2 + b r^3 is at most a r^2 + b r^3 with the r at the end of the
-    step, so that r(end) solves r = r(begin) + step (a r^2 + b r^3); three iterations from above.
+    r grows, so in a step r' = a r^2 + b r^3 is at most its value with r at the end of the step. The
+    root of r = r(begin) + step (a r^2 + b r^3) is therefore an upper bound on r at the end. The
+    loop computes an upper bound on this root, by one iteration from a value `ahead` above the root.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):

@@ -1,11 +1,12 @@
-"""Boundaries of the free oscillator's basins: stable manifolds of its unstable orbits.
+"""Boundaries of the free oscillator's basins, which are stable manifolds of its unstable orbits.
 
-The map over a period has saddles, orbits with one multiplier inside the unit circle and one
-outside. The states that tend to a saddle form a curve, its stable manifold, which separates basins.
-The curve is grown backwards in time from a short segment along the saddle's stable direction.
-Points are inserted wherever neighbours are further apart than a given spacing, midway between
-points of the period after it. The errors of this interpolation shrink, since backwards in time all
-nearby curves approach the stable manifold.
+An unstable orbit of the map over a cycle is a saddle: one multiplier lies inside and one outside
+the unit circle. The states that tend to a saddle form a curve, the stable manifold, which separates
+basins. The curve is computed backwards in time, cycle by cycle, from a short segment along the
+stable direction of the saddle. Where neighbouring points of the curve are further apart than a
+given spacing, points are inserted: the midpoint of their images one cycle later is integrated
+backwards. The errors of this interpolation shrink, because backwards in time all nearby curves
+approach the stable manifold.
 """
 
 import math
@@ -18,41 +19,42 @@ from impact_damper.system.packed import DAMPING, FREQUENCY
 
 # Distance from the saddle at which the segment begins, in units of Z1 and Z1'.
 NEAR = 1e-5
-# Forcing periods over which a curve is grown at most, and most points on each side of the saddle,
-# within the window and in all.
+# Largest number of forcing cycles over which a curve is computed. Largest number of points on each
+# side of the saddle, within the window and in total.
 MOST_PERIODS = 60
 MOST_POINTS = 40_000
 MOST_IN_ALL = 100_000
-# Points on a segment at first, and halvings of an interval between neighbours at most.
+# Number of points on the first segment, and largest number of halvings of an interval between two
+# neighbouring points.
 FIRST_POINTS = 33
 MOST_HALVINGS = 12
-# Points of a curve outside the window: distance of neighbours over the reach of the curve.
+# Largest distance of neighbouring points outside the window, divided by the reach.
 OUTSIDE = 0.01
-# States of two orbits that differ by less are the same.
+# Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
 CHUNK = 4096
 
 
 def saddles(p, states, periods, phase):
-    """Return the unstable orbits found by Newton's method from states.
+    """Return the saddles (unstable orbits) that Newton's method finds from given states.
 
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
         Packed parameters without a damper.
     states : array, shape (n, 2)
-        Z1 and Z1' from which orbits are looked for.
+        Z1 and Z1' at which Newton's method begins.
     periods : iterable of int
-        Periods in forcing periods that are looked for.
+        Periods of the orbits in forcing cycles.
     phase : float
         Phase W T of the states, radian.
 
     Returns
     -------
     list of orbits.orbit.Orbit
-        By rising period; each orbit once.
+        By ascending period, each orbit once.
     """
-    found, known = [], np.empty((0, 2))
+    orbits, known = [], np.empty((0, 2))
     for n in sorted(set(periods)):
         for state in states:
             orbit = find_orbit(p, np.tile(state, 2), n, phase)
@@ -61,20 +63,21 @@ def saddles(p, states, periods, phase):
             if len(known) and np.min(np.max(np.abs(known - orbit.state[:2]), axis=1)) < SAME:
                 continue
             known = np.concatenate([known, images(orbit)])
-            found.append(orbit)
-    return found
+            orbits.append(orbit)
+    return orbits
 
 
 def images(orbit):
-    """Return the states Z1, Z1' of a free orbit a forcing period apart, shape (n, 2)."""
+    """Return the states Z1, Z1' of a free orbit of period n, one for each cycle, shape (n, 2)."""
     turns = orbit.phase + 2 * math.pi * np.arange(orbit.periods)
     return np.array([orbit.at(turn)[:2] for turn in turns])
 
 
 def run_backwards(p, states, phase, tolerance, reach):
-    """Return the states a forcing period before states at a phase; NaN for states beyond the reach.
+    """Return the states one forcing cycle before the given states; NaN for states beyond the reach.
 
-    Backwards in time the oscillator, with its velocity reversed, has negative damping.
+    Backwards in time and with reversed velocity, the oscillator obeys the same equation with
+    negative damping.
     """
     reverse = p.copy()
     reverse[DAMPING] = -p[DAMPING]
@@ -100,27 +103,27 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
     orbit : orbits.orbit.Orbit
         A saddle of the free oscillator.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     window : array, shape (2,)
         Largest |Z1| and |Z1'| of interest.
     spacing : array, shape (2,)
         Largest distance of neighbouring points in Z1 and Z1' within the window.
     reach : array, shape (2,)
-        |Z1| and |Z1'|, not less than the window, beyond which the curve is not followed: so large
-        that motions backwards in time do not come back from there.
+        |Z1| and |Z1'| beyond which the curve is not followed, at least as large as the window. Both
+        must be so large that motions backwards in time do not come back from there.
 
     Returns
     -------
     pieces : list of numpy.ndarray, shape (n, 2)
-        Pieces of the curve: for each side of the saddle and each period backwards one or more.
+        Pieces of the curve, one or more for each side of the saddle and each cycle.
     complete : bool
-        Whether the curve was grown until it left the window; a curve that winds without end is cut
-        after MOST_POINTS points on each side.
+        Whether the curve was computed until it left the reach. A curve that winds without end is
+        cut after MOST_POINTS points on each side.
     """
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
-    # with a negative multiplier two periods of the orbit lead back to the same side
+    # With a negative multiplier, a point comes back to the same side only after two periods.
     growth = 1 / abs(values[k].real) ** (1 if values[k].real > 0 else 2)
     sides = [
         _grow(orbit, side * direction, growth, tolerance, window, spacing, reach)
@@ -166,9 +169,10 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 
 
 def _wide(states, window, spacing, reach):
-    """Return which neighbouring states are too far apart, one of them within reach at least.
+    """Return a mask of the pairs of neighbouring states that are too far apart.
 
-    Neighbours of a state that was beyond reach (NaN) count only next to the window.
+    At least one state of such a pair lies within the reach. If the other state is unknown (NaN),
+    because its image one cycle later was beyond the reach, the pair counts only next to the window.
     """
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)

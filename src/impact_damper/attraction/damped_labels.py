@@ -1,7 +1,7 @@
 """Label states of an oscillator with its damper by the motion that they lead to.
 
-Where the loose mass bounces, no neighbourhood of an attractor is proven: each motion is run until
-it has settled (`motions.watch`).
+No proven neighbourhoods of attractors exist for motions with contacts. Therefore each motion is run
+until it has settled (`motions.watch`).
 """
 
 import numpy as np
@@ -12,10 +12,10 @@ from impact_damper.motions import ensemble, records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Relative difference in max |Z1| below which two settled motions of one period are the same; mirror
-# images are thus one motion.
+# Two settled motions of the same period are the same if max |Z1| differs relatively by less than
+# SAME. Mirror images are therefore one motion.
 SAME = 1e-5
-# Labels of motions that have not settled with contacts, keyed by their outcome.
+# Labels of motions that have not settled to an orbit with contacts, keyed by their outcome.
 LABELS = {
     records.UNRESOLVED: BASIN_LABEL["unresolved"],
     records.DIVERGED: BASIN_LABEL["escaped"],
@@ -28,7 +28,7 @@ LABELS = {
 
 
 def label_damped(p, states, phase, settling, workers=1, progress=None):
-    """Return labels of states with the damper on, the periods run, and the attractors found.
+    """Return labels of states with the damper on, and the attractors that the labels refer to.
 
     Parameters
     ----------
@@ -44,14 +44,17 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
 
     Returns
     -------
-    labels, periods : numpy.ndarray of int, shape (n,)
+    labels : numpy.ndarray of int, shape (n,)
+        Index of the attractor, or a negative value of `data.variables.basins.BASIN_LABEL`.
+    periods : numpy.ndarray of int, shape (n,)
+        Number of cycles for which each motion was run.
     attractors : numpy.ndarray of records.MOTION, shape (k,)
-        By rising max |Z1|.
+        By ascending max |Z1|.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     strobe = strobe_time(p) + (2 * np.pi / p[FREQUENCY] if begin > strobe_time(p) else 0.0)
     starts = to_strobe(p, states, begin, strobe, settling.tolerance)
-    found = ensemble.settle(
+    motions = ensemble.settle(
         np.tile(p, (len(starts), 1)),
         starts,
         settling,
@@ -59,26 +62,26 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
         workers=workers,
         progress=progress,
     )
-    labels = np.full(len(found), BASIN_LABEL["unresolved"])
+    labels = np.full(len(motions), BASIN_LABEL["unresolved"])
     for outcome, label in LABELS.items():
-        labels[found["outcome"] == outcome] = label
+        labels[motions["outcome"] == outcome] = label
     attractors = []
-    settled = np.flatnonzero(found["outcome"] == records.SETTLED)
-    order = settled[np.argsort(found["maximum_displacement"][settled], kind="stable")]
+    settled = np.flatnonzero(motions["outcome"] == records.SETTLED)
+    order = settled[np.argsort(motions["maximum_displacement"][settled], kind="stable")]
     for i in order:
         for index, known in enumerate(attractors):
-            ratio = found["maximum_displacement"][i] / known["maximum_displacement"]
-            if known["period"] == found["period"][i] and abs(ratio - 1) < SAME:
+            ratio = motions["maximum_displacement"][i] / known["maximum_displacement"]
+            if known["period"] == motions["period"][i] and abs(ratio - 1) < SAME:
                 labels[i] = index
                 break
         else:
             labels[i] = len(attractors)
-            attractors.append(found[i])
-    return labels, found["periods_run"], np.array(attractors, records.MOTION)
+            attractors.append(motions[i])
+    return labels, motions["periods_run"], np.array(attractors, records.MOTION)
 
 
 def to_strobe(p, states, begin, strobe, tolerance):
-    """Return states that are run from the time `begin` to a strobe."""
+    """Return the states at the time `strobe` of motions with given states at the time `begin`."""
     y = np.array(states, float)
     number = len(y)
     sides = np.where(y[:, 2] > p[CLEARANCE], 1, np.where(y[:, 2] < -p[CLEARANCE], -1, 0))
@@ -95,7 +98,7 @@ def to_strobe(p, states, begin, strobe, tolerance):
 
 
 def orbit_passages(p, record, phase):
-    """Return Z1, Z1' of an orbit each time the forcing has a phase, shape (period, 2)."""
+    """Return Z1, Z1' of an orbit at all times with a given forcing phase, shape (period, 2)."""
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_time(p)
     first = begin + (phase / p[FREQUENCY] - begin) % period

@@ -1,7 +1,7 @@
 """Label states of the free oscillator by the motion that they lead to.
 
-A motion is run from strobe to strobe until it lies in a proven neighbourhood of an attracting orbit
-(`attraction.attractors`).
+A motion is run from strobe to strobe (times with the forcing phase W T = pi/2) until it lies in a
+proven neighbourhood of an attracting orbit (`attraction.attractors`).
 """
 
 import math
@@ -15,15 +15,16 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.packed import FREQUENCY
 
-# As in `data.variables.basins.BASIN_LABEL`, which no file with kernels imports.
+# The same values as in `data.variables.basins.BASIN_LABEL`. Files with kernels must not import the
+# room `data.variables`.
 ESCAPED, UNRESOLVED = -2, -1
-# States that a thread labels at once, a fraction of a second.
+# Number of states that a thread labels without a break, in a fraction of a second.
 CHUNK = 4096
 
 
 @kernel
 def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels, periods, stop):
-    """Label states by the orbit whose neighbourhood their motions reach at a strobe.
+    """Label states by the orbit whose neighbourhood their motions enter at a strobe.
 
     Parameters
     ----------
@@ -32,17 +33,19 @@ def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels,
     states : array, shape (n, 2)
         Z1 and Z1' at the time `begin`.
     begin : float
-        Time T, at most a forcing period before the first strobe.
+        Time T, at most a forcing cycle before the first strobe.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     limit : int
-        Forcing periods after which a motion counts as unresolved.
+        Number of forcing cycles after which a motion counts as unresolved.
     owner, centre, shape : array
-        Of `Attractors`.
-    labels, periods : array of int, shape (n,)
-        Get the index of the orbit, or UNRESOLVED or ESCAPED, and the strobes passed until then.
+        The attributes of `Attractors`.
+    labels : array of int, shape (n,)
+        Receives the index of the orbit, or UNRESOLVED or ESCAPED.
+    periods : array of int, shape (n,)
+        Receives the number of strobes that were passed until the label was known.
     stop : array of bool, shape (1,)
-        Set to true by another thread, it ends the run; labels are then incomplete.
+        Another thread may set this flag to end the run early. The labels are then incomplete.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)
@@ -73,7 +76,7 @@ def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels,
 
 @kernel_only
 def take(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put state i, if it exists, into place m of the pool of motions that run together."""
+    """Enter state i, if it exists, at index m of the pool of motions that are stepped together."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -94,7 +97,7 @@ def which(x, v, owner, centre, shape):
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return the label of each state of the free oscillator, and the periods until it was known.
+    """Return the label of each state, and the number of cycles until the label was known.
 
     Parameters
     ----------
@@ -106,16 +109,18 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
         Phase W T of the forcing, radian.
     attractors : Attractors
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     limit : int
-        Forcing periods after which a motion counts as unresolved.
+        Number of forcing cycles after which a motion counts as unresolved.
     workers, progress
         As in `ensemble.settle`.
 
     Returns
     -------
-    labels, periods : numpy.ndarray of int, shape (n,)
-        Indices of `attractors.records`, or ESCAPED or UNRESOLVED.
+    labels : numpy.ndarray of int, shape (n,)
+        Index in `attractors.records`, or ESCAPED or UNRESOLVED.
+    periods : numpy.ndarray of int, shape (n,)
+        Number of strobes passed until the label was known.
     """
     states = np.ascontiguousarray(states, float)
     strobe = 0.5 * math.pi
@@ -138,7 +143,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
             stop,
         )
 
-    # Compiles in this thread, where Ctrl-C is heard.
+    # This call compiles the kernel in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
     ensemble.run_chunks(work, len(states), workers, progress, stop, size=CHUNK)
     return labels, periods

@@ -1,4 +1,4 @@
-"""A published number beside the one computed here, and how fast their difference vanishes."""
+"""A published number and the number computed by this package, and the order of their difference."""
 
 from typing import NamedTuple
 
@@ -6,28 +6,28 @@ import numpy as np
 
 
 class Comparison(NamedTuple):
-    """A published number, or that of a published closed form, and the number computed here.
+    """A published number, or the value of a published closed form, and the number of this package.
 
     Attributes
     ----------
     publication : str
         A flag of the variable `publication`.
     quantity : str
-        What is compared, with its parameters; unique.
+        Name of the quantity with its parameters, unique among all comparisons.
     published, ours : float
-        The published number and the one computed here.
+        The published number, and the number computed by this package.
     reason : str
-        Why the two numbers differ, a flag of the variable `difference_reason`.
+        Reason why the two numbers differ, a flag of the variable `difference_reason`.
     order : float
-        Exponent n of |ours - published| ~ parameter^n, where `reason` names the parameter; NaN if
-        that parameter is not varied.
+        Exponent n of |ours - published| ~ parameter^n for the parameter that `reason` names; NaN if
+        this parameter is not varied.
     limit : float
-        `ours` extrapolated to the limit in which the closed form holds (rigid walls); NaN if it is
-        not extrapolated.
+        `ours` extrapolated to the limit in which the closed form holds (rigid walls); NaN without
+        extrapolation.
     error : float
-        Standard error of the difference of numbers found by random starts; NaN for other numbers.
+        Standard error of the difference, for numbers from random starts; NaN for other numbers.
     expected : float
-        Size of ours/published - 1 that is to be expected for this reason; NaN if it is not known.
+        Expected size of ours/published - 1 for this reason; NaN if unknown.
     """
 
     publication: str
@@ -42,6 +42,6 @@ class Comparison(NamedTuple):
 
 
 def observed_order(parameters, differences) -> float:
-    """Return the exponent n of |difference| ~ parameter^n, from the last two parameters given."""
+    """Return the exponent n of |difference| ~ parameter^n, from the last two parameters."""
     (first, last), (before, after) = parameters[-2:], differences[-2:]
     return float(np.log(abs(after / before)) / np.log(last / first))

@@ -1,4 +1,4 @@
-"""The oscillator alone: published basin shares, and jumps of softening and hardening springs."""
+"""Comparisons for the oscillator alone: published basin shares, and jumps of the response."""
 
 import numpy as np
 
@@ -14,9 +14,9 @@ from impact_damper.system.families import family_of
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Oscillator
 
-# A settled state belongs to an orbit if each component differs by at most this from the orbit's.
+# A settled state belongs to an orbit if it differs by at most SAME from a state of the orbit.
 SAME = 1e-3
-# Range of forcing frequencies, divided by the natural frequency, over which responses are followed.
+# Range of forcing frequencies, divided by the natural frequency, over which branches are followed.
 SPAN = 0.6, 1.4
 
 
@@ -33,24 +33,24 @@ def basin_shares(starts, seed, settling):
     Returns
     -------
     list of Comparison
-        One for each motion, with the standard error of the difference of two random counts.
+        One for each motion, with the standard error of the difference of the two shares.
 
     Raises
     ------
     ArithmeticError
-        If a start has not settled on one of the five motions.
+        If a start does not lead to one of the five motions.
     """
     check_count("starts", starts, most=MOST_RUNS)
     oscillator = Oscillator(published.DAMPING, 0.0, force=published.FORCE)
     p = pack(oscillator, None, published.FREQUENCY)
     generator = np.random.default_rng(seed)
     drawn = np.column_stack([generator.uniform(*span, starts) for span in published.BOX])
-    given = np.array([motion.start for motion in published.MOTIONS])
-    states = np.tile(np.concatenate([given, drawn]), 2)
+    known = np.array([motion.start for motion in published.MOTIONS])
+    states = np.tile(np.concatenate([known, drawn]), 2)
     records = settle(np.tile(p, (len(states), 1)), states, settling)
     if not is_settled(records).all():
-        raise ArithmeticError("basin shares: some starts have not settled")
-    count = len(given)
+        raise ArithmeticError("basin shares: some motions have not settled")
+    count = len(known)
     orbits = [
         find_orbit(p, each["state"], int(each["period"])).strobe_states[:, :2]
         for each in records[:count]
@@ -60,10 +60,10 @@ def basin_shares(starts, seed, settling):
     if distance.min(axis=0).max() > SAME:
         raise ArithmeticError("basin shares: some starts lead to none of the five motions")
     shares = np.bincount(distance.argmin(axis=0), minlength=count) / starts
-    found = []
+    comparisons = []
     for motion, share in zip(published.MOTIONS, shares, strict=True):
         variance = motion.share * (1 - motion.share) * (1 / starts + 1 / published.STARTS)
-        found.append(
+        comparisons.append(
             Comparison(
                 "bstab",
                 f"basin share of the {motion.meaning} ({motion.name}), {starts} starts",
@@ -74,7 +74,7 @@ def basin_shares(starts, seed, settling):
                 expected=float(1.96 * np.sqrt(variance) / motion.share),
             )
         )
-    return found
+    return comparisons
 
 
 def jump_frequencies(springs, damping_ratios, peak):
@@ -85,7 +85,7 @@ def jump_frequencies(springs, damping_ratios, peak):
     springs : sequence of float
         Cubic coefficients, negative for softening springs.
     damping_ratios : sequence of float
-        Damping ratios z, each smaller than the one before.
+        Damping ratios z in descending order.
     peak : float
         Ratio of the force to the damping ratio. The amplitude at the peak is about half this ratio.
 
@@ -98,7 +98,7 @@ def jump_frequencies(springs, damping_ratios, peak):
     ArithmeticError
         If a branch does not have exactly two folds.
     """
-    found = []
+    comparisons = []
     for cubic in springs:
         for damping in damping_ratios:
             force = peak * damping
@@ -109,23 +109,23 @@ def jump_frequencies(springs, damping_ratios, peak):
                 ("from the large motion", closed.down, exact[0]),
                 ("from the small motion", closed.up, exact[1]),
             ):
-                found.append(
+                comparisons.append(
                     Comparison(
                         "brennan", f"jump {name}, {words}", published_value, ours, "one_harmonic"
                     )
                 )
-    return found
+    return comparisons
 
 
 def _folds(damping_ratio, cubic, force):
-    """Return the frequencies of the folds of the response, that of the large motion first."""
+    """Return the frequencies of the two folds of the response, first of the large motion."""
     oscillator = Oscillator(2 * damping_ratio, 1.0, cubic=cubic, force=force)
     begin = SPAN[0]
-    # First guess: the linear response well below resonance, without damping, at W T = pi/2.
+    # The first guess is the linear response without damping, well below resonance, at W T = pi/2.
     speed = -begin * force / (1 - begin**2)
     orbit = find_orbit(pack(oscillator, None, begin), [0.0, speed, 0.0, speed])
-    family, here, ends = family_of(oscillator, None, begin, "frequency", SPAN)
-    branch = follow_branch(family, orbit, here, ends)
+    family, coordinate, ends = family_of(oscillator, None, begin, "frequency", SPAN)
+    branch = follow_branch(family, orbit, coordinate, ends)
     folds = [event.point for _, event in branch.events if event.kind == "fold"]
     if len(folds) != 2:
         raise ArithmeticError(f"cubic = {cubic:g}: {len(folds)} folds in place of two")

@@ -1,6 +1,7 @@
-"""Hertz's impact of elastic bodies, compared with our linear contact spring of equal energy.
+"""Hertz's impact of elastic bodies, compared with the linear contact spring of this package.
 
-The linear spring stores the same energy as the contact after Hertz at the largest compression.
+The linear spring stores the same energy at the largest compression as the contact by Hertz's
+theory.
 """
 
 import numpy as np
@@ -11,18 +12,19 @@ from impact_damper.motions.simulate import simulate
 from impact_damper.system.parameters import Damper, Oscillator
 
 STEEL = Material(youngs_modulus=210e9, poissons_ratio=0.3)
-# MACHINE and BALL: masses of the machine and of the steel ball, kg. RADIUS of the ball, m.
+# MACHINE and BALL: masses of the machine and of the steel ball, kg. RADIUS: radius of the ball, m.
 # HALF_GAP: clearance of the ball in the machine, mm.
 MACHINE, BALL, RADIUS, HALF_GAP = 12.0, 0.6, 0.0264, 1.0
-# APART: distance of the ball from the wall at the start of a simulation, divided by HALF_GAP.
-# SAMPLES: states stored in a forcing period.
+# APART: distance of the ball from the wall at the beginning of a simulation, divided by HALF_GAP.
+# SAMPLES: number of states stored in a forcing cycle.
 APART, SAMPLES = 1e-6, 4000
-# Forcing frequency, rad/s. The force is zero: only the length of the run, half a period, follows.
+# Forcing frequency, rad/s. The force is zero, so the frequency only determines the length of the
+# run, half a forcing cycle.
 FREQUENCY = 1000.0
-# Damping h of the machine: the least that `Oscillator` allows, since 0 is not.
+# Damping h of the machine, the smallest that `Oscillator` allows; 0 is not allowed.
 UNDAMPED = 1e-9
-# Shares by which the impact on the linear spring lasts longer, and by
-# which its largest force is smaller.
+# Relative increase of the duration, and relative decrease of the largest force, of an impact on the
+# linear spring.
 LONGER, WEAKER = np.pi / DURATION - 1, 1 / 5
 
 
@@ -40,7 +42,7 @@ def hertz_impacts(speeds):
     """
     contact = HertzContact(radius=RADIUS, loose=STEEL)
     mass = BALL * MACHINE / (BALL + MACHINE)
-    found = []
+    comparisons = []
     for speed in speeds:
         hertz = contact.impact(speed, mass)
         duration, compression = _simulated(hertz.stiffness, speed)
@@ -52,12 +54,17 @@ def hertz_impacts(speeds):
         for quantity, (unit, published, ours, expected) in rows.items():
             words = f"{quantity}, steel ball of {1e3 * RADIUS:g} mm radius at {speed:g} m/s"
             numbers = float(unit * published), float(unit * ours)
-            found.append(Comparison("hertz", words, *numbers, "linear_contact", expected=expected))
-    return found
+            comparisons.append(
+                Comparison("hertz", words, *numbers, "linear_contact", expected=expected)
+            )
+    return comparisons
 
 
 def _simulated(stiffness, speed):
-    """Return duration, s, and largest compression, m, of an impact simulated in units mm and s."""
+    """Return duration (s) and largest compression (m) of a simulated impact.
+
+    The simulation uses the units mm and s.
+    """
     motion = simulate(
         Oscillator(UNDAMPED, 0.0, cubic=0.0, force=0.0),
         Damper(BALL / MACHINE, HALF_GAP, 1.0, stiffness / MACHINE),

@@ -1,6 +1,7 @@
-"""The symmetric motion of Masri and Caughey, compared with our orbits as contacts become stiffer.
+"""The symmetric motion of Masri and Caughey, compared with orbits for increasing contact stiffness.
 
-Their closed form holds for rigid walls; our orbits have contacts of finite stiffness r1.
+The closed form of Masri and Caughey holds for rigid walls. The orbits of this package have contacts
+of finite stiffness r1.
 """
 
 from dataclasses import replace
@@ -15,10 +16,10 @@ from impact_damper.literature.masri_caughey_stability import stability_boundarie
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Exponent n of the error r1^n made by rigid walls. Our numbers are extrapolated to rigid walls with
-# this exponent.
+# Exponent n of the difference r1^n between compliant and rigid walls. The computed numbers are
+# extrapolated to rigid walls with this exponent.
 ORDER = -0.5
-# Events that end stability and are compared, and the words for them in `Comparison.quantity`.
+# Events at which a motion loses stability, and their names in `Comparison.quantity`.
 EVENTS = {
     "fold": "fold",
     "symmetry_breaking": "loss of symmetry",
@@ -29,44 +30,45 @@ EVENTS = {
 def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, stiffnesses):
     """Compare displacements, multipliers and boundaries of stability.
 
-    The comparisons are made for all combinations of the sequences given.
+    The comparisons are made for all combinations of the values in the sequences.
 
     Parameters
     ----------
     damping_ratio : float
         Damping ratio of the oscillator. Its linear stiffness, force and natural frequency are 1, so
-        that lengths are given in static deflections.
+        the unit of length is the static deflection.
     restitutions, mass_ratios, gaps, frequencies : sequence of float
-        e, rm, full gap 2 d0 in static deflections, and W.
+        e, rm, gap 2 d0 and W.
     stiffnesses : sequence of float
-        Increasing contact stiffnesses r1, two or more. The order of convergence and the limit for
+        Two or more increasing contact stiffnesses r1. The order of convergence and the limit for
         rigid walls are estimated from the last two.
 
     Returns
     -------
     list of Comparison
         For each combination the comparisons of the stable motion or, if no motion is stable, of the
-        motion with the smallest multiplier. None if the closed form has no motion.
+        motion whose largest multiplier is smallest. A combination for which the closed form has no
+        motion adds no comparison.
 
     Raises
     ------
     ArithmeticError
-        If our orbit is not found although the closed form has one.
+        If no orbit is found although the closed form has a motion.
     TypeError, ValueError
-        If a value is out of range, or stiffnesses do not increase.
+        If a value is out of range, or the stiffnesses do not increase.
     """
     stiffnesses = check_increasing("stiffnesses", stiffnesses, "two").tolist()
-    found = []
+    comparisons = []
     oscillator = Oscillator(2 * damping_ratio, 1.0, cubic=0.0, force=1.0)
     for restitution, mass, frequency in product(restitutions, mass_ratios, frequencies):
         words = f"e = {restitution:g}, rm = {mass:g}, W = {frequency:g}"
         dampers = [Damper(mass, 1.0, restitution, stiffness) for stiffness in stiffnesses]
         for gap in gaps:
-            found += _at_gap(oscillator, dampers, frequency, gap / 2, words)
+            comparisons += _at_gap(oscillator, dampers, frequency, gap / 2, words)
         for boundary in stability_boundaries(oscillator, dampers[0], frequency):
             if boundary.event in EVENTS:
                 ours = [boundary_near(oscillator, each, frequency, boundary) for each in dampers]
-                found.append(
+                comparisons.append(
                     _compared(
                         f"gap at the {EVENTS[boundary.event]}, {words}",
                         2 * boundary.motion.clearance,
@@ -74,11 +76,11 @@ def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, sti
                         stiffnesses,
                     )
                 )
-    return found
+    return comparisons
 
 
 def _at_gap(oscillator, dampers, frequency, clearance, words):
-    """Return comparisons of displacement and, for a stable motion, of the largest multiplier."""
+    """Return comparisons of the displacement and, if stable, of the largest multiplier."""
     dampers = [replace(each, clearance=clearance) for each in dampers]
     motions = [x for x in two_impact_motions(oscillator, dampers[0], frequency) if x.room > 0]
     if not motions:
@@ -89,16 +91,16 @@ def _at_gap(oscillator, dampers, frequency, clearance, words):
     kind = "stable" if motion.stable else "unstable"
     words = f"gap {2 * clearance:g}, {words} ({kind})"
     sizes = [each.displacement for each in ours]
-    found = [_compared(f"max |Z1|, {words}", motion.displacement, sizes, stiffnesses)]
+    comparisons = [_compared(f"max |Z1|, {words}", motion.displacement, sizes, stiffnesses)]
     if motion.stable:
         values = [each.modulus for each in ours]
         name, value = f"largest multiplier, {words}", abs(motion.multipliers[0])
-        found.append(_compared(name, value, values, stiffnesses))
-    return found
+        comparisons.append(_compared(name, value, values, stiffnesses))
+    return comparisons
 
 
 def _compared(quantity, published, ours, stiffnesses):
-    """Return the comparison of `ours`, a number for each stiffness, with the published limit."""
+    """Return the comparison of `ours`, one number for each stiffness, with the published number."""
     ours = np.array(ours)
     gain = (stiffnesses[-1] / stiffnesses[-2]) ** -ORDER - 1
     limit = float(ours[-1] + (ours[-1] - ours[-2]) / gain)

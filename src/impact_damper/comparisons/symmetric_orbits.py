@@ -1,8 +1,9 @@
-"""Symmetric orbits with two compliant contacts a period, given the speed of the loose mass.
+"""Symmetric orbits with two compliant contacts in a cycle, found by the speed of the loose mass.
 
-With a linear spring, a force and a frequency given, the clearance of a symmetric orbit is a
-function of the ratio s of the speed of the loose mass to the clearance. Two orbits may have the
-same clearance, with a fold between them, but only one has a given s: so orbits are sought by s.
+Let s be the speed of the loose mass divided by the clearance. For a linear spring and a given force
+and frequency, the clearance of a symmetric orbit is a function of s. Two orbits, with a fold
+between them, may have the same clearance, but only one orbit has a given s. Therefore orbits are
+computed for a given s.
 """
 
 from dataclasses import replace
@@ -17,13 +18,14 @@ from impact_damper.orbits.orbit import Orbit
 from impact_damper.orbits.shooting import shoot
 from impact_damper.system.packed import pack
 
-# Newton's method: most corrections, and largest residual relative to the state.
+# Newton's method. ITERATIONS: largest number of corrections. RESIDUAL: largest residual of an
+# orbit, relative to its state.
 ITERATIONS = 15
 RESIDUAL = 1e-9
-# Relative change of the clearance with which the map is differentiated by differences.
+# Relative change of the clearance in difference quotients of the map.
 NUDGE = 1e-6
-# A change of stability is looked for at ratios s between 1 - width and 1 + width times that of the
-# closed form, with one of these widths after the other.
+# A change of stability is searched for between 1 - width and 1 + width times the ratio s of the
+# closed form, first for the smallest of these widths.
 WIDTHS = 0.005, 0.02, 0.08
 
 
@@ -33,7 +35,7 @@ class SymmetricOrbit(NamedTuple):
     Attributes
     ----------
     orbit : Orbit
-        Its state refers to the middle of the flight from the wall Z2 = -d0.
+        The orbit. Its state is the state in the middle of the flight from the wall Z2 = -d0.
     clearance : float
         d0.
     ratio : float
@@ -46,7 +48,7 @@ class SymmetricOrbit(NamedTuple):
 
     @property
     def modulus(self) -> float:
-        """Largest modulus of the multipliers of the map over half a period."""
+        """Largest modulus of the multipliers of the map over half a cycle."""
         return float(np.max(np.abs(np.linalg.eigvals(self.orbit.root))))
 
     @property
@@ -56,7 +58,7 @@ class SymmetricOrbit(NamedTuple):
 
 
 def orbit_at_clearance(oscillator, damper, frequency, motion) -> SymmetricOrbit:
-    """Return the orbit near a `masri_caughey.TwoImpactMotion`, with the clearance of the damper.
+    """Return the orbit with the damper's clearance near a `masri_caughey.TwoImpactMotion`.
 
     Raises
     ------
@@ -77,7 +79,7 @@ def orbit_at_clearance(oscillator, damper, frequency, motion) -> SymmetricOrbit:
 def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
     """Return the orbit with a given ratio s of the speed of the loose mass to the clearance.
 
-    Newton's method finds the state and the clearance; it starts from the motion between rigid
+    Newton's method finds the state and the clearance. Its first guess is the motion between rigid
     walls. The clearance of `damper` has no effect.
 
     Raises
@@ -92,8 +94,8 @@ def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
         p = pack(oscillator, replace(damper, clearance=clearance), frequency)
         return shoot(p, state, 1, rigid.phase, symmetric=True)
 
-    # The derivative of the map with respect to the clearance is computed only once: the walls are
-    # nearly rigid, so that Newton's method starts close to the orbit.
+    # The derivative of the map with respect to the clearance is computed only once, because the
+    # walls are nearly rigid and the first guess is close to the orbit.
     step = NUDGE * rigid.clearance
     ahead, behind = (mapped(rigid.state, rigid.clearance + h)[1] for h in (step, -step))
     matrix = np.zeros((5, 5))
@@ -110,6 +112,7 @@ def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
 
 
 def _checked(orbit, clearance):
+    """Return the `SymmetricOrbit`, or raise ArithmeticError if it is not one with two contacts."""
     size = np.max(np.abs(orbit.state))
     if not orbit.residual < RESIDUAL * max(1.0, size) or orbit.record["contacts"] != CONTACTS:
         raise ArithmeticError(
@@ -120,12 +123,12 @@ def _checked(orbit, clearance):
 
 
 def boundary_near(oscillator, damper, frequency, boundary) -> SymmetricOrbit:
-    """Return the orbit at which stability ends, near a `masri_caughey_stability.Boundary`.
+    """Return the orbit at which stability is lost, near a `masri_caughey_stability.Boundary`.
 
     Raises
     ------
     ArithmeticError
-        If there is no such orbit at the ratios searched (`WIDTHS`).
+        If there is no such orbit within the largest of WIDTHS.
     """
     rigid = boundary.motion.speed / boundary.motion.clearance
 
@@ -135,14 +138,14 @@ def boundary_near(oscillator, damper, frequency, boundary) -> SymmetricOrbit:
     for width in WIDTHS:
         ends = rigid * (1 - width), rigid * (1 + width)
         if boundary.event == "fold":
-            found = minimize_scalar(
+            fold = minimize_scalar(
                 lambda ratio: -at(ratio).clearance,
                 bounds=ends,
                 method="bounded",
                 options={"xatol": 1e-8 * rigid},
             ).x
-            if min(found - ends[0], ends[1] - found) > 0.01 * width * rigid:
-                return at(found)
+            if min(fold - ends[0], ends[1] - fold) > 0.01 * width * rigid:
+                return at(fold)
         elif np.prod([at(end).modulus - 1 for end in ends]) < 0:
             return at(brentq(lambda ratio: at(ratio).modulus - 1, *ends, xtol=1e-13 * rigid))
     raise ArithmeticError(f"no {boundary.event} near the clearance {boundary.motion.clearance:g}")

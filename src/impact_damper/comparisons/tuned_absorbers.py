@@ -1,4 +1,4 @@
-"""Tuned mass dampers and the nonlinear absorber: closed forms compared with computed responses."""
+"""Closed forms for tuned mass dampers and the nonlinear absorber, compared with responses."""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -14,14 +14,17 @@ from impact_damper.literature.tuned_mass_damper import (
     peaks,
 )
 
-# Direct search for the tuning and damping whose response has the least maximum: tolerance of
-# tuning, damping and maximum, and most iterations.
+# Direct search for the tuning and damping that minimise the maximum of the response. TOLERANCE: of
+# tuning, damping and maximum. MOST_STEPS: largest number of iterations.
 TOLERANCE = 1e-10
 MOST_STEPS = 1000
 
 
 def tuned_mass_dampers(mass_ratios):
     """Compare published peaks, tunings and damping ratios with those of the computed response.
+
+    The height of the fixed points of Den Hartog's absorber is compared with the highest peak of the
+    response. The exact optimum is compared with the result of a direct search.
 
     Parameters
     ----------
@@ -30,14 +33,12 @@ def tuned_mass_dampers(mass_ratios):
     Returns
     -------
     list of Comparison
-        The height of the fixed points of Den Hartog's absorber with the highest peak of its
-        response, and the exact optimum with the optimum found by a direct search.
     """
-    found = []
+    comparisons = []
     for mass in mass_ratios:
         highest = peaks(den_hartog(mass))[1].max()
         quantity = f"highest peak over static deflection, rm = {mass:g}"
-        found.append(
+        comparisons.append(
             Comparison("den_hartog", quantity, fixed_point(mass), float(highest), "fixed_points")
         )
         closed, direct = exact_optimum(mass), _least_maximum(mass)
@@ -50,7 +51,7 @@ def tuned_mass_dampers(mass_ratios):
             "damping ratio of the least maximum": (closed.damping_ratio, direct.damping_ratio),
         }
         for quantity, (published, ours) in pairs.items():
-            found.append(
+            comparisons.append(
                 Comparison(
                     "nishihara_asami",
                     f"{quantity}, rm = {mass:g}",
@@ -59,11 +60,11 @@ def tuned_mass_dampers(mass_ratios):
                     "direct_search",
                 )
             )
-    return found
+    return comparisons
 
 
 def _least_maximum(mass) -> Tuning:
-    """Return the tuning with the least maximum, by a direct search from Den Hartog's tuning."""
+    """Return the tuning that minimises the maximum, by a direct search from Den Hartog's tuning."""
     best = minimize(
         lambda values: peaks(Tuning(mass, *values))[1].max(),
         den_hartog(mass)[1:],
@@ -74,7 +75,7 @@ def _least_maximum(mass) -> Tuning:
 
 
 def nonlinear_absorbers(mass_ratio, forces):
-    """Compare the ratio of the two peaks of the nonlinear absorber with 1, the value designed for.
+    """Compare the ratio of the two peaks of the nonlinear absorber with the design value 1.
 
     Parameters
     ----------
@@ -89,9 +90,9 @@ def nonlinear_absorbers(mass_ratio, forces):
     Raises
     ------
     ArithmeticError
-        If the response does not have two peaks, or is not found.
+        If the response does not have two peaks, or if Newton's method fails.
     """
-    found = []
+    comparisons = []
     for force in forces:
         system = AbsorberOnDuffing(mass_ratio, 1.0, tuned_cubic(mass_ratio, 1.0), force)
         heights = system.peaks().displacements
@@ -102,7 +103,7 @@ def nonlinear_absorbers(mass_ratio, forces):
             f"second peak over the first, rm = {mass_ratio:g}, "
             f"cubic over linear force {np.round(size**2, 4):g} at the peak"
         )
-        found.append(
+        comparisons.append(
             Comparison("habib", quantity, 1.0, float(heights[1] / heights[0]), "first_order")
         )
-    return found
+    return comparisons

@@ -1,8 +1,9 @@
-"""The slow invariant manifold of the vibro-impact absorber, compared with our orbits and decays.
+"""The slow invariant manifold of the vibro-impact absorber, compared with orbits and decays.
 
 The closed forms are those of `literature.slow_invariant_manifold`, of first order in the mass ratio
-rm. t = pi w/(2 W d0) is the speed w of the loose mass as a ratio, with the forcing frequency W and
-the clearance d0 (half the gap). Our numbers come from orbits and simulations with finite rm.
+rm. The speed w of the loose mass is stated as the ratio t = pi w/(2 W d0), with the forcing
+frequency W and the clearance d0. The computed numbers come from orbits and simulations with finite
+rm.
 """
 
 import numpy as np
@@ -16,15 +17,16 @@ from impact_damper.motions.simulate import simulate
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Speed ratios t in a free decay. The simulation begins at START; the time is taken from t = FIRST
-# to t = LAST. Between START and FIRST a few impacts bring the motion to the manifold.
+# Speed ratios t in an unforced decay. The simulation begins at START, and the time from t = FIRST
+# to t = LAST is measured. Between START and FIRST a few impacts bring the motion to the manifold.
 START, FIRST, LAST = 1.6, 1.5, 1.1
-# Damping h of the oscillator in a free decay: the least that `Oscillator` allows, since 0 is not.
+# Damping h of the oscillator in an unforced decay, the smallest that `Oscillator` allows; 0 is not
+# allowed.
 UNDAMPED = 1e-9
-# SAMPLES: stored states in each natural period of a simulated decay. LONGER: ratio of the length of
-# this simulation to the predicted time of the decay from START to LAST.
+# SAMPLES: number of stored states in each natural period of a simulated decay. LONGER: length of
+# the simulation divided by the predicted time of the decay from START to LAST.
 SAMPLES, LONGER = 24, 1.2
-# Distance of the loose mass from the wall Z2 = -d0 at the start of a decay, where d0 = 1.
+# Distance to the wall Z2 = -d0 at the beginning of a decay, with d0 = 1.
 APART = 1e-9
 
 
@@ -38,10 +40,11 @@ def vibro_impact(restitution, damping_share, mass_ratios, contact_stiffness):
     damping_share : float
         Damping ratio of the oscillator divided by rm.
     mass_ratios : sequence of float
-        Falling rm, two or more. The order of convergence is estimated from each pair of
-        neighbouring ones.
+        Two or more values of rm in descending order. The order of convergence is estimated from
+        each pair of neighbouring values.
     contact_stiffness : float
-        r1 of our orbits, so large that the error by finite r1 is small against that by finite rm.
+        r1 of the computed orbits. It must be so large that the difference caused by finite r1 is
+        small compared with the difference caused by finite rm.
 
     Returns
     -------
@@ -50,7 +53,7 @@ def vibro_impact(restitution, damping_share, mass_ratios, contact_stiffness):
     Raises
     ------
     ArithmeticError
-        If our orbits are not found.
+        If an orbit is not found.
     """
     words = f"e = {restitution:g}, damping ratio {damping_share:g} rm"
     rows = [
@@ -60,12 +63,12 @@ def vibro_impact(restitution, damping_share, mass_ratios, contact_stiffness):
 
 
 def ring_down(restitution, mass_ratios, contact_stiffness):
-    """Compare the time in which the speed ratio t falls from FIRST to LAST in a free decay.
+    """Compare the time in which the speed ratio t falls from FIRST to LAST in an unforced decay.
 
     Parameters
     ----------
     restitution, mass_ratios, contact_stiffness
-        As of `vibro_impact`.
+        As in `vibro_impact`.
 
     Returns
     -------
@@ -82,16 +85,16 @@ def ring_down(restitution, mass_ratios, contact_stiffness):
 def _series(rows, mass_ratios, words):
     """Return comparisons of each quantity at each mass ratio, with the order of convergence.
 
-    `rows` has a dictionary for each mass ratio: its keys are the quantities, its values pairs of
-    the number of the closed form and our number.
+    `rows` has a dictionary for each mass ratio, which maps each quantity to a pair: the value of
+    the closed form and the computed number.
 
     Raises
     ------
     ValueError
-        If the mass ratios do not fall, or are fewer than two.
+        If the mass ratios do not decrease, or if there are fewer than two.
     """
     check_increasing("mass_ratios, from the last on", mass_ratios[::-1], "two")
-    found = []
+    comparisons = []
     for quantity in rows[0]:
         values = np.array([row[quantity] for row in rows])
         differences = values[:, 1] / values[:, 0] - 1
@@ -100,7 +103,7 @@ def _series(rows, mass_ratios, words):
             if k:
                 pair = slice(k - 1, k + 1)
                 order = observed_order(mass_ratios[pair], differences[pair])
-            found.append(
+            comparisons.append(
                 Comparison(
                     "slow_manifold",
                     f"{quantity}, rm = {mass:g}, {words}",
@@ -111,15 +114,15 @@ def _series(rows, mass_ratios, words):
                     expected=mass,
                 )
             )
-    return found
+    return comparisons
 
 
 def _thresholds(restitution, damping_share, mass, contact_stiffness):
-    """Return a dictionary for one mass ratio: quantity -> (closed form's number, our number)."""
+    """Return a dictionary from quantity to (closed form, computed number) for a mass ratio."""
     absorber = VibroImpactAbsorber(mass, restitution, damping_share * mass)
     oscillator = Oscillator(2 * absorber.damping_ratio, 1.0, cubic=0.0, force=1.0)
     damper = Damper(mass, 1.0, restitution, contact_stiffness)
-    found = {}
+    pairs = {}
     for name, end, threshold in (
         ("activation", 0, absorber.activation()),
         ("upper threshold", -1, absorber.upper_threshold()),
@@ -128,11 +131,11 @@ def _thresholds(restitution, damping_share, mass, contact_stiffness):
             boundary = stability_boundaries(oscillator, damper, threshold.frequency)[end]
             ours = boundary_near(oscillator, damper, threshold.frequency, boundary)
             ratio = np.pi * ours.ratio / (2 * threshold.frequency)
-            found[f"speed at the {name}"] = threshold.ratio, ratio
+            pairs[f"speed at the {name}"] = threshold.ratio, ratio
         else:
             speed = 2 * threshold.frequency / np.pi * threshold.ratio
             ours = orbit_with_speed(oscillator, damper, threshold.frequency, speed)
-        found[f"force of {name} over stiffness times half the gap"] = (
+        pairs[f"force of {name} over stiffness times half the gap"] = (
             threshold.force,
             1 / ours.clearance,
         )
@@ -144,17 +147,17 @@ def _thresholds(restitution, damping_share, mass, contact_stiffness):
     )
     ours = orbit_with_speed(oscillator, damper, 1.0, best.x)
     optimum = absorber.optimum()
-    found["optimum half gap over static deflection"] = optimum.clearance, ours.clearance
-    found["amplitude there over static deflection"] = optimum.amplitude, ours.displacement
-    return found
+    pairs["optimum half gap over static deflection"] = optimum.clearance, ours.clearance
+    pairs["amplitude there over static deflection"] = optimum.amplitude, ours.displacement
+    return pairs
 
 
 def decay_time(absorber, contact_stiffness) -> float:
-    """Return the time in which t falls from FIRST to LAST, from a simulated free decay.
+    """Return the time in which t falls from FIRST to LAST, from a simulated unforced decay.
 
-    The amplitude of the undamped primary mass is constant between contacts; the amplitude at a
-    contact is taken as the mean of those before and after it. The manifold gives the amplitudes
-    that belong to FIRST and LAST.
+    The amplitude of the undamped primary mass is constant between contacts. The amplitude at a
+    contact is defined as the mean of the amplitudes before and after it. The manifold gives the
+    amplitudes that correspond to t = FIRST and t = LAST.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
-"""Curves in the plane of two parameters on which a symmetric orbit loses its stability.
+"""Follow curves in the plane of two parameters on which a symmetric orbit loses its stability.
 
-Such a curve, an edge, consists of the orbits at which a test function is zero (`problem`). It
-is followed from one of its points by pseudo-arclength continuation, so that it may turn back in
-both parameters.
+Such a curve is called an edge. It consists of the points at which a test function is zero
+(`problem`). The edge is followed from one of its points by pseudo-arclength continuation, so that
+it may turn back in both parameters.
 """
 
 from dataclasses import dataclass
@@ -14,14 +14,15 @@ from impact_damper.edges.problem import KINDS, ROUNDING, Problem, concerned
 from impact_damper.orbits.orbit import Orbit
 from impact_damper.system.bounds import shown
 
-# First, shortest and longest step, and growth. If the shortest step fails, the edge ends, and the
-# cause of the failure is stored. Lengths are distances of the unknowns (`problem.Problem`).
+# First, longest and shortest step, and the factor by which a step may grow. If the shortest step
+# fails, the edge ends, and the reason of the failure is stored. A length is a distance in the space
+# of the unknowns (`problem.Problem`).
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GROWTH = 0.01, 0.05, 1e-5, 1.4
-# A step is accepted if the cosine between the tangents at its ends is at least STRAIGHT, and the
-# correction of its end at most the share ASIDE of its length.
+# A step is accepted if the cosine between the tangents at its ends is at least STRAIGHT, and if
+# Newton's method corrects its end by at most ASIDE times its length.
 STRAIGHT, ASIDE = 0.95, 0.3
 MOST_POINTS = 400
-# An edge counts as passing through a point at this distance, as a share of the spans.
+# An edge counts as passing through a point if their distance is below NEAR, in scaled parameters.
 NEAR = 2e-3
 
 
@@ -32,19 +33,19 @@ class Edge:
     Attributes
     ----------
     kind : str
-        One of KINDS.
+        One of `problem.KINDS`.
     values : numpy.ndarray, shape (n, 2)
         The two parameters, in order along the curve.
     orbits : list of Orbit
         The orbits at these parameters.
     bounding : numpy.ndarray of bool, shape (n,)
-        Whether the orbit is stable on one side: all multipliers that the kind does not concern are
-        less than 1 in modulus.
+        Whether the edge bounds a region of stable orbits. It does where all multipliers that the
+        kind does not concern are less than 1 in modulus.
     ends : tuple of str
-        Reasons why the curve ends before its first and after its last point: range_ends; closed;
-        contacts_change, the orbit gains or loses contacts; resonance, the pair of a torus becomes
-        real, at 1 or -1; too_unstable, another multiplier is far above 1; lost, Newton's method
-        fails; or point_limit.
+        Reasons why the curve ends before its first and after its last point: "range_ends";
+        "closed"; "contacts_change" if the orbit gains or loses contacts; "resonance" if the complex
+        pair of a Neimark-Sacker bifurcation becomes real, at 1 or -1; "too_unstable" if another
+        multiplier is far above 1; "lost" if Newton's method fails; "point_limit" after MOST_POINTS.
     spans : numpy.ndarray, shape (2, 2)
         Least and greatest value of each parameter.
     """
@@ -57,23 +58,23 @@ class Edge:
     spans: np.ndarray
 
     @cached_property
-    def shares(self):
-        """Both parameters scaled to their spans, shape (n, 2)."""
+    def coordinates(self):
+        """Both parameters, scaled so that their spans become 0 to 1, shape (n, 2)."""
         return (self.values - self.spans[:, 0]) / np.ptp(self.spans, axis=1)
 
     def crosses(self, first, second) -> bool:
         """Return whether the edge crosses the line between two pairs of scaled parameters."""
-        points, way = self.shares, second - first
+        points, way = self.coordinates, second - first
         aside = (points[:, 0] - first[0]) * way[1] - (points[:, 1] - first[1]) * way[0]
         k = np.flatnonzero(aside[:-1] * aside[1:] <= 0)
-        share = aside[k] / np.where(aside[k] == aside[k + 1], 1.0, aside[k] - aside[k + 1])
-        met = points[k] + share[:, None] * (points[k + 1] - points[k])
+        fraction = aside[k] / np.where(aside[k] == aside[k + 1], 1.0, aside[k] - aside[k + 1])
+        met = points[k] + fraction[:, None] * (points[k + 1] - points[k])
         along = (met - first) @ way / (way @ way)
         return bool(np.any((along >= 0) & (along <= 1)))
 
     def holds(self, point) -> bool:
         """Return whether the edge passes a pair of scaled parameters at a distance below NEAR."""
-        begins, steps = self.shares[:-1], np.diff(self.shares, axis=0)
+        begins, steps = self.coordinates[:-1], np.diff(self.coordinates, axis=0)
         sizes = np.sum(steps**2, axis=1)
         along = np.sum((point - begins) * steps, axis=1) / np.where(sizes > 0, sizes, 1.0)
         nearest = begins + np.clip(along, 0, 1)[:, None] * steps
@@ -88,10 +89,10 @@ def follow_edge(family, kind, orbit, values, spans) -> Edge | None:
     family : callable
         Maps two parameters to packed parameters.
     kind : str
-        One of KINDS.
+        One of `problem.KINDS`.
     orbit : Orbit
-        A symmetric orbit of the family (`Orbit.root` is not None) close to the edge, such as that
-        of a `bifurcations.Event`.
+        A symmetric orbit of the family (`Orbit.root` is not None) close to the edge, such as the
+        orbit of a `bifurcations.Event`.
     values : sequence of float
         Both parameters of the orbit.
     spans : array, shape (2, 2)
@@ -105,7 +106,7 @@ def follow_edge(family, kind, orbit, values, spans) -> Edge | None:
     Raises
     ------
     ValueError
-        If there is no such kind, the orbit is not symmetric, or the values are not in the spans.
+        If the kind is unknown, the orbit is not symmetric, or the values are not in the spans.
     """
     spans = np.asarray(spans, float)
     values = check_start(orbit, values, spans)
@@ -134,10 +135,11 @@ def check_start(orbit, values, spans):
 
 
 def point_near(family, kind, orbit, values, spans, border=None):
-    """Return the problem of an edge and a point of it near an orbit, or None for the point.
+    """Return the `Problem` of an edge and a point of the edge near an orbit.
 
-    Arguments as in `follow_edge`; `border` as in `Problem.correct`, without it the nearest point of
-    the edge is taken. The point may have a `Problem.fault`.
+    The point is None if Newton's method finds none. It may have a `Problem.fault`. The arguments
+    are those of `follow_edge`, and `border` is the argument of `Problem.correct`. Without a border
+    the nearest point of the edge is sought.
     """
     scale, contacts = np.max(np.abs(orbit.state)), len(orbit.contacts) // 2
     problem = Problem(family, kind, spans, scale, contacts, orbit.phase)
@@ -151,7 +153,7 @@ def _inside(x):
 
 
 def edge_through(problem, first) -> Edge:
-    """Return the edge through a point."""
+    """Return the `Edge` through a point, followed in both directions."""
     ahead, end = _walk(problem, first)
     behind, start = [first], "closed"
     if end != "closed":
@@ -169,7 +171,7 @@ def edge_through(problem, first) -> Edge:
 
 
 def _walk(problem, first):
-    """Return the points of an edge from the first along its tangent, and why it ends there."""
+    """Return the points of an edge from `first` on along its tangent, and the reason of its end."""
     points, length, last = [first], FIRST_STEP, first
     while len(points) < MOST_POINTS:
         ahead, fault = _step(problem, last, length)
@@ -195,12 +197,12 @@ def _walk(problem, first):
 
 
 def _step(problem, point, length):
-    """Return the point one step ahead, and why the step fails or ends the edge, or ""."""
+    """Return the point one step ahead and a reason: why the step fails or ends the edge, or ""."""
     x, border = point.x + length * point.tangent, point.tangent
     ahead = problem.correct(x, border) if _inside(x) else None
     reason = ""
     if not _inside(x) or (ahead is not None and not _inside(ahead.x)):
-        # the step is made to end on the border of the range that it passes first
+        # The step is shortened to end on the border of the rectangle that it crosses first.
         x, border = _to_border(point.x, x if ahead is None else ahead.x)
         ahead, reason = problem.correct(x, border), "range_ends"
         if ahead is not None and not _inside(ahead.x):
@@ -215,24 +217,24 @@ def _step(problem, point, length):
 
 
 def _to_border(inner, outer):
-    """Return where the line between two points leaves the range, and the normal of the border."""
+    """Return where the line between two points leaves the rectangle, and the border's normal."""
     change = outer - inner
     bounds = np.where(change[4:] > 0, 1.0, 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        shares = (bounds - inner[4:]) / change[4:]
-    shares[~(shares >= 0)] = np.inf
-    k = int(np.argmin(shares))
-    x = inner + min(shares[k], 1.0) * change
+        coordinates = (bounds - inner[4:]) / change[4:]
+    coordinates[~(coordinates >= 0)] = np.inf
+    k = int(np.argmin(coordinates))
+    x = inner + min(coordinates[k], 1.0) * change
     x[4 + k] = bounds[k]
     return x, np.eye(6)[4 + k]
 
 
 def _passes(problem, last, ahead, first):
-    """Return whether the first point of an edge lies on the step between two others."""
+    """Return whether the first point of an edge lies on the step from `last` to `ahead`."""
     step, back = ahead.x[4:] - last.x[4:], first.x[4:] - last.x[4:]
     size = step @ step
-    share = back @ step / size if size > 0 else np.inf
-    if not 0 < share <= 1 or np.linalg.norm(back - share * step) > ASIDE * np.sqrt(size):
+    fraction = back @ step / size if size > 0 else np.inf
+    if not 0 < fraction <= 1 or np.linalg.norm(back - fraction * step) > ASIDE * np.sqrt(size):
         return False
     same = problem.orbit(first).is_same(problem.orbit(ahead), LONGEST_STEP * problem.scale)
     return bool(same and first.tangent[4:] @ step > 0)

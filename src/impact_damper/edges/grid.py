@@ -1,6 +1,7 @@
-"""A grid over two parameters in whose cells the quiet orbit is known, and where edges lie between.
+"""The quiet orbit on a grid of two parameters, and the pairs of cells between which edges lie.
 
-The orbit is followed from cell to cell by exact tangents.
+The orbit is followed from cell to cell with exact derivatives of its state by the parameters. An
+edge is a curve on which the orbit loses its stability (`curves`).
 """
 
 from typing import NamedTuple
@@ -28,55 +29,58 @@ from impact_damper.orbits.shooting import shoot
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import CLEARANCE
 
-# Newton's method: number of corrections, and largest distance from the prediction as a share of the
-# largest number of the state.
+# Newton's method. ITERATIONS: largest number of corrections. REACH: largest distance from the
+# predicted state, divided by the largest component of the state.
 ITERATIONS, REACH = 8, 0.1
-# Number of cells near the first orbit that are tried, until it can be followed to one of them.
+# The first orbit is followed to one of the STARTS cells that are nearest to it.
 STARTS = 4
-# Shortest step between cells, as a share of their distance.
+# Shortest step between cells, divided by the distance of the cells.
 SHORTEST = 1 / 64
-# Bisections between two cells with a change of sign, until Newton's method finds the edge.
+# Largest number of bisections between two cells with a change of sign.
 BISECTIONS = 6
-# If in the last orbit that was reached the loose mass turns closer to a wall than this share of the
-# clearance, the orbit ends by a new contact: there the branch turns too sharply to be followed.
+# If Newton's method fails, and in the last orbit the loose mass turns back closer to a wall than
+# TOUCHING times the clearance, the orbit ends by a new contact (grazing), otherwise by a fold.
 TOUCHING = 0.05
 
 
 class Place(NamedTuple):
-    """An orbit at scaled parameters.
+    """An orbit at a point of the rectangle.
 
     Attributes
     ----------
     orbit : Orbit
-    shares : numpy.ndarray, shape (2,)
-        Scaled parameters.
+    coordinates : numpy.ndarray, shape (2,)
+        Both parameters, scaled so that their spans become 0 to 1.
     slopes : numpy.ndarray, shape (4, 2)
-        Derivative of the state by the scaled parameters.
+        Derivatives of the state with respect to the scaled parameters.
     path : Path
-        Half a period.
+        The orbit over half a period.
     tests : dict
-        Test functions, keyed by kind.
+        Values of the test functions, keyed by the kind of edge.
     """
 
     orbit: Orbit
-    shares: np.ndarray
+    coordinates: np.ndarray
     slopes: np.ndarray
     path: Path
     tests: dict
 
 
 class EdgeGrid(Grid):
-    """A grid with a `Place` in each cell; from cell to cell orbits are followed by tangents.
+    """A grid with a `Place` in each cell that is reached.
+
+    An orbit is followed from cell to cell: its state is predicted with the derivatives
+    `Place.slopes` and corrected by Newton's method.
 
     Attributes
     ----------
     family, spans
-        As of `problem.scaled_slopes`.
+        Arguments of `problem.scaled_slopes`.
     contacts : int
         Contacts in half a period.
     failed : list
-        One entry for each orbit that ends on the way from a cell to its neighbour: kind of the edge
-        that must lie there, cell, neighbour, and last place.
+        One entry for each orbit that ends between a cell and its neighbour: the kind of edge that
+        must lie there, the cell, the neighbour, and the last `Place` that was reached.
     """
 
     def __init__(self, family, spans, axes, contacts):
@@ -85,17 +89,17 @@ class EdgeGrid(Grid):
         super().__init__(self.scaled(points), None)
 
     def scaled(self, values):
-        """Return parameters scaled to their spans."""
+        """Return parameters scaled so that their spans become 0 to 1."""
         return (values - self.spans[:, 0]) / np.ptp(self.spans, axis=1)
 
-    def values(self, shares):
-        """Return both parameters."""
-        return self.spans[:, 0] + np.ptp(self.spans, axis=1) * shares
+    def values(self, coordinates):
+        """Return the parameters of scaled parameters."""
+        return self.spans[:, 0] + np.ptp(self.spans, axis=1) * coordinates
 
-    def begin(self, orbit, shares):
-        """Enter an orbit at a cell near to its scaled parameters."""
-        start = self._place(orbit, shares)
-        distance = np.max(np.abs(self.points - shares), axis=-1)
+    def begin(self, orbit, coordinates):
+        """Follow an orbit to one of the cells nearest to it, and enter it in this cell."""
+        start = self._place(orbit, coordinates)
+        distance = np.max(np.abs(self.points - coordinates), axis=-1)
         for k in np.argsort(distance, axis=None)[:STARTS]:
             cell = tuple(int(i) for i in np.unravel_index(k, self.shape))
             followed = self.follow_to(start, self.points[cell])
@@ -105,7 +109,7 @@ class EdgeGrid(Grid):
         raise ArithmeticError("orbit: could not be followed to a cell near its parameters")
 
     def follow(self, cell, direction):
-        """Follow the orbit of a cell to the neighbour in a direction, by tangents."""
+        """Follow the orbit of a cell to the neighbouring cell in a direction."""
         target = self.beside(cell, direction)
         followed = self.follow_to(self.orbits[cell], self.points[target])
         if not followed.arrived:
@@ -113,7 +117,7 @@ class EdgeGrid(Grid):
         return followed
 
     def ends(self):
-        """Return where the orbit ends between cells, as `crossings` does."""
+        """Return a list, in the form of `crossings`, of the cells between which the orbit ends."""
         return [
             (kind, last, self.points[target])
             for kind, _, target, last in self.failed
@@ -121,7 +125,11 @@ class EdgeGrid(Grid):
         ]
 
     def crossings(self):
-        """Return changes of sign as kinds, places, and scaled parameters of the place beyond."""
+        """Return a list of the changes of sign of test functions between neighbouring cells.
+
+        Each entry consists of the kind of edge, the `Place` on one side, and the scaled parameters
+        of the cell on the other side.
+        """
         pairs = [(self.orbits[cell], last) for _, cell, _, last in self.failed]
         pairs += [
             (place, self.orbits[target])
@@ -130,82 +138,91 @@ class EdgeGrid(Grid):
             if target in self.orbits
         ]
         return [
-            (kind, first, second.shares)
+            (kind, first, second.coordinates)
             for kind in (FOLD, SYMMETRY, TORUS)
             for first, second in pairs
             if first.tests[kind] * second.tests[kind] < 0
         ]
 
     def locate(self, kind, first, beyond):
-        """Find a point of an edge between a place and the scaled parameters of the next place.
+        """Find a point of an edge between a place and scaled parameters beyond the edge.
 
-        Returns problem and point, or None, and whether the edge was missed. A torus test that
-        changes its sign by two real multipliers is no edge and not missed.
+        Return the pair of `Problem` and `Point`, or None if no point was found, and whether an edge
+        was missed. The test function of a Neimark-Sacker bifurcation also vanishes if the product
+        of two real multipliers is 1. There is no edge at such a point, so None and False are
+        returned.
         """
         if np.max(np.abs(concerned(kind, first.orbit.root)[1])) > UNSTABLE:
             return None, False
         sign = first.tests[kind]
         spacing = np.max(np.linalg.norm(self.points[1:, 1:] - self.points[:-1, :-1], axis=-1))
         for _ in range(BISECTIONS):
-            way = beyond - first.shares
+            way = beyond - first.coordinates
             border = np.array([0, 0, 0, 0, -way[1], way[0]]) / np.linalg.norm(way)
-            near = self.values(first.shares)
+            near = self.values(first.coordinates)
             problem, point = point_near(self.family, kind, first.orbit, near, self.spans, border)
-            if point is not None and np.linalg.norm(point.x[4:] - first.shares) < 2 * spacing:
+            if point is not None and np.linalg.norm(point.x[4:] - first.coordinates) < 2 * spacing:
                 fault = problem.fault(point)
                 return (None if fault else (problem, point)), fault == "contacts_change"
-            followed = self.follow_to(first, (first.shares + beyond) / 2)
+            followed = self.follow_to(first, (first.coordinates + beyond) / 2)
             middle = followed.orbit
             if not followed.arrived:
                 break
             if middle.tests[kind] * sign > 0:
                 first = middle
             else:
-                first, beyond, sign = middle, first.shares, -sign
+                first, beyond, sign = middle, first.coordinates, -sign
         return None, True
 
     def follow_to(self, start, target) -> Followed:
-        """Follow an orbit to scaled parameters; the status is the kind of edge where it ends."""
-        here, share, length = start, 0.0, 1.0
-        while share < 1:
-            ahead = min(share + length, 1.0)
-            place, end = self._step(here, (1 - ahead) * start.shares + ahead * target)
+        """Follow an orbit to scaled parameters, in shorter steps where Newton's method fails.
+
+        The status of the result is the kind of edge at which the orbit ends, or "".
+        """
+        last, fraction, length = start, 0.0, 1.0
+        while fraction < 1:
+            ahead = min(fraction + length, 1.0)
+            place, end = self._step(last, (1 - ahead) * start.coordinates + ahead * target)
             if not end:
-                here, share, length = place, ahead, 2 * length
+                last, fraction, length = place, ahead, 2 * length
             elif length > SHORTEST:
                 length /= 2
             else:
                 break
-        return Followed((0.0, share), (start, here), end, share == 1)
+        return Followed((0.0, fraction), (start, last), end, fraction == 1)
 
-    def _step(self, here, shares):
-        """Return the place at scaled parameters near those of `here`, or the kind of edge met."""
-        p = self.family(*self.values(shares))
-        guess = here.orbit.state + here.slopes @ (shares - here.shares)
-        orbit = _corrected(p, guess, here.orbit.phase)
+    def _step(self, last, coordinates):
+        """Return the place at scaled parameters near the place `last`, and "".
+
+        If the orbit ends before, return None and the kind of edge.
+        """
+        p = self.family(*self.values(coordinates))
+        guess = last.orbit.state + last.slopes @ (coordinates - last.coordinates)
+        orbit = _corrected(p, guess, last.orbit.phase)
         if orbit is None:
-            near_wall = here.tests[GRAZING] > -TOUCHING * p[CLEARANCE]
+            near_wall = last.tests[GRAZING] > -TOUCHING * p[CLEARANCE]
             return None, GRAZING if near_wall else FOLD
         if len(orbit.contacts) != 2 * self.contacts:
             return None, GRAZING
-        phase = orbit.quiet_phase()
+        phase = orbit.flight_phase()
         if phase != orbit.phase:
             orbit = _corrected(p, orbit.at(phase), phase % TURN)
-        return (None, FOLD) if orbit is None else (self._place(orbit, shares), "")
+        return (None, FOLD) if orbit is None else (self._place(orbit, coordinates), "")
 
-    def _place(self, orbit, shares):
+    def _place(self, orbit, coordinates):
+        """Return the `Place` of an orbit."""
         path = path_of(orbit)
-        slopes = Variations(path).slopes() @ scaled_slopes(self.family, self.spans, shares)
+        slopes = Variations(path).slopes() @ scaled_slopes(self.family, self.spans, coordinates)
         try:
             slopes = np.linalg.solve(np.eye(4) - orbit.root, -slopes)
         except np.linalg.LinAlgError:  # exactly at a fold
             slopes = np.zeros((4, 2))
         tests = {kind: value(kind, path, self.contacts) for kind in KINDS}
-        return Place(orbit, np.asarray(shares), slopes, path, tests)
+        return Place(orbit, np.asarray(coordinates), slopes, path, tests)
 
 
 def _corrected(p, guess, phase):
-    """Return the symmetric orbit near a guess of its state, or None."""
+    """Return the symmetric orbit that Newton's method finds near a guess of its state, or None."""
     state, reach = guess, REACH * np.max(np.abs(guess))
     for _ in range(ITERATIONS):
         orbit, end = shoot(p, state, 1, phase, symmetric=True)

@@ -1,8 +1,9 @@
-"""All edges of the quiet orbit in a rectangle of two parameters.
+"""Find all edges of the quiet orbit in a rectangle of two parameters.
 
-The orbit is followed to the cells of a grid by exact tangents. Where a test function changes its
-sign between neighbouring cells, or the orbit ends on the way, lies a point of an edge, and the edge
-is followed from it.
+An edge is a curve on which the orbit loses its stability (`curves`). The orbit is followed to the
+cells of a grid, with exact derivatives of its state by the parameters. If a test function of an
+edge changes its sign between neighbouring cells, or the orbit ends between them, a point of an edge
+lies between the cells. The edge is then followed from this point.
 """
 
 from typing import NamedTuple
@@ -23,13 +24,13 @@ class EdgeMap(NamedTuple):
     orbits : dict
         Orbits, keyed by (row, column), of the cells that were reached.
     modulus : numpy.ndarray, shape (n, m)
-        Modulus of the largest Floquet multiplier; NaN in the other cells.
+        Modulus of the largest Floquet multiplier; NaN in cells that were not reached.
     displacement : numpy.ndarray, shape (n, m)
-        max |Z1|; NaN in the other cells.
+        max |Z1|; NaN in cells that were not reached.
     edges : list of Edge
     lost : int
-        Number of changes of sign between neighbouring cells at which no edge was found: Newton's
-        method failed, or the cells hold orbits of different branches.
+        Number of changes of sign between neighbouring cells at which no edge was found. Either
+        Newton's method failed there, or the cells hold orbits of different branches.
     """
 
     axes: tuple[np.ndarray, np.ndarray]
@@ -43,7 +44,7 @@ class EdgeMap(NamedTuple):
 def map_edges(family, orbit, values, axes) -> EdgeMap:
     """Find the edges of a symmetric orbit of period 1 in a rectangle of two parameters.
 
-    An edge is missed if no two neighbouring cells of the grid lie on different sides of it.
+    An edge is found only if two neighbouring cells of the grid lie on different sides of it.
 
     Parameters
     ----------
@@ -54,7 +55,7 @@ def map_edges(family, orbit, values, axes) -> EdgeMap:
     values : sequence of float
         Both parameters of the orbit.
     axes : sequence of two arrays
-        Increasing values of both parameters, two or more each.
+        Two or more increasing values of each parameter.
 
     Returns
     -------
@@ -63,9 +64,9 @@ def map_edges(family, orbit, values, axes) -> EdgeMap:
     Raises
     ------
     ValueError
-        If the orbit has no root or lies outside the axes, or these do not increase.
+        If the orbit has no root or lies outside the axes, or if an axis does not increase.
     ArithmeticError
-        If the orbit cannot be followed to any cell next to its parameters.
+        If the orbit cannot be followed to any of the cells nearest to its parameters.
     """
     axes = tuple(np.asarray(axis, float) for axis in axes)
     for axis in axes:
@@ -80,11 +81,11 @@ def map_edges(family, orbit, values, axes) -> EdgeMap:
     for kind, first, beyond in [*grid.crossings(), *grid.ends()]:
         if _crossed(edges, kind, first, beyond):
             continue
-        found, lost = grid.locate(kind, first, beyond)
+        start, lost = grid.locate(kind, first, beyond)
         if lost:
             missed.append((kind, first, beyond))
-        if found and not any(edge.holds(found[1].x[4:]) for edge in edges if edge.kind == kind):
-            edges.append(edge_through(*found))
+        if start and not any(edge.holds(start[1].x[4:]) for edge in edges if edge.kind == kind):
+            edges.append(edge_through(*start))
     lost = sum(not _crossed(edges, kind, *way) for kind, *way in missed)
     modulus, displacement = np.full((2, *map(len, axes)), np.nan)
     for cell, place in grid.orbits.items():
@@ -95,5 +96,5 @@ def map_edges(family, orbit, values, axes) -> EdgeMap:
 
 
 def _crossed(edges, kind, first, beyond):
-    """Return whether an edge of a kind lies between a place and scaled parameters beyond."""
-    return any(edge.crosses(first.shares, beyond) for edge in edges if edge.kind == kind)
+    """Return whether an edge of a kind passes between a place and scaled parameters beyond."""
+    return any(edge.crosses(first.coordinates, beyond) for edge in edges if edge.kind == kind)

@@ -1,18 +1,19 @@
-"""The equations of an edge: a curve in two parameters where a symmetric orbit loses stability.
+"""The equations of an edge, a curve in two parameters on which a symmetric orbit loses stability.
 
-On an edge a test function is zero. With the root R, the derivative of the map over half a period
-with a change of sign, and its multipliers mu, the test functions are
+On an edge a test function is zero. The root R of a symmetric orbit is the derivative of the map
+over half a period followed by a change of sign. With the eigenvalues (multipliers) mu of R the test
+functions are
 
     fold                 det(R - 1), zero for mu = 1
     symmetry_breaking    det(R + 1), zero for mu = -1
-    neimark_sacker       the product of mu_i mu_j - 1 over pairs, zero for a conjugate pair of
+    neimark_sacker       the product of mu_i mu_j - 1 over all pairs, zero for a conjugate pair of
                          modulus 1; it is det(C - 1) with the matrix C of the 2-by-2 minors of R
-    grazing              distance of the loose mass beyond a wall at the turn of its motion that is
-                         next to become a contact; zero where this contact begins to exist
+    grazing              |Z2| - d0 at that turning point of Z2 which is the next to become a
+                         contact; zero where this contact appears
 
-All are smooth, also where multipliers meet. The unknowns are the state and both parameters. The
-derivatives of map and test function are exact (`variations`), except for the derivative of the
-packed parameters with respect to the two parameters, which is a difference.
+All test functions are smooth, also where multipliers coincide. The unknowns are the state and both
+parameters. The derivatives of the map and of the test functions are exact (`variations`). Only the
+derivatives of the packed parameters with respect to the two parameters are difference quotients.
 """
 
 from collections.abc import Callable
@@ -31,16 +32,17 @@ from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 FOLD, SYMMETRY, TORUS, GRAZING = "fold", "symmetry_breaking", "neimark_sacker", "grazing"
 KINDS = (FOLD, SYMMETRY, TORUS, GRAZING)
 PAIRS = np.array(list(combinations(range(4), 2))).T
-# Change of a scaled parameter for this difference.
+# Change of a scaled parameter in a difference quotient.
 NUDGE = 1e-5
-# Newton's method: largest number of corrections, and largest size of one. It has converged once a
-# correction is below CLOSE, or below ROUNDING and slow. A correction is slow if it is larger than
-# the share SLOW of the correction before.
+# Newton's method. NEWTON: largest number of corrections. LARGEST: largest size of a correction. The
+# method has converged once a correction is below CLOSE, or below ROUNDING and more than half the
+# correction before. If a correction exceeds SLOW times the correction before, the derivative is
+# computed again.
 NEWTON, LARGEST, CLOSE, ROUNDING, SLOW = 14, 0.2, 1e-12, 1e-9, 0.1
-# A multiplier is complex if its imaginary part exceeds this.
+# A multiplier counts as complex if its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
-# An edge ends where a multiplier that its kind does not concern exceeds this: the orbits on both
-# sides are unstable there.
+# An edge ends where a multiplier that its kind does not concern exceeds UNSTABLE in modulus,
+# because the orbits on both sides of the edge are then unstable.
 UNSTABLE = 3.0
 
 
@@ -53,7 +55,8 @@ def value(kind, path, contacts):
         One of KINDS.
     path : Path
     contacts : int
-        Number of contacts in half a period on the side of the edge where the motion has fewer.
+        Number of contacts in half a period. For a grazing edge the number on the side of the edge
+        with fewer contacts.
     """
     if kind == GRAZING:
         return _reach(path, contacts)[0]
@@ -61,7 +64,10 @@ def value(kind, path, contacts):
 
 
 def value_change(kind, variations, first, parameters, contacts):
-    """Return the change of a test function along directions (`Variations.changes`)."""
+    """Return the derivatives of a test function along directions.
+
+    `first` and `parameters` are the arguments of `Variations.changes`.
+    """
     path = variations.path
     if kind == GRAZING:
         _, weights, wall = _reach(path, contacts)
@@ -77,7 +83,7 @@ def value_change(kind, variations, first, parameters, contacts):
             - root[i, m] * change[:, j, k]
         )
     left, sizes, right = np.linalg.svd(_shifted(kind, root))
-    # d det(X) = trace(adj(X) dX), and the adjugate follows from the singular values
+    # d det(X) = trace(adj(X) dX), and the adjugate adj(X) follows from the singular values of X.
     others = np.array([np.prod(np.delete(sizes, k)) for k in range(len(sizes))])
     turn = np.linalg.det(left) * np.linalg.det(right)
     adjugate = turn * (right.T * others) @ left.T
@@ -93,11 +99,19 @@ def _shifted(kind, root):
 
 
 def _reach(path, contacts):
-    """Return the distance of the loose mass beyond a wall at the first turn that is no contact.
+    """Return the test function of grazing, and how it depends on the path.
 
-    Turns are sorted by this distance, and the deepest `contacts` turns are contacts. Also returned
-    are the weights, shape (N,), with which values at the points of the path give the value at this
-    turn, and the wall. Without such a turn the distance is minus the clearance.
+    The turning points of Z2 are sorted by |Z2| in descending order. The first `contacts` of them
+    are contacts, and the one after them is the next to become a contact.
+
+    Returns
+    -------
+    distance : float
+        |Z2| - d0 at this turning point; -d0 if there is none.
+    weights : numpy.ndarray, shape (N,)
+        Weights of the N points of the path in the interpolation of Z2 at this turning point.
+    wall : float
+        Sign of Z2 there, or 0.
     """
     steps, sizes, weights, _ = path.turns(1)
     at_points = np.zeros((len(path.sides), weights.shape[1]))
@@ -110,7 +124,7 @@ def _reach(path, contacts):
 
 
 def concerned(kind, root):
-    """Return the multipliers of a root that an edge of a kind concerns, and the others."""
+    """Return the multipliers of a root that pass the unit circle on an edge, and the others."""
     values = np.linalg.eigvals(root)
     if kind == GRAZING:
         return values[:0], values
@@ -122,8 +136,8 @@ def concerned(kind, root):
     return values[chosen], np.delete(values, chosen)
 
 
-def scaled_slopes(family, spans, shares):
-    """Return the derivative of packed parameters by both scaled ones, shape (COUNT, 2).
+def scaled_slopes(family, spans, coordinates):
+    """Return the derivatives of the packed parameters by both scaled parameters, shape (COUNT, 2).
 
     Parameters
     ----------
@@ -131,20 +145,32 @@ def scaled_slopes(family, spans, shares):
         Maps both parameters to packed parameters.
     spans : array, shape (2, 2)
         Least and greatest value of each parameter, which are scaled to 0 and 1.
-    shares : array, shape (2,)
+    coordinates : array, shape (2,)
         Scaled parameters.
     """
     columns = []
     for k in range(2):
-        ends = np.array([shares, shares])
-        ends[:, k] = max(shares[k] - NUDGE, 0.0), min(shares[k] + NUDGE, 1.0)
+        ends = np.array([coordinates, coordinates])
+        ends[:, k] = max(coordinates[k] - NUDGE, 0.0), min(coordinates[k] + NUDGE, 1.0)
         behind, ahead = (family(*(spans[:, 0] + np.ptp(spans, axis=1) * end)) for end in ends)
         columns.append((ahead - behind) / (ends[1, k] - ends[0, k]))
     return np.column_stack(columns)
 
 
 class Point(NamedTuple):
-    """A point of an edge: the 6 unknowns, unit tangent, motion over half a period, and phase."""
+    """A point of an edge.
+
+    Attributes
+    ----------
+    x : numpy.ndarray, shape (6,)
+        The unknowns of `Problem`.
+    tangent : numpy.ndarray, shape (6,)
+        Unit tangent of the edge.
+    path : Path
+        The orbit over half a period.
+    phase : float
+        Phase W T of the state, radian.
+    """
 
     x: np.ndarray
     tangent: np.ndarray
@@ -159,17 +185,18 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of an edge.
+    """The equations of an edge, whose unknowns are the scaled state and the scaled parameters.
 
     Attributes
     ----------
     family : callable
         Maps both parameters to packed parameters.
     kind : str
+        One of KINDS.
     spans : numpy.ndarray, shape (2, 2)
         Least and greatest value of each parameter.
     scale : float
-        Largest number of the first state.
+        Unit of the scaled state: the largest component of the first state.
     contacts : int
         Contacts in half a period.
     phase : float
@@ -188,22 +215,26 @@ class Problem:
         return np.append(state / self.scale, (values - self.spans[:, 0]) / np.ptp(self.spans, 1))
 
     def values(self, x):
-        """Return both parameters, shape (2,)."""
+        """Return both parameters of the unknowns x, shape (2,)."""
         return self.spans[:, 0] + np.ptp(self.spans, axis=1) * x[4:]
 
     def path(self, x):
-        """Return the motion over half a period."""
+        """Return the motion over half a period from the state of the unknowns x."""
         p = self.family(*self.values(x))
         begin = self.phase / p[FREQUENCY]
         return follow_path(p, self.scale * x[:4], begin, begin + TURN / 2 / p[FREQUENCY])
 
     def defects(self, x, path):
-        """Return the defects of the map and of the test function, shape (5,)."""
+        """Return the left sides of the five equations, shape (5,), which are zero on the edge.
+
+        Four equations state that the orbit is periodic and symmetric. The fifth is the test
+        function.
+        """
         defect = -path.states[:, -1] - self.scale * x[:4]
         return np.append(defect / self.scale, value(self.kind, path, self.contacts))
 
     def rows(self, x, path):
-        """Return the derivative of the defects by the unknowns, shape (5, 6)."""
+        """Return the derivatives of `defects` with respect to the unknowns, shape (5, 6)."""
         variations = Variations(path)
         first, parameters = np.zeros((4, 6)), np.zeros((COUNT, 6))
         first[:, :4], parameters[:, 4:] = (
@@ -215,10 +246,11 @@ class Problem:
         return np.vstack([change / self.scale, by_test])
 
     def correct(self, x, border=None):
-        """Return the point that Newton's method reaches, at right angles to `border`, or None.
+        """Return the point of the edge that Newton's method reaches from x, or None if it fails.
 
-        Without a border the shortest corrections are taken. The derivative is computed again only
-        if corrections shrink slowly.
+        All corrections are orthogonal to the vector `border`. Without a border each correction is
+        the shortest that solves the linear equations. The derivative is computed again only if the
+        corrections shrink slowly.
         """
         rows, last, slow = None, np.inf, False
         for _ in range(NEWTON):
@@ -245,7 +277,7 @@ class Problem:
         return None
 
     def fault(self, point):
-        """Return why a point does not belong to the edge, a reason of `Edge.ends`, or ""."""
+        """Return the reason why the edge ends before a point (see `Edge.ends`), or ""."""
         begun = np.count_nonzero(point.path.events[2] > 0)
         if begun != self.contacts and not (self.kind == GRAZING and begun == self.contacts + 1):
             return "contacts_change"
@@ -257,13 +289,13 @@ class Problem:
         return ""
 
     def rephased(self, point):
-        """Return problem and point at a phase far from contacts, or None if Newton's method fails.
+        """Return problem and point with the state at a phase far from contacts.
 
-        The direction of the tangent is kept: a point displaced along it is integrated to the new
-        phase.
+        To keep the direction of the tangent, a point displaced along the tangent is also integrated
+        to the new phase. None is returned if Newton's method fails.
         """
         orbit = self.orbit(point)
-        phase = orbit.quiet_phase()
+        phase = orbit.flight_phase()
         if phase == orbit.phase:
             return self, point
         problem = replace(self, phase=phase % TURN)

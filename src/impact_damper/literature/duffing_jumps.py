@@ -1,9 +1,9 @@
 """Frequencies at which the forced motion of a weakly damped Duffing oscillator jumps.
 
-Brennan, Kovacic, Carrella and Waters, "On the jump-up and jump-down frequencies of the Duffing
-oscillator", J. Sound Vib. 318(4-5), 1250-1261, 2008. They use single-term harmonic balance of
-x'' + 2 z x' + x + a x^3 = F cos(r T) for a hardening (a > 0) or softening spring (a < 0). The
-amplitude X of the motion solves
+The closed forms are from Brennan, Kovacic, Carrella and Waters, "On the jump-up and jump-down
+frequencies of the Duffing oscillator", J. Sound Vib. 318(4-5), 1250-1261, 2008. The authors apply
+single-term harmonic balance to x'' + 2 z x' + x + a x^3 = F cos(r T), with a hardening (a > 0) or
+softening (a < 0) spring. The amplitude X of the motion solves
 
     ((1 - r^2) X + (3/4) a X^3)^2 + (2 z r X)^2 = F^2.
 """
@@ -21,11 +21,11 @@ class Jumps(NamedTuple):
     Attributes
     ----------
     down : float
-        Frequency r of the jump from the large motion, taken as r of the largest response, which
-        is in quadrature with the force: r^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2. The fold differs
-        from it by a distance of second order in z.
+        Frequency r of the jump from the large to the small motion. It is approximated by the
+        frequency of the largest response, r^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2, at which the
+        motion lags the force by a quarter of a cycle. The error is of second order in z.
     up : float
-        Frequency r of the jump from the small motion, with the damping neglected:
+        Frequency r of the jump from the small to the large motion, without damping:
         r^2 = 1 + (3/2)^(4/3) (a F^2)^(1/3).
     """
 
@@ -36,11 +36,16 @@ class Jumps(NamedTuple):
 def jumps(damping_ratio, cubic, force) -> Jumps:
     """Return the jump frequencies in closed form.
 
+    Parameters
+    ----------
+    damping_ratio, cubic, force : float
+        z, a and F, dimensionless.
+
     Raises
     ------
     TypeError, ValueError
-        If a value is out of range, or the spring softens so much that damping does not bound the
-        response: 3 |a| F^2 > 4 z^2.
+        If a value is out of range, or if the spring is so soft that the response has no maximum:
+        a < 0 and 3 |a| F^2 > 4 z^2.
     """
     check_number("damping_ratio", damping_ratio, above=0.0, most=1.0)
     check_number("cubic", cubic)

@@ -1,26 +1,27 @@
-"""The impact damper on a linear oscillator: the symmetric motion with two impacts a period.
+"""Symmetric motions with two impacts in a cycle, for an impact damper on a linear oscillator.
 
-The closed form of Masri and Caughey, "On the stability of the impact damper", J. Appl. Mech. 33(3),
-586-592, 1966. Walls are rigid, and an impact takes no time. Half a forcing period after an impact
-at one wall the mirror image of this impact follows at the other wall; in between the loose mass
-flies at constant velocity, in turn w and -w. Z1 is the displacement of the primary mass, Z2 the
-displacement of the primary mass relative to the loose mass, W the forcing frequency.
+The closed form is from Masri and Caughey, "On the stability of the impact damper", J. Appl. Mech.
+33(3), 586-592, 1966. The walls are rigid, and an impact takes no time. Half a cycle after an impact
+at one wall, the mirror image of this impact follows at the other wall. Between impacts the loose
+mass flies at constant velocity, alternately w and -w. Z1 is the displacement of the primary mass,
+Z2 the displacement of the primary mass relative to the loose mass, and W the forcing frequency.
 
-The loose mass meets the wall Z2 = -d0 with the velocity w and leaves it with -w. Momentum and
-restitution give the velocity of the primary mass before this impact, -k w with
-k = (1 - e + 2 rm)/(1 + e), and the flight gives its displacement, pi w/(2 W) - d0. The state of the
-primary mass after the impact is the sum of the forced response and of a free part, a decaying
-oscillation without force, written as w (a, b + 2 rm). By symmetry the free part half a period later
-is the mirror image of its value w (a, b) before the impact,
+The loose mass meets the wall Z2 = -d0 with the velocity w and leaves it with the velocity -w.
+Momentum and restitution give the velocity of the primary mass before this impact, -k w with
+k = (1 - e + 2 rm)/(1 + e). The flight gives the displacement of the primary mass at the impact,
+pi w/(2 W) - d0. Between impacts the state of the primary mass is the sum of the steady forced
+response and a transient, which is a decaying unforced oscillation. The transient is w (a, b) just
+before the impact and w (a, b + 2 rm) just after it. By symmetry it has changed its sign half a
+cycle later,
 
     M (a, b + 2 rm) = -(a, b),
 
-where M is the map of the free oscillator over half a period. The state before the impact minus
+where M is the map of the unforced oscillator over half a cycle. The state before the impact minus
 w (a, b) is the forced response, whose amplitude A is known:
 
     (pi w/(2 W) - d0 - w a)^2 + (w (k + b)/W)^2 = A^2.
 
-With the ratio s = w/d0 this gives d0 for every s, and a quadratic equation in w for every d0.
+With the ratio s = w/d0 this equation gives d0 for every s. For a given d0 it is quadratic in w.
 """
 
 from typing import NamedTuple
@@ -32,12 +33,12 @@ from impact_damper.system.bounds import plain
 from impact_damper.system.checks import check_frequency
 from impact_damper.system.parameters import check_damper, check_oscillator
 
-# Points in time of a flight, between which turning points (zeros of a velocity) are looked for.
+# Number of times in a flight. Turning points (zeros of a velocity) are searched for between them.
 SAMPLES = 200
 
 
 class TwoImpactMotion(NamedTuple):
-    """A symmetric motion with two impacts a forcing period, stable or not.
+    """A symmetric motion with two impacts in a forcing cycle, stable or unstable.
 
     Attributes
     ----------
@@ -52,13 +53,13 @@ class TwoImpactMotion(NamedTuple):
     displacement : float
         max |Z1|.
     multipliers : numpy.ndarray of complex, shape (4,)
-        Multipliers of the map over half a period followed by a change of sign, by falling modulus.
-        A multiplier 1 means a fold, -1 a loss of symmetry. The multipliers of a whole period are
-        the squares of these.
+        Multipliers of the map over half a cycle followed by a change of sign, by descending
+        modulus. A multiplier 1 indicates a fold, and -1 a loss of symmetry. The multipliers of the
+        motion over a whole cycle are the squares of these numbers.
     room : float
-        Least distance of the loose mass from a wall at the turning points of Z2 during a flight,
-        divided by d0; infinite without such points. If it is negative the solution of the equations
-        is no motion, because the loose mass would pass through a wall.
+        Smallest distance to a wall at the turning points of Z2 during a flight, divided by d0;
+        infinite without such points. If it is negative, the solution of the equations is no motion,
+        because the loose mass would pass through a wall.
     """
 
     clearance: float
@@ -71,19 +72,19 @@ class TwoImpactMotion(NamedTuple):
 
     @property
     def stable(self) -> bool:
-        """Whether the solution is a motion and all multipliers are less than 1 in modulus."""
+        """True if the solution is a motion and all multipliers are less than 1 in modulus."""
         return bool(self.room > 0 and abs(self.multipliers[0]) < 1)
 
 
 class Flight(NamedTuple):
-    """The middle of the flight of the loose mass from the wall Z2 = -d0.
+    """The state in the middle of the flight of the loose mass from the wall Z2 = -d0.
 
     Attributes
     ----------
     clearance : float
         d0.
     phase : float
-        W T in the middle of the flight, a quarter of a period after the impact.
+        W T in the middle of the flight, a quarter of a cycle after the impact.
     state : numpy.ndarray, shape (4,)
         Z1, Z1', Z2, Z2' at this phase.
     """
@@ -94,14 +95,14 @@ class Flight(NamedTuple):
 
 
 def two_impact_motions(oscillator, damper, frequency) -> list[TwoImpactMotion]:
-    """Return all symmetric motions with two impacts a period, by rising speed of the loose mass.
+    """Return all symmetric motions with two impacts in a cycle, by ascending speed w.
 
     Parameters
     ----------
     oscillator : Oscillator
-        With a linear spring.
+        Its spring must be linear.
     damper : Damper
-        Its contact stiffness has no effect: walls are rigid.
+        Its contact stiffness has no effect, because the walls are rigid.
     frequency : float
         W.
 
@@ -112,8 +113,8 @@ def two_impact_motions(oscillator, damper, frequency) -> list[TwoImpactMotion]:
     """
     family = Family(oscillator, damper, frequency)
     square, linear = family.across**2 + family.along**2, family.across
-    share = linear**2 - square * (1 - (abs(family.response) / damper.clearance) ** 2)
-    ratios = (linear + np.array([-1, 1]) * np.sqrt(share)) / square if share >= 0 else []
+    root = linear**2 - square * (1 - (abs(family.response) / damper.clearance) ** 2)
+    ratios = (linear + np.array([-1, 1]) * np.sqrt(root)) / square if root >= 0 else []
     return [family.motion(ratio) for ratio in ratios if ratio > 0]
 
 
@@ -123,19 +124,20 @@ def flight_with_speed(oscillator, damper, frequency, ratio) -> Flight:
     Parameters
     ----------
     oscillator, damper, frequency
-        As of `two_impact_motions`; the clearance of the damper has no effect.
+        As in `two_impact_motions`, but the clearance of the damper has no effect.
     ratio : float
         s = w/d0.
     """
     family = Family(oscillator, damper, frequency)
     clearance, phase, impact = family.impact(ratio)
-    primary, gap = family.motions(ratio, clearance, phase, impact)
+    primary, relative = family.motions(ratio, clearance, phase, impact)
     middle = family.half / 2
-    return Flight(clearance, phase + np.pi / 2, np.concatenate([primary(middle), gap(middle)]))
+    state = np.concatenate([primary(middle), relative(middle)])
+    return Flight(clearance, phase + np.pi / 2, state)
 
 
 class Family:
-    """Half a period of the motions of one oscillator and damper, for any speed of the loose mass.
+    """The motions of one oscillator and damper over half a cycle, for any ratio s = w/d0.
 
     Attributes
     ----------
@@ -144,9 +146,9 @@ class Family:
     response : complex
         Amplitude of the forced response without a damper.
     free : numpy.ndarray, shape (2,)
-        a and b + 2 rm: free part of the state of the primary mass after an impact, divided by w.
+        a and b + 2 rm: the transient after an impact, divided by w.
     across, along : float
-        Coefficients of (across s - 1)^2 + (along s)^2 = |response|^2/d0^2 for s = w/d0.
+        Coefficients of (across s - 1)^2 + (along s)^2 = |response|^2/d0^2.
     """
 
     def __init__(self, oscillator, damper, frequency):
@@ -184,7 +186,7 @@ class Family:
     def motion(self, ratio) -> TwoImpactMotion:
         """Return the motion for a ratio s = w/d0."""
         clearance, phase, impact = self.impact(ratio)
-        primary, gap = self.motions(ratio, clearance, phase, impact)
+        primary, relative = self.motions(ratio, clearance, phase, impact)
         turns = [abs(primary(time)[0]) for time in self._turns(primary)]
         return TwoImpactMotion(
             clearance,
@@ -193,18 +195,18 @@ class Family:
             impact,
             max([*turns, abs(impact[0])]),
             self._multipliers(impact, phase),
-            self._room(gap, clearance),
+            self._room(relative, clearance),
         )
 
     def is_stable(self, ratio) -> bool:
-        """Return `TwoImpactMotion.stable` for a ratio s, faster for unstable motions."""
+        """Return `TwoImpactMotion.stable` for a ratio s, without computing the whole motion."""
         clearance, phase, impact = self.impact(ratio)
         if abs(self._multipliers(impact, phase)[0]) >= 1:
             return False
         return self._room(self.motions(ratio, clearance, phase, impact)[1], clearance) > 0
 
     def impact(self, ratio):
-        """Return the clearance, and phase and state just before the impact at Z2 = -d0."""
+        """Return clearance d0, phase W T and state just before the impact at Z2 = -d0."""
         position, lag = self.across * ratio - 1, self.along * ratio
         clearance = abs(self.response) / np.hypot(position, lag)
         phase = float(np.angle((position + 1j * lag) / self.response))
@@ -220,37 +222,38 @@ class Family:
             forced = np.array([turning.real, -self.frequency * turning.imag])
             return forced + np.moveaxis(self.free_map(time) @ (speed * self.free), -1, 0)
 
-        def gap(time):
+        def relative(time):
             loose = impact[0] + clearance - speed * np.asarray(time)
             return primary(time) - np.array([loose, 0 * loose - speed])
 
-        return primary, gap
+        return primary, relative
 
-    def _room(self, gap, clearance):
-        """Return `TwoImpactMotion.room`: least distance from a wall divided by the clearance."""
-        rooms = [clearance - abs(gap(time)[0]) for time in self._turns(gap)]
+    def _room(self, relative, clearance):
+        """Return `TwoImpactMotion.room` for the motion `relative` of (Z2, Z2')."""
+        rooms = [clearance - abs(relative(time)[0]) for time in self._turns(relative)]
         return min(rooms, default=np.inf) / clearance
 
     def _turns(self, motion):
-        """Return the times in a flight at which the velocity in `motion` changes its sign."""
+        """Return the times in a flight at which the velocity of a motion changes its sign."""
         times = np.linspace(0, self.half, SAMPLES)
         speed = motion(times)[1]
         changes = np.flatnonzero(speed[:-1] * speed[1:] < 0)
         return [brentq(lambda t: motion(t)[1], times[k], times[k + 1]) for k in changes]
 
     def _multipliers(self, impact, phase):
-        """Return the multipliers of an impact and the flight after it, with a change of sign.
+        """Return the multipliers of an impact and the following flight, with a change of sign.
 
         In the coordinates y = (Z1, Z1', x2, x2'), with the displacement x2 = Z1 - Z2 of the loose
         mass, the impact at the wall n y = d0 is a linear map y -> J y. A disturbance also shifts
-        the time of the impact. With this shift, and the rates f of y before and after the impact,
-        the derivative of the impact is J + (f_after - J f_before) n/(n f_before).
+        the time of the impact. Let f_before and f_after be the time derivatives of y before and
+        after the impact. The derivative of the impact map, with the shift in time, is
+        J + (f_after - J f_before) n/(n f_before).
         """
         mass, restitution = self.damper.mass_ratio, self.damper.restitution
-        share = (1 + restitution) / (1 + mass)
+        gain = (1 + restitution) / (1 + mass)
         jump = np.eye(4)
-        jump[1, [1, 3]] += np.array([-1, 1]) * mass * share
-        jump[3, [1, 3]] += np.array([1, -1]) * share
+        jump[1, [1, 3]] += np.array([-1, 1]) * mass * gain
+        jump[3, [1, 3]] += np.array([1, -1]) * gain
         state = np.array([*impact[:2], *(impact[:2] - impact[2:])])
         surface = np.array([-1, 0, 1, 0])
         before, after = self._rate(state, phase), self._rate(jump @ state, phase)

@@ -1,7 +1,8 @@
-"""Ends of the stability of symmetric motions with two impacts a period (see `masri_caughey`).
+"""Find the ends of the stability of symmetric motions with two impacts in a forcing cycle.
 
-Along the ratio s = w/d0 of the speed of the loose mass to half the gap there is one motion for each
-s. The ranges of s with stable motions are searched for on a grid, and their ends by bisection.
+The motions are those of `masri_caughey`. For each ratio s = w/d0 of the speed w of the loose mass
+to the clearance d0 there is one motion. Ranges of s with stable motions are found on a grid, and
+the ends of these ranges by bisection.
 """
 
 from typing import NamedTuple
@@ -10,13 +11,12 @@ import numpy as np
 
 from impact_damper.literature.masri_caughey import Family, TwoImpactMotion
 
-# Grid of the ratio pi w/(2 W d0) on which changes of stability are looked for. The ratio is 1 if
-# the primary mass is in its middle position at the impacts. Beyond the last value the motion is
-# unstable for any damper.
+# Grid of the ratio pi w/(2 W d0) on which stability is computed. The ratio is 1 if Z1 = 0 at the
+# impacts. Above the last value the motion is unstable for any damper.
 RATIOS = np.linspace(0.02, 2.5, 249)
-# Bisections with which a change of stability is located.
+# Number of bisections that locate a change of stability.
 BISECTIONS = 48
-# A multiplier counts as complex if the modulus of its imaginary part exceeds this.
+# A multiplier counts as complex if the modulus of its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
 
 
@@ -28,8 +28,8 @@ class Boundary(NamedTuple):
     motion : TwoImpactMotion
         The motion at this end of the range.
     event : str
-        What ends stability: "fold", "symmetry_breaking", "neimark_sacker", or "third_contact" if
-        the loose mass begins to touch a wall during a flight.
+        The event at which the motion loses stability: "fold", "symmetry_breaking",
+        "neimark_sacker", or "third_contact" if the loose mass begins to touch a wall in a flight.
     """
 
     motion: TwoImpactMotion
@@ -42,29 +42,29 @@ def stability_boundaries(oscillator, damper, frequency) -> list[Boundary]:
     Parameters
     ----------
     oscillator, damper, frequency
-        As of `two_impact_motions`; the clearance of the damper has no effect.
+        As in `two_impact_motions`, but the clearance of the damper has no effect.
 
     Returns
     -------
     list of Boundary
-        By rising ratio of the speed of the loose mass to the clearance.
+        By ascending ratio s.
     """
     family = Family(oscillator, damper, frequency)
     ratios = RATIOS * 2 * family.frequency / np.pi
     stable = np.array([family.is_stable(ratio) for ratio in ratios])
-    found = []
+    boundaries = []
     for k in np.flatnonzero(stable[:-1] != stable[1:]):
         inner, outer = ratios[k : k + 2][:: 1 if stable[k] else -1]
         for _ in range(BISECTIONS):
             middle = (inner + outer) / 2
             inner, outer = (middle, outer) if family.is_stable(middle) else (inner, middle)
         motion = family.motion(inner)
-        found.append(Boundary(motion, _event(motion)))
-    return found
+        boundaries.append(Boundary(motion, _event(motion)))
+    return boundaries
 
 
 def _event(motion):
-    """Return the event that ends stability, given the last stable motion."""
+    """Return the event at which stability is lost, from the last stable motion."""
     value = motion.multipliers[0]
     if motion.room < 1 - abs(value):
         return "third_contact"

@@ -1,9 +1,11 @@
 """The nonlinear tuned vibration absorber on an undamped oscillator with a cubic spring.
 
-Habib, Detroux, Viguie and Kerschen, "Nonlinear generalization of Den Hartog's equal-peak method",
-Mech. Syst. Signal Process. 52-53, 17-28, 2015, doi 10.1016/j.ymssp.2014.08.009. With the mass ratio
-m, the tuning f (natural frequency of the absorber divided by that of the oscillator), the damping
-ratio z of the absorber, and the displacement u = x1 - x2 of the oscillator relative to it,
+The source is Habib, Detroux, Viguie and Kerschen, "Nonlinear generalization of Den Hartog's
+equal-peak method", Mech. Syst. Signal Process. 52-53, 17-28, 2015, doi 10.1016/j.ymssp.2014.08.009.
+All quantities are dimensionless. m is the mass ratio, f the tuning (the natural frequency of the
+absorber divided by the natural frequency of the oscillator), z the damping ratio of the absorber,
+and u = x1 - x2 the displacement of the oscillator relative to the absorber. N is the force between
+the two:
 
     x1'' + x1 + k x1^3 + N = F cos(r T),    m (x1 - u)'' = N,
     N = m (f^2 u + 2 z f u') + k2 u^3.
@@ -19,19 +21,20 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.literature.tuned_mass_damper import exact_optimum
 
-# HARMONICS: odd harmonics of the balance. SAMPLES: samples of a period in the balance. FINE:
-# samples of a period from which the largest displacement is taken. FREQUENCIES: grid on which peaks
-# are looked for before they are refined.
+# HARMONICS: odd harmonics of the balance. SAMPLES: number of samples of a period in the balance.
+# FINE: number of samples of a period whose maximum is the largest displacement. FREQUENCIES: grid
+# on which peaks are found before they are refined.
 HARMONICS = np.array([1, 3, 5, 7])
 SAMPLES, FINE = 64, 2048
 FREQUENCIES = np.linspace(0.75, 1.4, 131)
-# Newton's method: largest relative correction on convergence, and most corrections.
+# Newton's method. CONVERGED: largest relative size of the last correction. ITERATIONS: largest
+# number of corrections.
 CONVERGED = 1e-12
 ITERATIONS = 30
 
 
 class Peaks(NamedTuple):
-    """Maxima of the response over the frequency, by rising frequency.
+    """Maxima of the response over the frequency, by ascending frequency.
 
     Attributes
     ----------
@@ -57,7 +60,7 @@ class AbsorberOnDuffing:
     mass_ratio, cubic, absorber_cubic : float
         m, k and k2.
     force : float
-        F; the linear stiffness of the oscillator is 1.
+        F.
     """
 
     def __init__(self, mass_ratio, cubic, absorber_cubic, force):
@@ -65,8 +68,8 @@ class AbsorberOnDuffing:
         self.force = force
         _, tuned, damping = exact_optimum(mass_ratio)
         self._stiffness, self._dashpot = mass_ratio * tuned**2, 2 * mass_ratio * damping * tuned
-        # Matrices from coefficients (of all cosines, then of all sines) to samples of a period,
-        # and back.
+        # Matrices that map coefficients (of all cosines, then of all sines) to samples of a period,
+        # and the inverse of the first one.
         self._sample, self._fine = _samples(SAMPLES), _samples(FINE)
         self._project = self._sample.T * 2 / SAMPLES
         turn = np.diag(HARMONICS.astype(float))
@@ -76,7 +79,7 @@ class AbsorberOnDuffing:
     def balance(self, frequency, guess=None):
         """Return the coefficients of x1 and u, shape (2, 2 * len(HARMONICS)), at a frequency.
 
-        Newton's method starts from `guess`, or from rest.
+        Newton's method begins at `guess`, or at zero without a guess.
 
         Raises
         ------
@@ -84,21 +87,21 @@ class AbsorberOnDuffing:
             If Newton's method does not converge.
         """
         count = 2 * len(HARMONICS)
-        found = np.zeros(2 * count) if guess is None else guess.ravel().copy()
+        unknowns = np.zeros(2 * count) if guess is None else guess.ravel().copy()
         for _ in range(ITERATIONS):
-            residual, slope = self._residual(frequency, found.reshape(2, count))
+            residual, slope = self._residual(frequency, unknowns.reshape(2, count))
             change = np.linalg.solve(slope, residual)
-            found -= change
-            if np.max(np.abs(change)) < CONVERGED * np.max(np.abs(found)):
-                return found.reshape(2, count)
+            unknowns -= change
+            if np.max(np.abs(change)) < CONVERGED * np.max(np.abs(unknowns)):
+                return unknowns.reshape(2, count)
         raise ArithmeticError(f"harmonic balance at frequency {frequency:g}: no convergence")
 
     def displacement(self, coefficients):
-        """Return the largest |x1| of a solution divided by the static deflection."""
+        """Return the largest |x1| of a solution divided by the static deflection F."""
         return np.max(np.abs(self._fine @ coefficients[0])) / self.force
 
     def peaks(self) -> Peaks:
-        """Return the maxima of the response, followed upward in frequency from FREQUENCIES[0].
+        """Return the maxima of the response that is followed from FREQUENCIES[0] upward.
 
         Raises
         ------
@@ -111,7 +114,7 @@ class AbsorberOnDuffing:
         solutions = solutions[1:]
         sizes = np.array([self.displacement(each) for each in solutions])
         places = 1 + np.flatnonzero((sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:]))
-        found = [
+        maxima = [
             minimize_scalar(
                 lambda r, k=k: -self.displacement(self.balance(r, solutions[k])),
                 bounds=(FREQUENCIES[k - 1], FREQUENCIES[k + 1]),
@@ -120,7 +123,8 @@ class AbsorberOnDuffing:
             )
             for k in places
         ]
-        return Peaks(np.array([each.x for each in found]), np.array([-each.fun for each in found]))
+        frequencies, negative = np.array([(each.x, each.fun) for each in maxima]).reshape(-1, 2).T
+        return Peaks(frequencies, -negative)
 
     def _residual(self, frequency, coefficients):
         """Return the residual of the balance and its derivative."""
@@ -153,6 +157,6 @@ class AbsorberOnDuffing:
 
 
 def _samples(count):
-    """Return the matrix from coefficients to samples of a period."""
+    """Return the matrix that maps coefficients to `count` samples of a period."""
     angles = np.outer(np.arange(count) * 2 * np.pi / count, HARMONICS)
     return np.hstack([np.cos(angles), np.sin(angles)])

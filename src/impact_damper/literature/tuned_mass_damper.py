@@ -1,9 +1,9 @@
 """The tuned mass damper on an undamped linear oscillator under a harmonic force.
 
-Frequencies are divided by the natural frequency of the oscillator, displacements by the static
-deflection. The absorber has the mass ratio m, the tuning f (its own natural frequency, divided
-likewise) and the damping ratio z. For any z the response curve passes through the same two points,
-the fixed points.
+Frequencies are divided by the natural frequency of the oscillator, and displacements by the static
+deflection. The absorber has the mass ratio m, the damping ratio z and the tuning f, which is its
+natural frequency divided by the natural frequency of the oscillator. The response curves for all z
+pass through the same two points, which are called fixed points.
 """
 
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.system.bounds import check_number
 
-# Frequencies among which peaks are looked for before they are refined.
+# Grid of frequencies on which peaks are found before they are refined.
 FREQUENCIES = np.linspace(0.3, 1.7, 1401)
 
 
@@ -32,7 +32,7 @@ class Tuning(NamedTuple):
 
 
 def response(tuning, frequency):
-    """Return the amplitude of the primary mass, in static deflections, at frequencies r."""
+    """Return the amplitude of the primary mass over the static deflection, at frequencies r."""
     mass, tuned, damping = tuning
     r = np.asarray(frequency)
     coupling = tuned**2 + 2j * damping * tuned * r
@@ -41,10 +41,10 @@ def response(tuning, frequency):
 
 
 def peaks(tuning):
-    """Return the frequencies and amplitudes of the maxima of the response, shape (count,) each."""
+    """Return frequencies and amplitudes of the maxima of the response, each of shape (count,)."""
     sizes = response(tuning, FREQUENCIES)
     places = 1 + np.flatnonzero((sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:]))
-    found = [
+    frequencies = [
         minimize_scalar(
             lambda r: -response(tuning, r),
             bounds=(FREQUENCIES[k - 1], FREQUENCIES[k + 1]),
@@ -53,15 +53,15 @@ def peaks(tuning):
         ).x
         for k in places
     ]
-    return np.array(found), response(tuning, found)
+    return np.array(frequencies), response(tuning, frequencies)
 
 
 def den_hartog(mass_ratio) -> Tuning:
     """Return the tuning for which both fixed points are equally high, and the damping of Brock.
 
-    Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.2 and 3.3: f = 1/(1 + m); Brock, "A
-    note on the damped vibration absorber", J. Appl. Mech. 13, A-284, 1946:
-    z^2 = 3 m/(8 (1 + m)).
+    The tuning f = 1/(1 + m) is from Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.2
+    and 3.3. The damping z^2 = 3 m/(8 (1 + m)) is from Brock, "A note on the damped vibration
+    absorber", J. Appl. Mech. 13, A-284, 1946.
     """
     mass = _checked(mass_ratio)
     return Tuning(mass, 1 / (1 + mass), np.sqrt(3 * mass / (8 * (1 + mass))))
@@ -73,10 +73,10 @@ def fixed_point(mass_ratio) -> float:
 
 
 def exact_optimum(mass_ratio) -> Tuning:
-    """Return the tuning and damping for which the maximum of the response is least.
+    """Return the tuning and damping for which the maximum of the response is smallest.
 
-    Nishihara and Asami, "Closed-form solutions to the exact optimizations of dynamic vibration
-    absorbers", J. Vib. Acoust. 124(4), 576-582, 2002, doi 10.1115/1.1500335.
+    The closed form is from Nishihara and Asami, "Closed-form solutions to the exact optimizations
+    of dynamic vibration absorbers", J. Vib. Acoust. 124(4), 576-582, 2002, doi 10.1115/1.1500335.
     """
     mass = _checked(mass_ratio)
     root = np.sqrt(4 + 3 * mass)
@@ -87,7 +87,7 @@ def exact_optimum(mass_ratio) -> Tuning:
 
 
 def least_maximum(mass_ratio) -> float:
-    """Return the amplitude of both peaks with `exact_optimum`, by Nishihara and Asami too."""
+    """Return the amplitude of both peaks with `exact_optimum`, by Nishihara and Asami."""
     mass = _checked(mass_ratio)
     root = np.sqrt(4 + 3 * mass)
     difference = (8 + 9 * mass) ** 2 * (16 + 9 * mass) - 128 * root**3

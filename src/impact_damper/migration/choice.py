@@ -1,9 +1,11 @@
-"""Choose the numbers of policies: hold and phase that lead to the goal soonest.
+"""Choose the parameters hold and phase of release policies such that the goal is reached soonest.
 
-Two steps, on random numbers apart from those of the final trials. Holds are recorded once, and
-releases at all candidate moments are labelled. In a renewal process in which a try takes c forcing
-periods on average and succeeds with chance q, the goal is reached after c/q on average. The
-candidates with the smallest c/q are then tried in full.
+A hold is a time with the damper on, which ends with a release (switching the damper off). The
+choice takes two steps, with random numbers that are independent of those of the final trials.
+First, holds are recorded, and the free motions after releases at all candidate moments are labelled
+by where they settle. If a hold with the release takes c forcing cycles on average and leads to the
+goal with probability q, the goal is reached after c/q cycles on average. Second, the candidates
+with the smallest c/q are run in full trials.
 """
 
 import math
@@ -13,19 +15,23 @@ import numpy as np
 from impact_damper.migration.policies import DRAWS, HOLD, PHASE, STATE, Draws, Policy, run_trials
 from impact_damper.migration.recorded import label_moments, record
 
-# Forcing periods of a hold among which is chosen, and candidates that are tried in full.
+# HOLDS: candidate lengths of a hold in forcing cycles. TRIED: number of candidates in full trials.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 TRIED = 3
 
 
 def chosen_policies(on, free, trials, limit, seed):
-    """Return the best policies of the kinds HOLD, PHASE and STATE; arguments of `run_trials`."""
+    """Return the best policy of each of the kinds HOLD, PHASE and STATE.
+
+    The arguments are those of `policies.run_trials`.
+    """
     hold_cycles, phase_cycles = expected_cycles(on, free, trials, [*seed, 0])
     holds = [Policy(HOLD, HOLDS[k]) for k in np.argsort(hold_cycles, kind="stable")[:TRIED]]
     order = np.argsort(phase_cycles, axis=None, kind="stable")[:TRIED]
     places = zip(*np.unravel_index(order, phase_cycles.shape), strict=True)
     phases = [Policy(PHASE, HOLDS[k], int(phase)) for k, phase in places]
-    # patience of the policy by state: holds that may lead to the goal, and without end
+    # Candidate longest holds of the policy by state: the best fixed holds, the longest one, and
+    # holds without limit.
     waits = [Policy(STATE, each.hold) for each in holds[:2]] + [Policy(STATE, HOLDS[-1])]
     waits.append(Policy(STATE, math.inf))
 
@@ -34,33 +40,36 @@ def chosen_policies(on, free, trials, limit, seed):
 
 
 def best_policy(on, free, candidates, trials, limit, seed):
-    """Return the policy with the fewest cycles in trials; arguments of `run_trials`."""
+    """Return the policy among `candidates` that needs the fewest cycles on average.
 
-    def quality(policy):
+    A trial that does not reach the goal counts with `limit` cycles. The other arguments are those
+    of `policies.run_trials`.
+    """
+
+    def cost(policy):
         outcome = run_trials(on, free, policy, trials, limit, seed)
-        # the mean of cycles, at most the limit, tells successes and times at once
         return np.mean(np.minimum(outcome.cycles, limit))
 
-    return min(candidates, key=quality)
+    return min(candidates, key=cost)
 
 
 def expected_cycles(on, free, trials, seed):
-    """Return estimates of the forcing periods until the goal, of each hold and of (hold, phase).
-
-    Holds begin on the resonance motion.
+    """Return estimates of the forcing cycles until the goal for holds that begin on the resonance.
 
     Returns
     -------
     of_hold : numpy.ndarray, shape (holds,)
+        Cycles for a release after each hold of HOLDS.
     of_phase : numpy.ndarray, shape (holds, phases)
-        Infinite where no release led to the goal.
+        Cycles for a release after each hold, at each phase of the forcing. Infinite where no
+        release led to the goal.
     """
     drawn = Draws(seed, trials).following()
     starts = free.strobe_states(np.full(trials, free.resonance), drawn[:, DRAWS])
     limits = np.full(trials, HOLDS[-1] + 1.0)
     recording = record(on, free, starts, drawn[:, :DRAWS].copy(), limits)
     phases = recording.phases
-    # the first moments at each phase after a hold
+    # The first moment with each phase after each hold.
     moments = np.add.outer(phases * np.array(HOLDS), np.arange(phases))
     rows = np.repeat(np.arange(trials), moments.size)
     columns = np.tile(moments.ravel(), trials)

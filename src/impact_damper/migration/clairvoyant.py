@@ -1,12 +1,16 @@
-"""The clairvoyant bound: the best that releases can do if state and future are known exactly.
+"""The clairvoyant bound: the earliest arrival at the goal if state and future are known exactly.
 
-A trial has the random numbers that it has with a policy: in its n-th hold the damper is switched on
-at the same phase, with the loose mass at the same place. The clairvoyant controller knows the
-motion with the damper on and where the free motion settles after each release. In each hold it
-examines all moments at even phases. A hold without a use is ended after one or two forcing periods,
-at the moment after which the free motion settles soonest, and the damper is switched on again. Of
-all these releases the one with the earliest arrival at the goal counts. Noise on the measured state
-does not concern this controller, and a known delay it makes up for by an earlier order.
+A hold is a time with the damper on, which ends with a release (switching the damper off). A trial
+of the clairvoyant controller uses the same random numbers as a trial of a policy: in its n-th hold
+the damper is switched on at the same phase, with the loose mass at the same place. The controller
+knows the motion with the damper on, and it knows where the free motion settles after each release.
+In each hold it examines all moments with phases of an even grid. The release with the earliest
+arrival at the goal counts. To look for earlier arrivals in further holds, the controller ends the
+hold after one to two forcing cycles, at the moment after which the free motion settles soonest on
+another motion than the goal, and switches the damper on again.
+
+Noise on the measured state does not affect this controller. It compensates a known delay by an
+earlier order to release.
 """
 
 import math
@@ -16,20 +20,24 @@ import numpy as np
 from impact_damper.migration.policies import DRAWS, Draws, Outcome
 from impact_damper.migration.recorded import label_moments, record
 
-# Depth in cells of the release set above which a state may lie inside, and is labelled.
+# A state is labelled only if its depth inside the release set (`release_set`) exceeds NEAR cells.
+# Less deep states are certainly outside.
 NEAR = -1.5
-# Moments of a trial that are labelled at once, at first and later, and trials recorded at once.
+# FIRST, MOMENTS: number of moments of a trial that are labelled in the first pass and in each later
+# pass. TRIALS: number of trials that are recorded together.
 FIRST, MOMENTS, TRIALS = 4, 32, 256
-# Forcing periods that are recorded at first, as the goal is often reached within them.
+# A hold is first recorded for HORIZON forcing cycles, because the goal is often reached within
+# them.
 HORIZON = 32
-# Moments between those at which a short hold may end.
+# A hold that is ended early ends at every APART-th moment of its second cycle.
 APART = 4
 
 
 def clairvoyant(on, free, trials, limit, seed, examined=None):
-    """Return the `Outcome` of trials with the best moments of release.
+    """Return the `policies.Outcome` of trials with the best moments of release.
 
-    Parameters as of `run_trials`. Where the goal cannot be reached the damper is never switched on.
+    The parameters are those of `policies.run_trials`. In a trial that cannot reach the goal the
+    damper is never switched on.
     """
     draws, examined = Draws(seed, trials), examined or trials
     best = Outcome.failed(examined)
@@ -38,7 +46,7 @@ def clairvoyant(on, free, trials, limit, seed, examined=None):
     holds = 0
 
     def look_ahead(rows, horizon):
-        """Improve the best releases of trials by moments of a hold within a horizon."""
+        """Record the next hold of some trials, and store its releases that arrive earlier."""
         left = np.minimum(best.cycles[rows], limit) - spent[rows]
         starts = free.strobe_states(place[rows], drawn[rows, DRAWS])
         limits = np.minimum(left, horizon)
@@ -72,10 +80,23 @@ def clairvoyant(on, free, trials, limit, seed, examined=None):
 
 
 def earliest(free, recording, latest):
-    """Return the earliest arrivals at the goal and their moments; infinite where there is none.
+    """Return the earliest arrival at the goal after a release in each hold, and its moment.
 
-    Moments are examined by rising time until no later one can arrive earlier. `latest`, shape (n,),
-    are the forcing periods after which an arrival is of no interest.
+    Moments are examined in the order of time until no later moment can lead to an earlier arrival.
+
+    Parameters
+    ----------
+    free : FreeCase
+    recording : Recording
+    latest : array, shape (n,)
+        Forcing cycles since the switching on after which an arrival does not count.
+
+    Returns
+    -------
+    arrival : numpy.ndarray, shape (n,)
+        Forcing cycles since the switching on; infinite without an arrival.
+    at : numpy.ndarray of int, shape (n,)
+        Index of the moment of the release, or -1.
     """
     arrival, at = latest.copy(), np.full(len(latest), -1)
     rows, moments = np.nonzero(recording.depth > NEAR * free.releases.cell)
@@ -97,16 +118,19 @@ def earliest(free, recording, latest):
 
 
 def soonest(free, recording):
-    """Return when another motion than the goal is reached soonest by a short hold.
+    """Return the earliest arrival at a motion other than the goal after a short hold.
 
-    Released after one forcing period and before two.
+    A short hold ends between one and two forcing cycles after the switching on.
 
     Returns
     -------
     settled : numpy.ndarray, shape (n,)
-        Forcing periods; infinite if all these releases lead to the goal, or the hold is shorter.
-    at, place : numpy.ndarray of int, shape (n,)
-        The moment of the release and the motion.
+        Forcing cycles since the switching on. Infinite if all these releases lead to the goal, or
+        if the recorded hold is shorter than a cycle.
+    at : numpy.ndarray of int, shape (n,)
+        Index of the moment of the release.
+    place : numpy.ndarray of int, shape (n,)
+        Index of the motion.
     """
     depth, phases = recording.depth, recording.phases
     short = np.zeros(depth.shape, bool)

@@ -1,12 +1,12 @@
 """One run of the migration controller.
 
-From the resonance branch the damper is switched on and off again, until the free oscillator
-settles on its non-resonance branch. The damper is switched on as described in `damper_release`. It
-is switched off after its motion has settled, at a phase drawn uniformly over the period of that
-motion. If the motion has not settled after `longest_hold` forcing periods, the damper is switched
-off in the next one.
+The controller is the scheme of figure 17. The free oscillator begins on its resonance branch. The
+damper is switched on and off again until the free oscillator settles on its non-resonance branch.
+`damper_release` describes how the damper is switched on. It is switched off after the motion with
+the damper has settled, at a phase drawn uniformly over the period of this motion. If the motion has
+not settled after `longest_hold` forcing cycles, the damper is switched off during the next cycle.
 
-A strobe is the phase W T = pi/2 of the forcing, with frequency W, in each forcing period.
+A strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2.
 """
 
 import numpy as np
@@ -18,11 +18,14 @@ from impact_damper.migration.damper_release import destination, kinds
 from impact_damper.motions.records import MOTION, NEVER, trace
 from impact_damper.system.packed import FREQUENCY
 
-# A course, Z1 against time, begins this number of forcing periods before the run, and ends as many
-# after it.
+# The course (Z1 against time) of a run begins MARGIN forcing cycles before the run and ends MARGIN
+# cycles after it.
 MARGIN = 10
-# Samples of a course per forcing period.
+# Number of samples of a course in a forcing cycle.
 SAMPLES = 40
+# One switching of the damper. Times are in forcing cycles from the first strobe: damper on, damper
+# off, and end of the free motion that follows. Then period and max |Z1| of the released motion, and
+# the flag and max |Z1| of the free motion that is reached.
 SWITCHING = np.dtype(
     [
         ("on_time", "f8"),
@@ -37,7 +40,7 @@ SWITCHING = np.dtype(
 
 
 def draw(seed, switchings):
-    """Draw the random numbers of one run, shape (switchings, 3), uniformly from 0 to 1.
+    """Return the random numbers of one run, shape (switchings, 3), uniform between 0 and 1.
 
     The first rows do not depend on the number of switchings.
     """
@@ -61,21 +64,23 @@ def control(case, draws, longest_hold, settling, periods, stop=NEVER):
     ----------
     case : ReleaseCase
     draws : array, shape (n, 3)
-        For each switching the phase of switching on, the place of the loose mass and the phase of
-        release, as from `draw`. A phase is a share of the period of the motion before it.
+        Result of `draw`. Each row holds the phase of switching on, the place of the loose mass and
+        the phase of the release. A phase is a fraction of the period of the motion before it.
     longest_hold : int
-        Forcing periods after which the damper is switched off though its motion has not settled.
+        Forcing cycles after which the damper is switched off even if its motion has not settled.
     settling : Settling
     periods : int
-        Forcing periods after which no switching begins.
+        Forcing cycles after which no further switching begins.
     stop : array of bool, shape (1,)
-        As in `legs.run`.
+        Argument of `legs.run`.
 
     Returns
     -------
     path : numpy.ndarray, shape (m, 5)
-        Rows (forcing periods from the first strobe, state) at each strobe and switching.
+        One row for each strobe and each switching: forcing cycles from the first strobe, then the
+        state Z1, Z1', Z2, Z2'.
     log : numpy.ndarray of SWITCHING, shape (n,)
+        One entry for each switching.
     """
     y = case.state.copy()
     records = np.zeros(1, MOTION)
@@ -109,10 +114,10 @@ def control(case, draws, longest_hold, settling, periods, stop=NEVER):
 
 
 def course(case, path, log, tolerance):
-    """Return times T and Z1 along a run, with MARGIN forcing periods before and after it.
+    """Return times T and Z1 along a run, with MARGIN forcing cycles before and after it.
 
-    Each stretch between two rows of the path is integrated by itself, so that a chaotic motion is
-    the one that was controlled.
+    Each interval between two rows of the path is integrated from the state in the path. Otherwise
+    the errors of a chaotic motion would grow until it differs from the controlled motion.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
@@ -147,7 +152,7 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return registered variables of whole runs, in forcing periods from the first switching."""
+    """Return registered variables of whole runs, in forcing cycles from the first switching."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     return {

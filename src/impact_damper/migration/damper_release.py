@@ -1,8 +1,9 @@
-"""Motions to which releases of the damper lead, and lifetimes of the violent motion (section 5).
+"""Motions that releases of the damper lead to, and lifetimes of the violent motion (section 5).
 
-Release means switching the damper off. Before, it is switched on while the free oscillator is on
-its resonance branch, at a phase of the forcing drawn uniformly; the loose mass is then at rest
-relative to the primary at a place in the gap drawn uniformly, as if a clamp had held it there.
+Release means switching the damper off. Before a release, the damper is switched on while the free
+oscillator is on its resonance branch, at a phase of the forcing that is drawn uniformly. At this
+time the loose mass is at rest relative to the primary mass, at a place in the gap that is drawn
+uniformly, as if a clamp had held it there.
 """
 
 from dataclasses import replace
@@ -25,8 +26,10 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import main_solutions
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Free motions are the same if their max |Z1| differs by less.
+# Two free motions are the same if their max |Z1| differs by less than ALIKE.
 ALIKE = 1e-6
+# One release: phase in forcing cycles after a strobe, Z1 and Z1', and the flag of the free motion
+# that is reached.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
@@ -35,7 +38,7 @@ DESTINATIONS = list(FREE_MOTION)[1:]
 
 
 class ReleaseCase(NamedTuple):
-    """What releases at one frequency need: parameters, start, and the known free motions.
+    """Parameters, first state and known free motions for releases at one frequency.
 
     Attributes
     ----------
@@ -44,7 +47,7 @@ class ReleaseCase(NamedTuple):
     state : array, shape (4,)
         State of the free resonance motion at a strobe.
     known : array, shape (2,)
-        max |Z1| of the free non-resonance and resonance motion.
+        max |Z1| of the free non-resonance motion and of the free resonance motion.
     """
 
     on: np.ndarray
@@ -54,10 +57,11 @@ class ReleaseCase(NamedTuple):
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Return the record of a motion of period 1 without the damper at a frequency, or None.
+    """Return the record of a free motion of period 1 at a frequency, or None.
 
-    The motion is settled at the frequency `start` from the solution of harmonic balance with the
-    index `which`, on the curve through the peak, and followed from there.
+    The motion is first computed at the frequency `start`, where it settles from the solution number
+    `which` of harmonic balance on the curve through the peak. From there it is followed to
+    `frequency`.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
@@ -70,10 +74,10 @@ def _free_motion(oscillator, frequency, start, which, settling):
 
 
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
-    """Return the case of a damper: start on the free resonance branch, and the goal of release.
+    """Return the `ReleaseCase` of a damper at a frequency.
 
-    The resonance motion is followed upward in frequency, with a softening spring downward. The
-    goal, the non-resonance motion, is followed the other way.
+    The resonance motion is followed upward in frequency and the non-resonance motion, the goal of
+    migration, downward. With a softening spring both directions are reversed.
 
     Raises
     ------
@@ -96,16 +100,16 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
         raise ValueError(
             f"frequency = {frequency:g}: without the damper there must be both a non-resonance and "
             "a resonance motion, since migration leads from one to the other (a linear spring has "
-            "but one motion)"
+            "only one motion)"
         )
     return ReleaseCase(on, off, resonance["state"].copy(), known)
 
 
 def kinds(period, displacement, known):
-    """Return flags that classify damped motions by their period and displacement max |Z1|.
+    """Return flags `released_from` that classify damped motions by period and max |Z1|.
 
-    A motion of period 1 is quiet if it is smaller than half the free resonance motion; `known` is
-    as in `ReleaseCase`.
+    A motion of period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance
+    motion. `known` is the attribute of `ReleaseCase`.
     """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
@@ -113,7 +117,10 @@ def kinds(period, displacement, known):
 
 
 def destination(known, record):
-    """Return the flag that says which free motion a record is; `known` as in `ReleaseCase`."""
+    """Return the flag `destination` of the free motion in a record.
+
+    `known` is the attribute of `ReleaseCase`.
+    """
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:
@@ -125,9 +132,9 @@ def destination(known, record):
 
 
 def _release(case, state, wait, settling, path, entry, stop=NEVER):
-    """Switch the damper off `wait` forcing periods after a strobe, and fill `entry`.
+    """Switch the damper off `wait` forcing cycles after a strobe, and fill `entry`.
 
-    The entry gets phase and state of the release, and the free motion that is reached.
+    The entry receives phase and state of the release, and the flag of the free motion reached.
     """
     records = np.zeros(1, MOTION)
     legs.leg(
@@ -148,11 +155,12 @@ def _release(case, state, wait, settling, path, entry, stop=NEVER):
 
 
 def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
-    """Run with the damper on, release once, and return the lifetime in forcing periods.
+    """Run with the damper on, release once, and return the lifetime in forcing cycles.
 
-    Four numbers drawn uniformly from 0 to 1 give the phase of switching on, the place of the loose
-    mass, the strobe of the release between the LEAD-th one and the capture, and the phase after
-    this strobe. A run that is captured before the LEAD-th strobe is not released.
+    The lifetime ends when the motion is captured by an orbit (`legs.CAPTURE`). Four numbers, drawn
+    uniformly between 0 and 1, give the phase of switching on, the place of the loose mass, the
+    strobe of the release (between strobe LEAD and the capture), and the phase after this strobe. A
+    run that is captured before strobe LEAD is not released.
     """
     legs.leg(
         case.off,
@@ -186,7 +194,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
     seeds : list of numpy.random.SeedSequence
         One for each run.
     lifetime : int
-        Forcing periods of a run at most.
+        Largest number of forcing cycles of a run.
     settling : Settling
     workers, progress
         As in `ensemble.settle`.
@@ -194,10 +202,11 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
     Returns
     -------
     lives : numpy.ndarray, shape (n,)
-        Forcing periods before each run is captured by an orbit (`legs.CAPTURE`), or `lifetime`.
+        Forcing cycles before each run is captured by an orbit (`legs.CAPTURE`), or `lifetime`.
     motions : numpy.ndarray of records.MOTION, shape (n,)
-        Motions on which they settle.
+        Motions that the runs settle to.
     entries : numpy.ndarray of RELEASE, shape (n,)
+        The releases.
     """
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     lives = np.empty(len(draws))
@@ -223,8 +232,8 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 def transient_data(lives, motions, lifetime, known):
     """Return registered variables of the lifetimes of transients, and their coordinate `age`.
 
-    A capture is known only once the run has settled. Lifetimes are therefore complete only up to
-    the horizon: the time watched less the longest time between capture and settling.
+    A capture is detected only after the run has settled. Lifetimes are therefore complete only up
+    to a horizon, which is `lifetime` minus the longest time between capture and settling.
     """
     settled = is_settled(motions)
     delay = np.max(motions["periods_run"][settled] - lives[settled], initial=0)
@@ -244,10 +253,11 @@ def transient_data(lives, motions, lifetime, known):
 def release_data(case, motions, entries, settling):
     """Return registered variables of the releases from the unsettled and each settled motion.
 
-    Settled motions are released at phases spread evenly over their period, as many as there are
-    `entries` for the unsettled motion. In flight the primary moves as without the damper, so all
-    releases within one flight lead to the same motion: shares are shares of flights, weighted by
-    their durations, and of the short contacts.
+    A settled motion is released at phases spread evenly over its period. The number of phases is
+    the number of `entries`, the releases from the unsettled motion. While the loose mass flies, the
+    primary mass moves as without the damper. All releases within one flight therefore lead to the
+    same motion. The share of a destination is, apart from the short contacts, the total duration of
+    the flights that lead to it, divided by the period.
     """
     number = len(entries)
     rows = [entries]
@@ -278,14 +288,15 @@ def release_data(case, motions, entries, settling):
     }
 
 
-def settled_motions(oscillator, damper, frequency, seed, settling, workers, found):
-    """Return records of the distinct settled damped motions, in order of rising max |Z1|.
+def settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
+    """Return records of the distinct settled damped motions, by ascending max |Z1|.
 
-    Motions are those of the records `found`, and those reached from random starts within the gap
-    and from the solutions of harmonic balance.
+    The motions are those in the records `known`, and those that random starts within the gap and
+    the solutions of harmonic balance lead to.
     """
     on = pack(oscillator, damper, frequency)
-    # these are starts only, so the solutions for elastic contact serve an inelastic damper too
+    # The solutions are used as starts only, so those for elastic contact also serve an inelastic
+    # damper.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     angle = balance.phase + np.pi / 2
     columns = [
@@ -298,7 +309,7 @@ def settled_motions(oscillator, damper, frequency, seed, settling, workers, foun
         np.tile(on, (len(states), 1)), states, settling, from_strobe=True, workers=workers
     )
     catalogue = Catalogue(on, count())
-    for record in np.concatenate([found, reached]):
+    for record in np.concatenate([known, reached]):
         if is_settled(record):
             catalogue.add(record, "random_start")
     return sorted(catalogue.records, key=lambda record: record["maximum_displacement"])

@@ -1,4 +1,4 @@
-"""What releases are judged by: the free oscillator at one frequency, and the goal."""
+"""The free oscillator at one frequency with its goal, by which releases are judged."""
 
 import math
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from impact_damper.system.settling import Settling
 
 
 class FreeCase(NamedTuple):
-    """The free oscillator at one frequency, its goal, and how its motions are run.
+    """The free oscillator at one frequency, its goal, and the settings of its runs.
 
     Attributes
     ----------
@@ -23,10 +23,11 @@ class FreeCase(NamedTuple):
     goal : int
         Index of the non-resonance motion among them.
     releases : ReleaseSet
-        Of this goal; with a wrong model of the oscillator, the one that the controller knows.
+        Release set of the goal. If the controller has a wrong model of the oscillator, the release
+        set of this model.
     settling : Settling
     workers : int
-        Threads; results do not depend on it.
+        Number of threads, on which results do not depend.
     """
 
     p: np.ndarray
@@ -43,25 +44,26 @@ class FreeCase(NamedTuple):
 
     @property
     def size(self):
-        """Largest displacement of the resonance motion."""
+        """max |Z1| of the resonance motion."""
         return float(self.attractors.records["maximum_displacement"][-1])
 
     def labels(self, states, phase=math.pi / 2, limit=math.inf):
-        """Return labels of states at a phase W T, and the forcing periods until they are known.
+        """Return labels of states at a phase W T, and the forcing cycles until they are known.
 
-        A motion not known after `limit` forcing periods counts as unresolved.
+        A motion whose label is not known after `limit` cycles counts as unresolved.
         """
         most = int(min(self.settling.limit, limit))
-        given = self.attractors, self.settling.tolerance, most, self.workers
-        return label_states(self.p, states, phase, *given)
+        settings = self.attractors, self.settling.tolerance, most, self.workers
+        return label_states(self.p, states, phase, *settings)
 
-    def strobe_states(self, labels, shares):
-        """Return a state at a strobe of each attractor, of one of its passages.
+    def strobe_states(self, labels, draws):
+        """Return for each label a state Z1, Z1' of its attractor at a strobe.
 
-        `shares` are numbers from 0 to 1, which choose the passage.
+        An attractor of period n has n such states. `draws` are numbers between 0 and 1 that select
+        one of them.
         """
         owner = self.attractors.owner
         first = np.searchsorted(owner, labels)
         number = np.searchsorted(owner, labels, side="right") - first
-        passage = np.minimum((shares * number).astype(int), number - 1)
-        return self.attractors.centre[first + passage]
+        place = np.minimum((draws * number).astype(int), number - 1)
+        return self.attractors.centre[first + place]

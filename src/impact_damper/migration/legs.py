@@ -1,9 +1,9 @@
-"""Legs of a run of migration control: stretches between two switchings of the damper.
+"""Legs of a run of migration control: the motions between two switchings of the damper.
 
-A leg begins where the damper is switched, at any phase of the forcing; Z1 and Z1' stay continuous.
-A leg ends at the first strobe (`motions.strobe_map`) at which the motion is near a stable
-orbit, or after a limit. The state is not moved onto that orbit, so that a run is one continuous
-motion.
+A leg begins when the damper is switched, at any phase of the forcing. Z1 and Z1' are continuous at
+the switching. A leg ends at the first strobe (`motions.strobe_map`) at which the motion is near a
+stable orbit, or after a given number of strobes. The state is not moved onto this orbit, so that a
+run is one continuous motion.
 """
 
 import math
@@ -18,15 +18,16 @@ from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_ti
 from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# A run is captured by an orbit after the last strobe at which its distance from the orbit, in Z1
-# or Z1', exceeds this.
+# An orbit captures a run after the last strobe at which the run differs from the orbit by more than
+# CAPTURE in Z1 or Z1'.
 CAPTURE = 0.1
-# Forcing periods in one call of a kernel, a fraction of a second: Ctrl-C waits for its end.
+# Forcing cycles in one call of a kernel. The call takes a fraction of a second, because Ctrl-C
+# waits for its end.
 STROBES_AT_ONCE = 50_000
 
 
 class Stopped(Exception):
-    """A run was ended by another thread."""
+    """Raised in a thread whose run another thread has ended."""
 
 
 def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
@@ -37,20 +38,22 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
     p : array, shape (COUNT,)
         Packed parameters.
     y : array, shape (4,)
-        State at the start; replaced by the last one.
+        State at the beginning, replaced by the last state.
     ahead : float
-        Forcing periods from the start to the first strobe.
+        Forcing cycles from the beginning to the first strobe.
     strobe : float
         Number of the first strobe, counted over all legs of a run.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     limit : int
+        Largest number of strobes.
     path : array, shape (limit + 2, 5)
-        Gets rows (time in forcing periods, state), one at the start and one at each strobe.
+        Receives a row for the beginning and for each strobe: time in forcing cycles, then the
+        state.
     out : records.MOTION
-        Gets outcome, period and periods_run, and the state on the orbit if the motion settled.
+        Receives outcome, period and periods_run, and the state on the orbit if the motion settled.
     stop : array of bool, shape (1,)
-        Set to true by another thread, it ends the run.
+        Another thread may set this flag to end the run.
 
     Raises
     ------
@@ -76,9 +79,9 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Go on with `run` from strobe `first` until before strobe `last`.
+    """Do the part of `run` from strobe `first` to the strobe before `last`.
 
-    Returns the wall in contact, and the distance within which the motion must come of an orbit.
+    Return the wall in contact, and the distance from an orbit that counts as near.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -103,23 +106,23 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop=NEVER):
-    """Wait after a strobe, switch the damper, `run`, and measure the motion if it has settled.
+    """Wait after a strobe, switch the damper, call `run`, and measure a settled motion.
 
     Parameters
     ----------
     before, after : array, shape (packed.COUNT,)
         Packed parameters before and after the switching, one of them without the damper.
     y : array, shape (4,)
-        State at the strobe; replaced by the state at the last strobe.
+        State at the strobe, replaced by the state at the last strobe.
     wait : float
-        Forcing periods from the strobe to the switching.
+        Forcing cycles from the strobe to the switching.
     place : float
-        Z2/d0 of the loose mass when the damper is switched on, at rest relative to the primary;
-        without effect when it is switched off.
+        Z2/d0 of the loose mass when the damper is switched on. The loose mass is then at rest
+        relative to the primary mass. Not used when the damper is switched off.
     strobe : float
         Number of the first strobe.
     tolerance, limit, path, stop
-        As in `run`.
+        Arguments of `run`.
     out : array of records.MOTION, shape (1,)
         Filled by `run` and, for a settled motion, by `measure`.
 
@@ -145,18 +148,18 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop
 
 
 def life(p, path, record, tolerance):
-    """Return the forcing periods after which a run stays within CAPTURE of its final orbit.
+    """Return the forcing cycles after which a run stays within CAPTURE of its final orbit.
 
     Parameters
     ----------
     p : array, shape (COUNT,)
         Packed parameters.
     path : array
-        As from `run`.
+        Path of the run, from `run`.
     record : records.MOTION
-        The motion on which the run settled.
+        The motion that the run settled to.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     """
     orbit = np.empty((record["period"], 4))
     begin = strobe_time(p)

@@ -1,15 +1,16 @@
-"""Policies of migration: when to let go of the damper, and what becomes of each release.
+"""Policies of migration, which decide when to release, and trials of these policies.
 
-A trial begins on the free resonance motion. The damper is switched on at a random phase, with the
-loose mass at rest relative to the primary at a random place in the gap, and switched off (released)
-when the policy says so; the free motion then settles. If it settles on another motion than the goal
-the trial goes on from there.
+Release means switching the damper off. A trial begins on the free resonance motion. The damper is
+switched on at a random phase, with the loose mass at rest relative to the primary mass at a random
+place in the gap. It is released when the policy decides so. Then the free motion settles. If it
+settles to a motion other than the goal, the trial continues with another hold from this motion. A
+hold is the time with the damper on. The policies release
 
-    settled  at a random phase, once the states at the strobes repeat: the paper's policy
-    hold     after a fixed number of cycles
-    phase    after a number of cycles, at a fixed phase of the forcing
-    state    as soon as the measured state lies inside the release set by a margin; after a number
-             of cycles without such a state in any case, for another try
+    settled  at a random phase, after the states at the strobes repeat: the paper's policy
+    hold     after a fixed number of forcing cycles
+    phase    at a fixed phase of the forcing, after a number of cycles
+    state    as soon as the measured state lies inside the release set by a margin, or after a
+             number of cycles without such a state
 """
 
 import math
@@ -26,8 +27,12 @@ from impact_damper.motions.watch import NEAR, RING, nearby_period
 from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 
 SETTLED, HOLD, PHASE, STATE = range(4)
-# Random numbers of a hold: phase of switching on, place of the loose mass, phase of the release.
+# Number of random numbers of a hold: phase of switching on, place of the loose mass, phase of the
+# release.
 DRAWS = 3
+# One hold: whether it ended with a release; forcing cycles and impacts with the damper on; index of
+# the phase and measured depth inside the release set at the release; Z1 and Z1' at the next strobe,
+# and the forcing cycles from the release to this strobe.
 HELD = np.dtype(
     [
         ("released", "?"),
@@ -42,22 +47,25 @@ HELD = np.dtype(
 
 
 class Policy(NamedTuple):
-    """When to release.
+    """A rule that decides when to release.
 
     Attributes
     ----------
     kind : int
         SETTLED, HOLD, PHASE or STATE.
     hold : float
-        Forcing periods with the damper on: exactly for HOLD, at least for PHASE, at most for STATE.
+        Forcing cycles with the damper on. The number is exact for HOLD, the smallest for PHASE and
+        the largest for STATE.
     phase : int
-        Of PHASE: index of the phase among those of the release set.
+        For PHASE, the index of the phase in the release set.
     margin : float
-        Of STATE: least depth inside the release set, in units of Z1.
+        For STATE, the smallest depth inside the release set, in units of Z1.
     noise : float
-        Standard deviation of the error of the measured Z1, and W times it of Z1'.
+        For STATE, the standard deviation of the error of the measured Z1. The standard deviation of
+        the error of Z1' is W times this number.
     delay : int
-        Steps between two phases from a measurement to the release.
+        For STATE, the time from a measurement to the release, in steps of the phases of the release
+        set.
     """
 
     kind: int
@@ -70,7 +78,10 @@ class Policy(NamedTuple):
 
 @kernel_only
 def switch_on(on, off, starts, draws, i, tolerance, y, work):
-    """Run trial i freely to its switching on; set y there, return the time and the wall touched."""
+    """Integrate trial i without the damper up to the time at which the damper is switched on.
+
+    y becomes the state at this time. Return the time and the wall in contact.
+    """
     y[0], y[1], y[2], y[3] = starts[i, 0], starts[i, 1], starts[i, 0], starts[i, 1]
     first = strobe_time(on)
     begin = first + draws[i, 0] * 2.0 * math.pi / on[FREQUENCY]
@@ -81,7 +92,7 @@ def switch_on(on, off, starts, draws, i, tolerance, y, work):
 
 @kernel
 def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, tolerance, held, stop):
-    """Hold the damper in each trial until its release or a limit, and run freely to a strobe.
+    """Integrate each trial with the damper on until the release, then to the next strobe.
 
     Parameters
     ----------
@@ -90,22 +101,21 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
     starts : array, shape (n, 2)
         Z1 and Z1' at the strobe before switching on.
     draws : array, shape (n, DRAWS)
-        Numbers from 0 to 1.
+        Random numbers between 0 and 1.
     limits : array, shape (n,)
-        Forcing periods with the damper on at most.
+        Largest number of forcing cycles with the damper on.
     rules : tuple
-        A `Policy`.
+        The fields of a `Policy`.
     depth, half : array
-        Of the `ReleaseSet`.
+        The attributes of a `ReleaseSet`.
     noise : array, shape (m, 2)
-        Standard normal numbers; each trial begins at another of them.
+        Standard normal numbers. Each trial begins at another of them.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     held : array of HELD, shape (n,)
-        Gets the forcing periods and the impacts with the damper on, the phase and the measured
-        depth at the release, and the state at the next strobe with the forcing periods until then.
+        Receives the results.
     stop : array of bool, shape (1,)
-        Set to true by another thread, it ends the run.
+        Another thread may set this flag to end the run.
     """
     kind, length, wanted, margin, size, delay = rules
     none, work = np.empty((0, 4)), workspace()
@@ -150,9 +160,9 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
                     m = (i * 7919 + k) % len(noise)
                     x = y[0] + size * noise[m, 0]
                     v = y[1] + size * on[FREQUENCY] * noise[m, 1]
-                    found = depth_of(depth, half, phase, x, v)
-                    if found > margin:
-                        out.depth, waiting = found, delay
+                    measured = depth_of(depth, half, phase, x, v)
+                    if measured > margin:
+                        out.depth, waiting = measured, delay
                 if waiting == 0:
                     break
                 waiting -= waiting > 0
@@ -166,9 +176,9 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
 
 
 def hold(on, free, starts, draws, limits, policy, noise):
-    """Return the array of HELD of `hold_many`, computed on several threads.
+    """Return the array of HELD from `hold_many`, computed on several threads.
 
-    `free` is the `FreeCase`.
+    `free` is a `FreeCase`. The other arguments are those of `hold_many`.
     """
     held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
     assert on.shape == free.p.shape == (COUNT,)
@@ -195,16 +205,21 @@ def hold(on, free, starts, draws, limits, policy, noise):
 
 
 class Outcome(NamedTuple):
-    """What became of trials, each an array of shape (n,).
+    """Results of n trials.
 
     Attributes
     ----------
-    reached : whether the goal was reached within the limit
-    cycles : forcing periods from the first switching on to the free motion's settling on the goal,
-        infinite if it is not reached
-    damper : forcing periods with the damper on
-    impacts : contacts begun
-    releases : number of releases
+    reached : numpy.ndarray of bool, shape (n,)
+        Whether the goal was reached within the limit.
+    cycles : numpy.ndarray, shape (n,)
+        Forcing cycles from the strobe before the first switching on until the free motion settles
+        to the goal; infinite if the goal was not reached.
+    damper : numpy.ndarray, shape (n,)
+        Forcing cycles with the damper on.
+    impacts : numpy.ndarray of int, shape (n,)
+        Number of contacts begun.
+    releases : numpy.ndarray of int, shape (n,)
+        Number of releases.
     """
 
     reached: np.ndarray
@@ -222,7 +237,7 @@ class Outcome(NamedTuple):
 
 
 class Draws:
-    """The random numbers of trials, which are the same for each policy with the same seed.
+    """The random numbers of trials. Policies with the same seed have the same random numbers.
 
     Attributes
     ----------
@@ -235,9 +250,10 @@ class Draws:
         self.noise = self._generator.standard_normal((4096 + trials, 2))
 
     def following(self):
-        """Return numbers from 0 to 1 for the next hold of each trial, shape (trials, DRAWS + 1).
+        """Return numbers between 0 and 1 for the next hold of each trial.
 
-        The last one chooses the passage of the free motion at which the hold begins.
+        The array has the shape (trials, DRAWS + 1). The last number selects the state of the free
+        motion with which the hold begins.
         """
         return self._generator.random((self._trials, DRAWS + 1))
 
@@ -245,7 +261,7 @@ class Draws:
 def run_trials(on, free, policy, trials, limit, seed, examined=None):
     """Return the `Outcome` of trials of a policy.
 
-    A free motion counts as settled in a proven neighbourhood of an attractor.
+    A free motion counts as settled when it is in a proven neighbourhood of an attractor.
 
     Parameters
     ----------
@@ -255,10 +271,10 @@ def run_trials(on, free, policy, trials, limit, seed, examined=None):
     policy : Policy
     trials : int
     limit : float
-        Forcing periods after which a trial ends.
+        Forcing cycles after which a trial ends.
     seed : int or sequence of int
     examined : int, optional
-        Number of the first trials that are run; all of them by default.
+        Only the first `examined` trials are run; by default all trials.
     """
     random, examined = Draws(seed, trials), examined or trials
     place = np.full(examined, free.resonance)
@@ -269,17 +285,17 @@ def run_trials(on, free, policy, trials, limit, seed, examined=None):
         starts = free.strobe_states(place[open_], draws[:, DRAWS])
         left = limit - spent[open_]
         held = hold(on, free, starts, draws[:, :DRAWS].copy(), left, policy, random.noise)
-        let_go = np.flatnonzero(held["released"])
-        labels, periods = free.labels(held["state"][let_go])
+        released = np.flatnonzero(held["released"])
+        labels, periods = free.labels(held["state"][released])
         outcome.damper[open_] += held["cycles"]
         outcome.impacts[open_] += held["impacts"]
         spent[open_] += held["cycles"]
-        let = open_[let_go]
-        spent[let] += held["ahead"][let_go] + periods
-        outcome.releases[let] += 1
-        outcome.reached[let] = (labels == free.goal) & (spent[let] <= limit)
-        place[let] = np.where(labels >= 0, labels, free.resonance)
-        going = ~outcome.reached[let] & (spent[let] < limit) & (labels != free.goal)
-        open_ = let[going]
+        rows = open_[released]
+        spent[rows] += held["ahead"][released] + periods
+        outcome.releases[rows] += 1
+        outcome.reached[rows] = (labels == free.goal) & (spent[rows] <= limit)
+        place[rows] = np.where(labels >= 0, labels, free.resonance)
+        going = ~outcome.reached[rows] & (spent[rows] < limit) & (labels != free.goal)
+        open_ = rows[going]
     outcome.cycles[outcome.reached] = spent[outcome.reached]
     return outcome

@@ -1,4 +1,7 @@
-"""Holds of the damper recorded at even phases, and where releases from them lead."""
+"""Record motions with the damper on, and label the free motions after releases from them.
+
+A hold is a time with the damper on, which ends with a release (switching the damper off).
+"""
 
 import math
 from typing import NamedTuple
@@ -15,22 +18,24 @@ from impact_damper.system.packed import FREQUENCY
 
 
 class Recording(NamedTuple):
-    """Holds with the damper on, at moments of even phases.
+    """States of n holds at moments with the phases of the release set.
+
+    The phases divide a forcing cycle evenly. A step is the time between two phases.
 
     Attributes
     ----------
     begin : numpy.ndarray, shape (n,)
-        Time of the switching on, in steps between two phases.
+        Time of the switching on, in steps.
     limits : numpy.ndarray, shape (n,)
-        Forcing periods at the end of each hold.
+        Length of each hold in forcing cycles.
     states : numpy.ndarray, shape (n, moments, 2)
-        Z1 and Z1'; not defined beyond the end of a hold.
+        Z1 and Z1'; undefined beyond the end of a hold.
     depth : numpy.ndarray, shape (n, moments)
         Depth inside the release set; NaN beyond the end of a hold.
     impacts : numpy.ndarray of int, shape (n, moments)
-        Contacts begun until then.
+        Number of contacts begun before each moment.
     phases : int
-        Phases in a forcing period.
+        Number of phases in a forcing cycle.
     """
 
     begin: np.ndarray
@@ -41,15 +46,15 @@ class Recording(NamedTuple):
     phases: int
 
     def phase(self, rows, moments):
-        """Return the index of the phase of moments; `rows` and `moments` are indices of them."""
+        """Return the index of the phase at moments, which are given by their two indices."""
         return (np.floor(self.begin[rows]).astype(int) + 1 + moments) % self.phases
 
     def cycles(self, rows, moments):
-        """Return the forcing periods from the switching on to moments."""
+        """Return the forcing cycles from the switching on to moments."""
         return (1 + moments - self.begin[rows] % 1) / self.phases
 
     def ahead(self, rows, moments):
-        """Return the forcing periods from moments to the next strobe."""
+        """Return the forcing cycles from moments to the next strobe."""
         return (self.phases // 4 - self.phase(rows, moments)) % self.phases / self.phases
 
 
@@ -57,16 +62,16 @@ class Recording(NamedTuple):
 def record_many(
     on, off, starts, draws, limits, inside, half, tolerance, states, depth, impacts, stop
 ):
-    """Write the states at even phases with the damper on.
+    """Fill the arrays of a `Recording`.
 
     Parameters
     ----------
     on, off, starts, draws, limits, tolerance, stop
-        As of `policies.hold_many`.
+        Arguments of `policies.hold_many`.
     inside, half : array
-        Of the `ReleaseSet`.
+        The attributes `depth` and `half` of a `ReleaseSet`.
     states, depth, impacts : array, shape (n, moments, 2) and (n, moments)
-        Get Z1 and Z1', the depth inside the release set and the contacts begun.
+        Receive the attributes of `Recording` with these names.
     """
     none, work, y = np.empty((0, 4)), workspace(), np.empty(4)
     period = 2.0 * math.pi / on[FREQUENCY]
@@ -91,7 +96,10 @@ def record_many(
 
 
 def record(on, free, starts, draws, limits) -> Recording:
-    """Return the `Recording` of holds, run on several threads; arguments of `policies.hold`."""
+    """Return the `Recording` of holds, run on several threads.
+
+    The arguments are those of `policies.hold`.
+    """
     phases = len(free.releases.depth)
     shape = len(starts), math.ceil(np.max(limits) * phases)
     states, depth = np.empty((*shape, 2)), np.full(shape, np.nan)
@@ -115,30 +123,37 @@ def record(on, free, starts, draws, limits) -> Recording:
 
     work(slice(0, 0))
     ensemble.run_chunks(work, len(starts), free.workers, None, stop, size=8)
-    # the strobe is a quarter of a period after phase 0
+    # A strobe is a quarter of a cycle after phase 0.
     return Recording(phases * (0.25 + draws[:, 0]), limits, states, depth, impacts, phases)
 
 
 def label_moments(free, recording, rows, moments, latest):
-    """Return the labels of free motions from moments, and the forcing periods until arrival.
+    """Label the free motions that follow releases at recorded moments.
 
     Parameters
     ----------
     free : FreeCase
     recording : Recording
     rows, moments : array of int, shape (m,)
-        Indices of the moments.
+        Indices of the hold and of the moment of each release.
     latest : array, shape (m,)
-        Forcing periods from the switching on after which an arrival is of no interest; the label
-        is then UNRESOLVED.
+        Forcing cycles from the switching on after which an arrival does not count. The label is
+        then UNRESOLVED.
+
+    Returns
+    -------
+    labels : numpy.ndarray of int, shape (m,)
+        Index of the attractor, or a negative label of `attraction.labels`.
+    times : numpy.ndarray, shape (m,)
+        Forcing cycles from the switching on until the label is known.
     """
     labels, periods = np.full(len(rows), UNRESOLVED), np.zeros(len(rows), int)
     strobe = recording.cycles(rows, moments) + recording.ahead(rows, moments)
     every = recording.phase(rows, moments)
     for phase in np.unique(every):
-        here = np.flatnonzero(every == phase)
-        states = recording.states[rows[here], moments[here]]
-        left = max(0.0, np.ceil(np.max((latest - strobe)[here])))
+        same = np.flatnonzero(every == phase)
+        states = recording.states[rows[same], moments[same]]
+        left = max(0.0, np.ceil(np.max((latest - strobe)[same])))
         angle = 2 * math.pi * phase / recording.phases
-        labels[here], periods[here] = free.labels(states, angle, left)
+        labels[same], periods[same] = free.labels(states, angle, left)
     return labels, strobe + periods

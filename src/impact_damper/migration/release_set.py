@@ -1,8 +1,9 @@
-"""The release set: states and phases with the damper on whose free motion settles on the goal.
+"""The release set: states and phases from which the free motion settles to the goal.
 
-The goal is the non-resonance motion. Its basin in the free oscillator is labelled on a grid of
-states at each of several phases of the forcing; each state of the grid gets its distance from the
-boundary, positive inside. The distance is in units of Z1, with Z1' divided by the frequency W.
+The goal is the non-resonance motion. If the damper is switched off at a state and phase of the
+release set, the free motion settles to the goal. The set is computed on a grid of states at each of
+several phases of the forcing. Each state of the grid has a depth: its distance from the boundary of
+the set, positive inside. The distance is in units of Z1, with Z1' divided by the frequency W.
 """
 
 import math
@@ -15,19 +16,19 @@ from impact_damper.attraction.labels import label_states
 from impact_damper.kernel.compiling import kernel
 from impact_damper.system.packed import FREQUENCY
 
-# Half width of the grid over the size of the free resonance motion, in Z1 and in Z1' over W.
+# Half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the free resonance motion.
 WIDTH = 1.6
-# Cells of the fine grid to a cell of the coarse one, along an axis; a power of 2.
+# Number of cells of the fine grid in a cell of the coarse grid, along an axis; a power of 2.
 REFINED = 4
 
 
 class ReleaseSet(NamedTuple):
-    """Distances inside the goal's basin on a grid of states at even phases from 0.
+    """Depth of the states of a grid inside the release set, at phases that divide a cycle evenly.
 
     Attributes
     ----------
     depth : numpy.ndarray, shape (phases, cells, cells)
-        Distance from the boundary for each phase, Z1' and Z1; negative outside the basin.
+        Distance from the boundary for each phase, Z1' and Z1; negative outside the set.
     half : numpy.ndarray, shape (2,)
         Half widths of the grid in Z1 and Z1'.
     """
@@ -44,8 +45,8 @@ class ReleaseSet(NamedTuple):
 def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> ReleaseSet:
     """Return the release set of a free oscillator.
 
-    A mirrored state half a period later leads to the mirrored motion, so that half of the phases
-    are labelled only; the goal is its own mirror image.
+    A mirrored state half a cycle later leads to the mirrored motion, and the goal is its own mirror
+    image. Therefore only half of the phases are computed.
 
     Parameters
     ----------
@@ -57,11 +58,11 @@ def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> Rele
     phases : int
         Even number of phases.
     cells : int
-        States on each axis of the coarse grid; the grid is REFINED times finer where states that
-        lead to different motions are neighbours.
+        Number of states on each axis of the coarse grid. Near the boundary of the set the grid is
+        REFINED times finer.
     settling : Settling
     workers : int
-        Threads.
+        Number of threads.
     """
     size = attractors.records["maximum_displacement"][-1]
     half = WIDTH * size * np.array([1.0, p[FREQUENCY]])
@@ -78,38 +79,42 @@ def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return which cells of a grid lie inside a set, shape (n, n) with n = REFINED cells."""
-    found = inside(_centres(half, cells)).reshape(cells, cells)
+    """Return the mask of the cells of the fine grid that lie inside a set, shape (n, n).
+
+    n is REFINED times `cells`. The function `inside` of states tells which states lie inside. It is
+    called for all cells of the coarse grid, and on finer grids only near the boundary.
+    """
+    mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
-        # cells with a different neighbour, and their neighbours
-        edge = maximum_filter(found, 3) != minimum_filter(found, 3)
-        fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (found, edge))
+        # The cells at the boundary: those with a different neighbour, and their neighbours.
+        edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
+        fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (mask, edge))
         cells *= 2
         fine[edge] = inside(_centres(half, cells)[edge.ravel()])
-        found = fine
-    return found
+        mask = fine
+    return mask
 
 
 def _centres(half, cells):
-    """Return the centres of the cells of a grid, shape (cells^2, 2), Z1 running fastest."""
+    """Return the centres of the cells of a grid, shape (cells^2, 2), in rows of equal Z1'."""
     middles = (np.arange(cells) + 0.5) * 2 / cells - 1
     return np.stack(np.meshgrid(half[0] * middles, half[1] * middles), axis=-1).reshape(-1, 2)
 
 
 def signed_distance(inside):
-    """Return the distance of cells from the boundary of a set in cells, negative outside."""
+    """Return the distance of each cell from the boundary of a set, in cells, negative outside."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # the boundary is midway between cells
+    # The boundary lies midway between the centres of two cells.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)
 
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return how far inside the release set a state at a phase of the grid lies.
+    """Return the depth of a state inside the release set at a phase.
 
-    The value of the cell that holds the state; minus infinity beyond the grid.
+    It is the value of the cell that contains the state. Beyond the grid it is minus infinity.
     """
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf

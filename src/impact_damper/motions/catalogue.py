@@ -5,12 +5,13 @@ import numpy as np
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.motions.matching import SIMILAR, size_ratio
 
-# Motions whose max |Z1| differs relatively by less are the same, if periods and contacts agree.
-# The same limit tells a symmetric motion by its asymmetry.
+# Motions of equal period and contacts are the same if max |Z1| differs relatively by less than
+# SAME. A motion is symmetric if its asymmetry is below SAME.
 SAME = 1e-6
-# Differences of max |Z1| below this one are rounding, for a machine that has come to rest.
+# Differences of max |Z1| below ROUNDING are rounding errors, for a machine that has come to rest.
 ROUNDING = 1e-11
-# Outcomes of which all motions are the same: their displacement is infinite, or 0.
+# All motions with the same one of these outcomes are the same motion, because their displacement is
+# infinite or 0.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 
 
@@ -22,7 +23,7 @@ class Catalogue:
     p : array, shape (packed.COUNT,)
         Packed parameters.
     numbering : iterator of int
-        Gives new motions their numbers.
+        Numbers for new motions.
 
     Attributes
     ----------
@@ -30,10 +31,10 @@ class Catalogue:
     numbers : list of int
         Numbers of the motions, unique over the sweep.
     origins : list of int
-        Flags of `origin`: how each motion was first reached, from a random start, from a placed
-        one, or by Newton's method only.
+        Flags of `origin`, which state whether each motion was first found from a random start, from
+        a placed start, or by Newton's method.
     starts : list of int
-        Numbers of random starts that lead to the motions.
+        For each motion the number of random starts that lead to it.
     """
 
     def __init__(self, p, numbering):
@@ -56,9 +57,9 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Return the index of a motion, which is entered if it is new.
+        """Return the index of a motion, and enter it if it is new.
 
-        Of two records of one motion that has not settled the larger is kept.
+        Of two records of the same motion the one with the larger displacement is kept.
         """
         i = self.find(record)
         if i is None:
@@ -73,5 +74,5 @@ class Catalogue:
         return i
 
     def order(self):
-        """Return the indices of the motions in order of falling max |Z1|."""
+        """Return the indices of the motions by descending max |Z1|."""
         return np.argsort([record["maximum_displacement"] for record in self.records])[::-1]

@@ -1,7 +1,7 @@
 """Run many motions on several threads, with a progress bar.
 
-Kernels, the compiled functions, release the interpreter lock, so threads run in parallel. Each
-motion is computed by itself, so results do not depend on the number of threads.
+Kernels (compiled functions) release Python's global interpreter lock, so threads run in parallel.
+Each motion is computed separately, so results do not depend on the number of threads.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -17,7 +17,7 @@ from impact_damper.system.bounds import check_count
 from impact_damper.system.packed import FREQUENCY
 from impact_damper.system.settling import Settling
 
-# Number of motions that a thread takes at once.
+# Number of motions in one call of a kernel by a thread.
 CHUNK = 128
 
 
@@ -28,11 +28,12 @@ def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     ----------
     work : callable
     count, workers : int
+        Length of the range, and number of threads.
     progress : str or None
-        Title of a progress bar.
+        Title of a progress bar; None for no progress bar.
     stop : array of bool, shape (1,)
-        Set to true by an error or Ctrl-C; the call then returns without waiting for slices that
-        have been begun. `work` and the kernels that it calls must end soon once it is true.
+        An error or Ctrl-C sets this flag. The function then returns without waiting for the slices
+        that are being computed, so `work` and its kernels must end soon after the flag is set.
     size : int
         Length of a slice.
     """
@@ -71,16 +72,16 @@ def settle(
         First states Z1, Z1', Z2, Z2'.
     settling : Settling, optional
     start : float
-        Time T of all states, at most one forcing period before the strobe, the phase W T = pi/2 of
-        the forcing with frequency W, and not after it.
+        Time T of all states. It must lie in the forcing cycle that ends with the strobe, at which
+        the forcing has the phase W T = pi/2.
     from_strobe : bool
-        Whether the states are given at the strobe instead.
+        If True, the states are states at the strobe, and `start` is not used.
     workers : int
-        Threads.
+        Number of threads.
     progress : str, optional
-        Title of a progress bar; none is shown without.
+        Title of a progress bar; by default there is no progress bar.
     stop : array of bool, shape (1,), optional
-        Set to true by another thread, it ends the runs; records are then incomplete.
+        Another thread may set this flag to end the runs. The records are then incomplete.
 
     Returns
     -------
@@ -89,7 +90,7 @@ def settle(
     Raises
     ------
     ValueError
-        If parameters or states are not of these shapes.
+        If parameters or states do not have these shapes.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
@@ -99,14 +100,14 @@ def settle(
             f"parameters and states: must be of shapes (m, {packed.COUNT}) and (m, 4), "
             f"{parameters.shape} and {states.shape} given"
         )
-    found = np.zeros(len(states), MOTION)
+    records = np.zeros(len(states), MOTION)
     stop = np.zeros(1, bool) if stop is None else stop
 
     def work(part):
         if from_strobe:
             begins = 0.5 * np.pi / parameters[part, FREQUENCY]
         else:
-            begins = np.full(len(found[part]), start)
+            begins = np.full(len(records[part]), start)
         settle_many(
             parameters[part],
             states[part],
@@ -114,23 +115,24 @@ def settle(
             settling.tolerance,
             settling.patience,
             settling.limit,
-            found[part],
+            records[part],
             stop,
         )
-        name_undecided(parameters[part], found[part], settling.limit, settling.further, stop)
-        measure(parameters[part], settling.tolerance, settling.watched, found[part], stop)
+        name_undecided(parameters[part], records[part], settling.limit, settling.further, stop)
+        measure(parameters[part], settling.tolerance, settling.watched, records[part], stop)
 
-    # Compiles in this thread, where Ctrl-C is heard.
+    # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
     run_chunks(work, len(states), workers, progress, stop)
-    return found
+    return records
 
 
 def collide(parameters, states, limit, tolerance):
-    """Return the number of forcing periods from T = 0 to each motion's first contact, shape (m,).
+    """Return the number of forcing cycles from T = 0 to each motion's first contact, shape (m,).
 
-    Infinite without a contact within `limit` periods; 0 for a state at or beyond a wall. Runs in
-    another thread, so that Ctrl-C is heard. The other arguments are as in `settle`.
+    The number is infinite without a contact within `limit` cycles, and 0 for a state at or beyond a
+    wall. The motions run in another thread, so that Ctrl-C takes effect at once. The other
+    arguments are those of `settle`.
     """
     waits, stop = np.empty(len(states)), np.zeros(1, bool)
 

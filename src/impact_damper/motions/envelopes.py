@@ -1,7 +1,8 @@
 """Envelopes of transients: largest |Z1| and contacts in windows, each with its own parameters.
 
-The kernel of the steps takes a fixed frequency. A sweep is run with one frequency for each forcing
-period, changed at the strobe, where the force is zero: so neither its phase nor the force jumps.
+The kernel of a step requires a fixed forcing frequency. In a sweep the frequency is fixed in each
+forcing cycle and changes at the strobe, where the force is zero. Therefore neither the phase of the
+forcing nor the force jumps.
 """
 
 import numpy as np
@@ -13,31 +14,32 @@ from impact_damper.kernel.single import X, side_of, step, workspace
 from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import strobe_time
 
-# Windows in one call of the kernel, a few milliseconds, since Ctrl-C waits for a kernel to end.
+# Number of windows in one call of the kernel. The call takes a few milliseconds, because Ctrl-C
+# waits for its end.
 AT_ONCE = 1024
 
 
 def envelope(parameters, lengths, y, tolerance):
-    """Run a motion through windows of time, one after the other.
+    """Run a motion through successive windows of time.
 
     Parameters
     ----------
     parameters : array, shape (n, packed.COUNT)
         Packed parameters in each window.
     lengths : array, shape (n,)
-        Times of the windows. Each begins at the strobe, W T = pi/2, so with forcing its length
-        is a forcing period 2 pi/W.
+        Lengths of the windows in units of T. Each window begins at the strobe, W T = pi/2, so with
+        forcing its length must be a forcing cycle 2 pi/W.
     y : array, shape (4,)
-        First state; replaced by the last one, or by that at an escape.
+        First state, replaced by the last state or by the state at an escape.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
 
     Returns
     -------
     largest : numpy.ndarray, shape (n,)
         Largest |Z1| in each window; infinite where the motion escapes, and NaN afterwards.
     contacts : numpy.ndarray, shape (n,)
-        Contacts begun in each window, NaN from an escape on.
+        Number of contacts begun in each window, NaN from the window of an escape on.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -53,7 +55,10 @@ def envelope(parameters, lengths, y, tolerance):
 
 @kernel
 def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
-    """Do the same as `envelope`; return the wall in contact, and whether the motion escaped."""
+    """Fill `largest` and `contacts` of `envelope`.
+
+    Return the wall in contact, and whether the motion escaped.
+    """
     work = workspace()
     none = np.empty((0, 4))
     for k in range(len(lengths)):

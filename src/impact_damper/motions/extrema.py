@@ -1,19 +1,21 @@
-"""The largest absolute value of a polynomial, as of a displacement within a step of the series."""
+"""The largest modulus of a polynomial, such as the displacement within a step of the integrator."""
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.single import polynomial
 
-# Pieces of an interval in each of which a polynomial turns at most once.
+# Number of pieces of an interval. In each piece the polynomial is assumed to have at most one
+# turning point.
 PIECES = 8
 
 
 @kernel
 def extremum(c, order, length, start):
-    """Return the largest |polynomial| over [0, length], or `start` if that is larger.
+    """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    A polynomial exceeds the larger of its two ends by at most length^2/8 times a bound on its
-    second derivative; most calls end there. Otherwise the interval is divided into pieces, and
-    where a piece turns, Newton's method finds the place.
+    The polynomial exceeds the larger of its values at the two ends by at most length^2/8 times a
+    bound on its second derivative. In most calls this bound shows that `start` or an end is
+    largest. Otherwise the interval is divided into pieces, and Newton's method locates the turning
+    point of a piece.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -28,7 +30,7 @@ def extremum(c, order, length, start):
         t = length * piece / PIECES
         value, slope = polynomial(c, order, t)
         best = max(best, abs(value))
-        # it moved outward at the beginning of the piece, or began at the origin, and moves inward
+        # The modulus increases at the beginning of the piece and decreases at its end.
         if slope * fall < 0.0 and value * slope < 0.0:
             best = max(best, abs(turning_value(c, order, t - length / PIECES, t, fall, slope)))
         fall = slope
@@ -37,7 +39,10 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_value(c, order, begin, end, first, last):
-    """Return a polynomial where its slope, `first` at begin and `last` at end, is zero."""
+    """Return the value of a polynomial at its turning point between `begin` and `end`.
+
+    `first` and `last` are the slopes at `begin` and `end`.
+    """
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)

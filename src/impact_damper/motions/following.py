@@ -1,8 +1,9 @@
 """Follow an orbit from one value of a parameter to another, by prediction and correction.
 
-This module steps towards a given value of the parameter and stops at folds; `orbits.continuation`
-steps along the branch itself and passes folds. A step predicts the state at the next value and
-corrects it by Newton's method, which the caller supplies. A step that fails is halved.
+The functions step towards a given value of the parameter and stop at folds. By contrast,
+`orbits.continuation` steps along the branch and passes folds. A step predicts the state at the next
+value of the parameter and corrects it by Newton's method, which is a function of the caller. A step
+that fails is halved.
 """
 
 import math
@@ -16,9 +17,10 @@ from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_sooner
 
 GROWTH = 1.5
-# Stable orbits: largest correction of a predicted state, and of the first state.
+# Stable orbits. REACH: largest correction of a predicted state. NUDGE: largest correction of the
+# first state.
 REACH, NUDGE = 0.03, 1e-3
-# Accuracy to which the end of a branch of stable orbits is located, in units of the parameter.
+# Accuracy, in units of the parameter, to which the end of a branch of stable orbits is located.
 RESOLUTION = 1e-8
 
 
@@ -28,12 +30,12 @@ class Followed(NamedTuple):
     Attributes
     ----------
     values : (float, float)
-        Values of the parameter at the last orbit but one and at the last. Both are the start if no
-        step succeeded.
+        Values of the parameter at the last but one and at the last orbit. Both are the first value
+        if no step succeeded.
     orbits : tuple of two
-        These orbits.
+        The last but one and the last orbit.
     status : str
-        Status that the correction returned for the last step tried.
+        Status that the correction returned for the last attempted step.
     arrived : bool
         Whether the last orbit is at the target.
     """
@@ -45,7 +47,7 @@ class Followed(NamedTuple):
 
     @property
     def value(self):
-        """Parameter of the last orbit."""
+        """Value of the parameter at the last orbit."""
         return self.values[1]
 
     @property
@@ -55,14 +57,14 @@ class Followed(NamedTuple):
 
 
 class StrobeOrbit(NamedTuple):
-    """An orbit, given by its state at the strobe, the phase W T = pi/2 of the forcing.
+    """An orbit represented by its state at the strobe, the phase W T = pi/2 of the forcing.
 
     Attributes
     ----------
     state : numpy.ndarray, shape (4,)
         Z1, Z1', Z2, Z2' at W T = pi/2.
     multiplier : complex
-        Dominant Floquet multiplier, its imaginary part not negative.
+        Dominant Floquet multiplier, with an imaginary part that is not negative.
     """
 
     state: np.ndarray
@@ -86,24 +88,25 @@ def follow(
     Parameters
     ----------
     correct : callable
-        Maps a value and a predicted state, shape (4,), to an orbit with the attribute `state`, or
-        None, and a status.
+        Function of a value of the parameter and a predicted state, shape (4,). It returns an orbit
+        with the attribute `state`, or None if it fails, and a status.
     start, target : float
-        Values of the parameter. The first step tried leads to the target.
+        Values of the parameter. The first attempted step leads from `start` to `target`.
     orbit
-        Orbit at the start.
+        Orbit at `start`.
     shortest : float
-        Following ends when a step fails whose half is shorter.
+        The function stops when a step fails and its half is shorter than this.
     growth : float
         Factor by which a step grows after success.
     reach : float
-        A step also fails if Z1, Z1' or Z2 changes by this or more: it may lead to another orbit.
+        A step also fails if Z1, Z1' or Z2 changes by `reach` or more, because it may have led to
+        another orbit.
     extrapolating : bool
-        Whether predictions extrapolate the last two orbits; otherwise the prediction is the state
-        of the last orbit.
+        If True, the prediction is extrapolated from the last two orbits. Otherwise the prediction
+        is the state of the last orbit.
     behind : optional
-        Orbit at the value 2 start - target, on the other side of the start. Given this orbit, the
-        first prediction extrapolates too.
+        Orbit at the value 2 start - target, on the other side of `start`. With this orbit the first
+        prediction is extrapolated too.
 
     Returns
     -------
@@ -118,10 +121,10 @@ def follow(
         state = orbit.state.copy()
         if extrapolating and behind is not None:
             extrapolate(state, behind.state, step / last_step)
-        found, status = correct(ahead, state)
-        if found is not None and np.max(np.abs(found.state - orbit.state)[:3]) < reach:
+        corrected, status = correct(ahead, state)
+        if corrected is not None and np.max(np.abs(corrected.state - orbit.state)[:3]) < reach:
             before, behind, last_step = (value, orbit), orbit, step
-            value, orbit = ahead, found
+            value, orbit = ahead, corrected
             step *= growth
         else:
             step /= 2
@@ -137,9 +140,9 @@ def extrapolate(state, before, ratio):
 
 
 def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -> tuple:
-    """Follow a stable orbit while one parameter moves to a target, as far as it goes.
+    """Follow a stable orbit while one parameter changes to a target value, as far as possible.
 
-    An orbit that is no longer stable, or repeats after a divisor of its periods, is not followed.
+    Following stops where the orbit becomes unstable, or where it repeats after fewer cycles.
 
     Parameters
     ----------
@@ -148,29 +151,30 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
     state : array, shape (4,)
         State of the orbit at W T = pi/2.
     periods : int
-        Period of the orbit in forcing periods.
+        Period of the orbit in forcing cycles.
     parameter : int
-        Place in the packed parameters, as `packed.FREQUENCY`.
+        Index in the packed parameters, such as `packed.FREQUENCY`.
     target : float
     resolution : float
-        Accuracy to which the value where following ends is located, in units of the parameter.
+        Accuracy, in units of the parameter, to which the value where following stops is located.
 
     Returns
     -------
     p : numpy.ndarray, shape (COUNT,)
-        Packed parameters of the last orbit; the parameter is exactly the target if it was reached.
+        Packed parameters of the last orbit. The parameter equals `target` exactly if the target was
+        reached.
     orbit : StrobeOrbit
-        The last orbit. Its multiplier is NaN if no orbit was found at the given state.
+        The last orbit. Its multiplier is NaN if no orbit was found near the given state.
     """
-    # kernels would be compiled again for an integer of two bytes
+    # For an integer of two bytes numba would compile the kernels again.
     periods = int(periods)
     p, first = p.copy(), np.array(state, float)
     _, _, multiplier = polish(p, first, periods, NUDGE, POLISH_TOLERANCE)
 
     def correct(value, guess):
         p[parameter] = value
-        found, _, multiplier = polish(p, guess, periods, REACH, POLISH_TOLERANCE)
-        if not found:
+        converged, _, multiplier = polish(p, guess, periods, REACH, POLISH_TOLERANCE)
+        if not converged:
             return None, "not_converged"
         if not abs(multiplier) < 1:
             return None, "unstable"
@@ -188,7 +192,8 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
     """Return the record of a stable orbit followed to a value, or None if it ends before.
 
-    Arguments as in `follow_stable`; `tolerance` is the local error allowed in the measurement.
+    The arguments are those of `follow_stable`. `tolerance` is the largest local error of a step in
+    the measurement.
     """
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -1,6 +1,7 @@
-"""The free motions, those without the damper, at one frequency.
+"""The free motions at one frequency, which are the forced motions without the damper.
 
-A search for motions with the damper must cover at least their displacements and speeds.
+A search for motions with the damper must cover at least the displacements and speeds of the free
+motions.
 """
 
 from functools import lru_cache
@@ -12,21 +13,21 @@ from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import balance_amplitudes, maximum_response
 
-# Phases at which free motions are started with the amplitudes of harmonic balance.
+# Number of phases at which starts with the amplitudes of harmonic balance are placed.
 PHASES = 6
-# Samples per forcing period from which the largest speed of a motion is taken, and most states that
-# are kept of one motion, which may be chaotic.
+# SAMPLES: number of samples in a forcing cycle, from which the largest speed of a motion is taken.
+# MOST_STATES: largest number of states that are stored of one motion, which may be chaotic.
 SAMPLES = 256
 MOST_STATES = 5
 
 
 class FreeMotions(NamedTuple):
-    """What the free oscillator does at one frequency.
+    """States and sizes of the free motions at one frequency.
 
     Attributes
     ----------
     states : numpy.ndarray, shape (k, 2)
-        Z1, Z1' of each distinct motion at T = 0, and at every later forcing period of its period.
+        Z1, Z1' of each distinct motion at T = 0 and after each further forcing cycle of its period.
     displacement, speed : float
         Largest |Z1| and |Z1'| of all these motions.
     """
@@ -38,11 +39,11 @@ class FreeMotions(NamedTuple):
 
 @lru_cache(1024)
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
-    """Find the free motions at one frequency, by running start states until they settle.
+    """Find the free motions at one frequency, by runs from start states.
 
-    Starts are the state of rest, and the amplitudes of harmonic balance and of the resonance peak,
-    each at PHASES phases. Thus motions near a fold are found that harmonic balance does not
-    predict.
+    The starts are the state of rest, and states with the amplitudes of harmonic balance and of the
+    resonance peak, each at PHASES phases. The amplitude of the peak leads to motions near a fold
+    that harmonic balance does not predict.
 
     Parameters
     ----------
@@ -56,10 +57,10 @@ def free_motions(oscillator, frequency, settling) -> FreeMotions:
     sizes = np.append(balance_amplitudes(oscillator, frequency), _peak_amplitude(oscillator))
     turns = np.stack([np.cos(angles), -frequency * np.sin(angles)], axis=1)
     starts = np.concatenate([[(0.0, 0.0)], *(size * turns for size in sizes)])
-    found = ensemble.settle(np.tile(p, (len(starts), 1)), np.tile(starts, 2), settling)
+    motions = ensemble.settle(np.tile(p, (len(starts), 1)), np.tile(starts, 2), settling)
     states, largest, fastest = [], 0.0, 0.0
     known = set()
-    for record in found[np.isfinite(found["maximum_displacement"])]:
+    for record in motions[np.isfinite(motions["maximum_displacement"])]:
         key = record["outcome"], record["period"], f"{record['maximum_displacement']:.5e}"
         if key in known:
             continue
@@ -67,7 +68,7 @@ def free_motions(oscillator, frequency, settling) -> FreeMotions:
         course = _course(p, record["state"], int(record["period"]) or settling.watched)
         largest = max(largest, record["maximum_displacement"])
         fastest = max(fastest, np.max(np.abs(course[:, 1])))
-        # T = 0 comes three quarters of a period after the strobe
+        # T = 0 is three quarters of a cycle after the strobe.
         states.append(course[3 * SAMPLES // 4 :: SAMPLES, :2][:MOST_STATES])
     return FreeMotions(np.concatenate(states or [[(0.0, 0.0)]]), float(largest), float(fastest))
 
@@ -81,7 +82,7 @@ def _peak_amplitude(oscillator):
 
 
 def _course(p, state, periods):
-    """Return samples of a free motion during some forcing periods from a state at the strobe."""
+    """Return samples of a free motion over `periods` cycles from a state at the strobe."""
     begin = strobe_map.strobe_time(p)
     period = 2 * np.pi / p[FREQUENCY]
     times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES

@@ -14,7 +14,7 @@ from impact_damper.system import packed
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.settling import check_settling
 
-# Number of frequencies at which the subharmonic is looked for.
+# Number of frequencies at which the subharmonic is searched for.
 SEARCHED = 81
 
 
@@ -24,12 +24,12 @@ class FreeSubharmonic(NamedTuple):
     Attributes
     ----------
     parameters, states : numpy.ndarray, shapes (n, packed.COUNT) and (n, 4)
-        Packed parameters at the frequencies where the motion was found, and its states at these
-        frequencies at the phase W T = pi/2 of the forcing; empty if it was not found.
+        Packed parameters at the frequencies at which the motion was found, and states of the motion
+        at these frequencies at the phase W T = pi/2. Both are empty if no motion was found.
     ends : numpy.ndarray, shape (2,)
-        Frequencies between which the motion exists, NaN if it was not found.
+        Lowest and highest frequency of the motion, NaN if no motion was found.
     events : numpy.ndarray, shape (2,)
-        Events at these ends, flags of `free_subharmonic_event`.
+        Events at the two ends, flags of `free_subharmonic_event`.
     """
 
     parameters: np.ndarray
@@ -39,11 +39,11 @@ class FreeSubharmonic(NamedTuple):
 
     @property
     def found(self):
-        """Whether there is a subharmonic."""
+        """True if there is a subharmonic."""
         return len(self.states) > 0
 
     def at(self, frequency):
-        """Return a `records.MOTION` at a frequency, or None where the motion does not exist."""
+        """Return the `records.MOTION` at a frequency, or None beyond the ends of the branch."""
         if not self.ends[0] <= frequency <= self.ends[1]:
             return None
         k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))
@@ -66,7 +66,8 @@ def free_subharmonic(
     Returns
     -------
     FreeSubharmonic
-        If there are several branches, the one found at most frequencies.
+        If there are several branches, the branch that was found at the largest number of
+        frequencies.
     """
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
@@ -94,7 +95,9 @@ def free_subharmonic(
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Return states after the damper was switched on at random times during the subharmonic.
+    """Return states of motions in which the damper is switched on during the free subharmonic.
+
+    The damper is switched on at random times.
 
     Parameters
     ----------
@@ -104,13 +107,13 @@ def switched_on(oscillator, p, state, loose, generator):
     state : array, shape (4,)
         State of the free subharmonic at W T = pi/2.
     loose : array, shape (m, 4)
-        Z2 and Z2' at the switching, in the last two columns; every second Z2' is replaced by 0.
+        The last two columns are Z2 and Z2' at the switching. Every second Z2' is replaced by 0.
     generator : numpy.random.Generator
 
     Returns
     -------
     numpy.ndarray, shape (m, 4)
-        States at the beginning of the next forcing period.
+        States at the beginning of the forcing cycle after the switching.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
@@ -127,7 +130,7 @@ def switched_on(oscillator, p, state, loose, generator):
 
 
 def is_subharmonic(data):
-    """Return where motions have settled with a period that is a multiple of 3."""
+    """Return the mask of the settled motions whose period is a multiple of 3."""
     return (data["outcome"][1] == flag("outcome", "settled")) & (data["period"][1] % 3 == 0)
 
 
@@ -137,7 +140,7 @@ def branch_ends(data, branch, grid, rows):
     Parameters
     ----------
     data : dict
-        As from `sweep`.
+        Result of `sweep.sweep`.
     branch : int
     grid : array
         Values of the swept parameter.
@@ -147,8 +150,8 @@ def branch_ends(data, branch, grid, rows):
     Returns
     -------
     ends, events : numpy.ndarray, shape (2,)
-        An end that was not located is the last point of the grid with the branch; its event is
-        sweep_ends if this is the end of the grid, else not_found.
+        If an end was not located, the value is the last point of the grid on the branch. The event
+        is then sweep_ends if this point is the end of the grid, otherwise not_found.
     """
     ends = grid[[min(rows), max(rows)]]
     events = np.full(2, flag("free_subharmonic_event", "not_found"))

@@ -1,22 +1,24 @@
-"""Growth of a tangent along a motion, from which its largest Lyapunov exponent follows.
+"""Growth of a tangent along a motion, from which the largest Lyapunov exponent follows.
 
-The growth is summed over batches of periods, whose scatter gives the standard error.
+A tangent is a solution of the variational equations. The logarithm of its growth is summed over
+batches of forcing cycles. The scatter of the batches gives the standard error.
 """
 
 import math
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 
-# Forcing periods of a batch, and number of recent batches that must still grow.
+# BLOCK: forcing cycles of a batch. RECENT: number of last batches in which the tangent must grow.
 BLOCK = 10
 RECENT = 5
 
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Normalise a tangent vector after a period; add the logarithm of its growth to the batch.
+    """Normalise a tangent after a forcing cycle, and add the logarithm of its growth to the batch.
 
-    Mean and sum of squares over complete batches, of BLOCK periods, follow Welford's recurrence.
+    `growth` has the fields `periods` to `recent` of `watch.SEEN`. Mean and sum of squares over
+    complete batches are updated by Welford's recurrence.
     """
     size = 0.0
     for i in range(4):
@@ -37,9 +39,9 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return mean growth of a batch, its standard error, and whether recent batches grow too.
+    """Return the mean growth of a batch, its standard error, and whether the growth continues.
 
-    Recent batches grow if their average growth is above half the mean.
+    The growth continues if the average over the last RECENT batches exceeds half the mean.
     """
     count = growth.periods // BLOCK
     recent = 0.0

@@ -1,9 +1,9 @@
-"""How long chaotic motions last: mean lives of transients, and bounds on those of attractors.
+"""Lives of chaotic motions: mean lives of transients, and lower bounds on lives of attractors.
 
-A motion that is chaotic for some hundred periods may still be a transient. Runs that begin close
-together on it differ entirely after a few tens of periods, and end at random: their lives are
-exponentially distributed. So the number that end, divided by the time for which all of them last
-together, estimates the rate of ending, whether or not all runs end.
+A motion that is chaotic for some hundred cycles may still be a transient. Runs that begin close
+together on such a motion are independent after a few tens of cycles. They end at random times, and
+their lives are distributed exponentially. The number of runs that end, divided by the sum of the
+lives of all runs, therefore estimates the rate of ending, even if some runs do not end.
 """
 
 from dataclasses import replace
@@ -18,16 +18,17 @@ from impact_damper.motions.settling import settle_many
 from impact_damper.motions.watch import NEAR
 from impact_damper.system.packed import FREQUENCY
 
-# Largest distance by which the runs of one motion differ at the beginning, in Z1 and Z1'.
+# The first states of the runs of one motion differ by at most APART in Z1 and Z1'.
 APART = 1e-4
-# Distance from an orbit at which a transient has ended.
+# A transient ends when its distance from an orbit falls below CAPTURE.
 CAPTURE = 0.1
-# Forcing periods after which a run that has not ended is seen to be chaotic, or not any more.
+# A run that has not ended is continued for CHECKED forcing cycles, to decide whether it is still
+# chaotic.
 CHECKED = 300
 
 
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
-    """Return how long the chaotic motions of a sweep last.
+    """Return the lives of the chaotic motions of a sweep.
 
     Parameters
     ----------
@@ -38,7 +39,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     states : array, shape (n, m, 4)
         States of the motions at the strobe.
     runs, periods : int
-        Runs of each chaotic motion, and forcing periods of a run.
+        Number of runs of each chaotic motion, and forcing cycles of a run.
     seed : int
     settling : Settling
     **running
@@ -47,40 +48,42 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     Returns
     -------
     dict of numpy.ndarray, shape (n, m)
-        `life_ends`, the number of runs that ended; `mean_life`, in forcing periods, NaN where none
-        ended; `mean_life_lower` and `mean_life_upper`, the ends of its 95 % interval, infinite
-        above where none ended. NaN (-1 for the number) for motions that are not chaotic.
+        `life_ends`: number of runs that ended. `mean_life`: mean life in forcing cycles, NaN if no
+        run ended. `mean_life_lower` and `mean_life_upper`: ends of its 95 % interval; the upper end
+        is infinite if no run ended. For motions that are not chaotic the number is -1 and the other
+        values are NaN.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
-    found = {"life_ends": np.full(outcomes.shape, -1)}
+    table = {"life_ends": np.full(outcomes.shape, -1)}
     for name in ("mean_life", "mean_life_lower", "mean_life_upper"):
-        found[name] = np.full(outcomes.shape, np.nan)
+        table[name] = np.full(outcomes.shape, np.nan)
     if len(chaotic) == 0 or runs == 0:
-        return found
+        return table
     rows = np.repeat(parameters[chaotic[:, 0]], runs, axis=0)
     starts = np.repeat(states[tuple(chaotic.T)], runs, axis=0)
     starts[:, :2] += np.random.default_rng([seed, runs]).uniform(-APART, APART, (len(starts), 2))
     lives = _lives(rows, starts, periods, settling, **running).reshape(-1, runs)
     for place, own in zip(map(tuple, chaotic), lives, strict=True):
         rate, lower, upper = escape_rate(own, periods, lead=0)
-        found["life_ends"][place] = np.sum(own <= periods)
-        found["mean_life"][place] = 1 / rate if rate > 0 else np.nan
-        found["mean_life_lower"][place] = 1 / upper
-        found["mean_life_upper"][place] = 1 / lower if lower > 0 else np.inf
-    return found
+        table["life_ends"][place] = np.sum(own <= periods)
+        table["mean_life"][place] = 1 / rate if rate > 0 else np.nan
+        table["mean_life_lower"][place] = 1 / upper
+        table["mean_life_upper"][place] = 1 / lower if lower > 0 else np.inf
+    return table
 
 
 def _lives(parameters, states, periods, settling, **running):
-    """Return the periods after which each run ends, more than `periods` for a run that lasts.
+    """Return the life of each run in forcing cycles; for a run that does not end `periods` + 1.
 
-    A run that ends approaches an orbit before it is found to have settled; this time, which follows
-    from the multiplier of the orbit, is not part of its life.
+    A run that ends approaches an orbit for some time before it is detected as settled. This time is
+    computed from the multiplier of the orbit and subtracted.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # with this patience no run is stopped as chaotic, and no tangent is followed
+        # The patience exceeds the limit, so no run is stopped as chaotic, and no tangent is
+        # computed.
         settle_many(
             parameters[part],
             states[part],
@@ -103,7 +106,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # a run that is not chaotic any more ended shortly before
+    # A run that is no longer chaotic ended shortly before its last cycle.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

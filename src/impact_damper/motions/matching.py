@@ -1,22 +1,22 @@
-"""Match motions that settle on no orbit from one value of a swept parameter to the next.
+"""Match motions that do not settle to an orbit between neighbouring values of a swept parameter.
 
-A motion that settles keeps its identity because its orbit is followed by Newton's method
-(`motions.sweep`). Chaotic and quasi-periodic motions, and those without contact, are matched by
-what they have in common: outcome, period and size, the closest sizes first, one to one. A chaotic
-motion may be small for as long as it is measured. It is then known by how far it reached in the
-second half of its run.
+A settled motion is identified by following its orbit with Newton's method (`motions.sweep`).
+Chaotic motions, quasi-periodic motions and motions without contact are matched in pairs if they
+have the same outcome and period and similar sizes; pairs with the closest sizes are matched first.
+A chaotic motion may be small during its measurement. Therefore its reach, the largest distance from
+the origin in the second half of its run, is compared too.
 """
 
 import math
 
 from impact_damper.data.datasets import is_settled
 
-# Motions that have not settled are the same if their sizes differ by a smaller factor.
+# Two motions that have not settled can be the same if the ratio of their sizes is below SIMILAR.
 SIMILAR = 1.5
 
 
 def match_unsettled(first, second) -> list:
-    """Return pairs of indices of motions at neighbouring values that are the same motion.
+    """Return the pairs of indices of motions at two neighbouring values that are the same motion.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def match_unsettled(first, second) -> list:
     Returns
     -------
     list of (int, int)
-        Each motion is in one pair at most.
+        Each motion is in at most one pair.
     """
     pairs = sorted(
         (ratio, i, j)
@@ -45,16 +45,16 @@ def match_unsettled(first, second) -> list:
 
 
 def size_ratio(one, other):
-    """Return the larger of the sizes of two motions divided by the smaller one.
+    """Return the ratio of the sizes of two motions, larger over smaller.
 
-    The size is max |Z1|. Of motions without a period it is how far they reached, if these distances
-    are closer; in a free decay these distances are 0. The ratio is 1 if both motions are infinite,
-    or both are at rest.
+    The size is max |Z1|. For motions without a period the ratio of the fields `reach` is returned
+    if it is closer to 1; in an unforced decay these fields are 0. The ratio is 1 if both motions
+    are infinite, or if both are at rest.
 
     Parameters
     ----------
     one, other : records.MOTION
-        Of the same period.
+        Two motions of the same period.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

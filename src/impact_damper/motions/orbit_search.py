@@ -1,9 +1,9 @@
-"""Stable orbits by Newton's method, beside the motions that starts lead to.
+"""Find stable orbits by Newton's method, beside the motions that starts lead to.
 
-Some stable orbits attract so few states that hardly a random start leads to one. On most of these
-orbits the primary mass moves nearly as in another motion of the same system, and the loose mass
-differently. So Newton's method starts with the primary mass on a known motion and the loose mass
-anywhere in its gap.
+Some stable orbits attract so few states that hardly any random start leads to them. On most of
+these orbits the primary mass moves nearly as in another motion of the same system, while the loose
+mass moves differently. Therefore the first guesses of Newton's method have the primary mass on a
+known motion and the loose mass anywhere in the gap.
 """
 
 import numpy as np
@@ -12,13 +12,13 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import distance, flow, polish, strobe_time
 from impact_damper.system.packed import CLEARANCE
 
-# Longest period looked for, in forcing periods.
+# Longest period of an orbit, in forcing cycles.
 LONGEST = 5
 # Largest distance of an orbit from its start, divided by the largest displacement or speed of the
 # primary mass in the known motions, or by the clearance if it is larger. Twice as far, Newton's
 # method takes four times as long and finds hardly more.
 REACH = 1.0
-# Orbits whose states differ by less are the same.
+# Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
 
 

@@ -1,6 +1,6 @@
 """Measurements of motions: largest |Z1|, contacts, harmonics, sampled states, first collisions.
 
-A record is an element of an array of the type MOTION; it holds what is known of one motion.
+A record is an element of an array of the type MOTION. It holds the results for one motion.
 """
 
 import math
@@ -15,13 +15,13 @@ from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# A first harmonic below this share of the first harmonic of Z1 is rounding and has no phase.
+# A reference harmonic below PHASELESS times the harmonic of Z1 is a rounding error without a phase.
 PHASELESS = 1e-9
-# Samples per forcing period from which harmonics are computed.
+# Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
-# Steps of a trace in one call of its kernel, a fraction of a second.
+# Number of steps of a trace in one call of its kernel, which takes a fraction of a second.
 STEPS_AT_ONCE = 50_000
-# Argument `stop` of runs that no other thread can stop.
+# Argument `stop` of runs that no other thread stops.
 NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
@@ -36,6 +36,15 @@ NEVER = np.zeros(1, bool)
     QUASI_PERIODIC,
     DRIFTING,
 ) = range(9)
+# `watch.watch` fills the fields from `outcome` to `reach`, and `measure` the other fields. Some
+# fields:
+# period           period of the orbit in forcing cycles, 0 without an orbit
+# periods_run      forcing cycles until the outcome was known
+# multiplier       dominant Floquet multiplier of the orbit
+# residual         largest difference between the state and the state a period later
+# first_frequency, second_frequency, frequency_error: of a quasi-periodic motion
+# state            last state at the strobe, of a settled motion the state on the orbit
+# reach            largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe in the second half of the run
 MOTION = np.dtype(
     [
         ("outcome", "i1"),
@@ -61,9 +70,10 @@ MOTION = np.dtype(
 
 @kernel_only
 def series_of_step(work, side, y, t):
-    """Return Z1, Z1', Z2 and Z2' at the time t within a step from y.
+    """Return Z1, Z1', Z2 and Z2' at the time t within a step from the state y.
 
-    In contact (side not 0) the third number is not Z2 but the penetration, signed as the wall.
+    In contact (side not 0) the third number is the penetration in place of Z2, with the sign of the
+    wall.
     """
     if side == 0:
         x, v = polynomial(work[X:], FLIGHT_ORDER, t)
@@ -75,7 +85,7 @@ def series_of_step(work, side, y, t):
 
 @inlined
 def measure_one(p, y, periods, tolerance, out, stop):
-    """Do the same as `measure`, for one motion and a given number of forcing periods."""
+    """Do the same as `measure` for one motion and a given number of forcing cycles."""
     work = workspace()
     none = np.empty((0, 4))
     period = 2.0 * math.pi / p[FREQUENCY]
@@ -120,7 +130,7 @@ def measure_one(p, y, periods, tolerance, out, stop):
 
 @inlined
 def measure_nothing(out):
-    """Fill the measurements of a motion that goes to infinity."""
+    """Fill the measurements of a motion that diverges or escapes."""
     out.maximum_displacement = np.inf
     out.contacts, out.asymmetry = np.nan, np.nan
     out.harmonic_displacement, out.harmonic_relative = (
@@ -131,19 +141,20 @@ def measure_nothing(out):
 
 @kernel
 def measure(parameters, tolerance, watched, out, stop):
-    """Complete the records `out` by measurements that start from their states at the strobe.
+    """Complete the records `out` by measurements that begin at their states at the strobe.
 
-    A motion that has diverged or escaped is infinitely large. Each other motion is integrated over
-    its `period`, or over `watched` forcing periods if that is 0.
+    A motion that has diverged or escaped gets an infinite displacement. Each other motion is
+    integrated over its `period`, or over `watched` forcing cycles if its period is 0. The measured
+    fields are:
 
     - maximum_displacement: largest |Z1|;
-    - contacts: number per forcing period;
-    - asymmetry: distance between the mirrored first state and the state half the measured time
-      later, zero for a symmetric motion; NaN for an even number of periods;
+    - contacts: number of contacts per forcing cycle;
+    - asymmetry: distance between the mirrored first state and the state after half the measured
+      time, zero for a symmetric motion; NaN for an even number of cycles;
     - harmonic_displacement, harmonic_relative: complex amplitudes c of Re(c exp(i W T)) in Z1 and
-      Z2, by the trapezoidal rule with SAMPLES samples per forcing period.
+      Z2, by the trapezoidal rule with SAMPLES samples in a forcing cycle.
 
-    Once `stop[0]` is true, set by another thread, the rest is left as it is.
+    When another thread sets `stop[0]`, the remaining records are not completed.
     """
     for i in range(len(out)):
         if out[i].outcome == DIVERGED or out[i].outcome == ESCAPED:
@@ -154,7 +165,7 @@ def measure(parameters, tolerance, watched, out, stop):
 
 
 def measured(p, y, periods, tolerance):
-    """Return a record with only the fields of `measure`, for `periods` from a state y."""
+    """Return a record with the fields of `measure` only, measured from y over `periods` cycles."""
     records = np.zeros(1, MOTION)
     records["state"] = y
     measure(p[None], tolerance, periods, records, NEVER)
@@ -162,24 +173,24 @@ def measured(p, y, periods, tolerance):
 
 
 def trace(p, y, t, times, tolerance, states, log):
-    """Trace a motion: its states at given times, and a log of its contacts.
+    """Compute the states of a motion at given times, and a log of its contacts.
 
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
         Packed parameters.
     y : array, shape (4,)
-        State at time t; replaced by the last state.
+        State at time t, replaced by the last state.
     t : float
     times : array, shape (n,)
-        Increasing times, none before t.
+        Increasing times, not before t.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     states : array, shape (n, 4)
-        Gets the states; NaN after the motion has escaped (`kernel.equation.no_return`).
+        Receives the states; NaN after the motion has escaped (`kernel.equation.no_return`).
     log : array, shape (m, 5)
-        Gets a row for each contact: wall, beginning, end, and Z2' at both. Contacts beyond m are
-        counted only.
+        Receives a row for each of the first m contacts: wall, beginning, end, and Z2' at the
+        beginning and the end. Further contacts are only counted.
 
     Returns
     -------
@@ -201,9 +212,9 @@ def trace(p, y, t, times, tolerance, states, log):
 
 @kernel
 def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
-    """Go on with `trace` for at most STEPS_AT_ONCE steps, since Ctrl-C waits for a kernel to end.
+    """Do at most STEPS_AT_ONCE steps of `trace`, because Ctrl-C waits for a kernel to end.
 
-    Returns the time, the wall in contact, and the numbers of samples and contacts so far.
+    Return the time, the wall in contact, and the numbers of samples and contacts so far.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -213,7 +224,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
             break
         assign(start, y)
         before = side
-        # the last sample is an end of a step, so that y is the state there
+        # The last sample is the end of a step, so y is the state at the last sample.
         left = times[-1] - t
         length, side = step(p, y, none, side, t, left, tolerance, work)
         gone = has_escaped(p, y[0], y[1])
@@ -244,10 +255,10 @@ def record_beginning(log, contacts, side, t, speed):
 
 @kernel
 def first_collisions(parameters, states, limit, tolerance, periods, stop):
-    """Write to `periods` the number of forcing periods from T = 0 to each motion's first contact.
+    """Fill `periods` with the number of forcing cycles from T = 0 to each motion's first contact.
 
-    Infinite without a contact within `limit` periods. Once `stop[0]` is true, set by another
-    thread, the rest is meaningless.
+    The number is infinite without a contact within `limit` cycles. When another thread sets
+    `stop[0]`, the remaining numbers are meaningless.
     """
     none = np.empty((0, 4))
     work = workspace()
@@ -264,13 +275,16 @@ def first_collisions(parameters, states, limit, tolerance, periods, stop):
 
 
 def phase_of(harmonic, reference):
-    """Return phases relative to those of `reference`, radian; NaN where `reference` is rounding."""
+    """Return the phases (radian) of harmonics relative to the phases of `reference`.
+
+    The phase is NaN where `reference` is a rounding error (PHASELESS).
+    """
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
 
 def tabulate(records):
-    """Return registered variables, keyed by name, of an array of records of any shape."""
+    """Return the registered variables, keyed by name, for an array of records of any shape."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
     return {
         "outcome": records["outcome"],

@@ -1,10 +1,11 @@
 """Rotation numbers of quasi-periodic motions, by weighted Birkhoff averages.
 
-On a closed curve that a map turns by a fixed share of a revolution, the rotation number, the
-average of a smooth function over N iterates converges as 1/N. With weights that vanish at both ends
-with all derivatives it converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and
-J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). On a chaotic orbit the weights do not help: there
-the error falls as N^(-1/2). Averages over parts of an orbit therefore tell the two apart.
+A quasi-periodic motion lies on a closed curve at the strobe. The strobe map turns the curve, on
+average by a fraction of a revolution that is called the rotation number. The average of a smooth
+function over N iterates of the map converges as 1/N. With weights that vanish at both ends with all
+derivatives it converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke,
+Nonlinearity 30, 4111-4140, 2017). On a chaotic motion the error falls as N^(-1/2) even with these
+weights. Therefore the averages over parts of an orbit agree only if the motion is quasi-periodic.
 """
 
 import math
@@ -12,28 +13,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Largest difference of the rotation number between parts of an orbit, if it is known.
+# The rotation number counts as known if the results for parts of an orbit differ by at most
+# AGREEMENT.
 AGREEMENT = 1e-8
-# Least share of a revolution that no advance of the angle takes; there the advances are cut.
-GAP = 0.02
-# In the order of their phases: largest turn from point to point, and sum of all turns, whatever
-# their sense, in revolutions.
+# The advances of the angle from point to point, as points on a circle, must leave an interval of at
+# least INTERVAL revolutions empty. The circle is cut in this interval.
+INTERVAL = 0.02
+# The points of an orbit are sorted by their phases. TURN: largest change of the angle between
+# neighbouring points. WANDERING: largest sum of the moduli of all changes. Both in revolutions.
 TURN = 0.05
 WANDERING = 3.0
-# Fewest points of an orbit.
+# Smallest number of points of an orbit.
 FEWEST = 100
 
 
 class Rotation(NamedTuple):
-    """How a map turns a closed curve.
+    """Rotation number of a map on a closed curve.
 
     Attributes
     ----------
     number : float
         Rotation number, revolutions per iterate, from 0 to 1/2.
     error : float
-        Largest difference between the rotation numbers of three halves of the orbit: the first, the
-        middle and the last.
+        Largest difference between the rotation numbers of the first, the middle and the last half
+        of the orbit.
     """
 
     number: float
@@ -41,16 +44,17 @@ class Rotation(NamedTuple):
 
     @property
     def known(self):
-        """Whether the error is at most AGREEMENT."""
+        """True if the error is at most AGREEMENT."""
         return self.error <= AGREEMENT
 
 
 def birkhoff_average(values):
-    """Return the average of values along an orbit, weighted by exp(-1/(t (1 - t))), t from 0 to 1.
+    """Return the average of values along an orbit, weighted by exp(-1/(t (1 - t))).
 
     Parameters
     ----------
     values : array, shape (n,)
+        Values at the times t = k/(n + 1), k = 1 ... n, between 0 and 1.
     """
     t = np.arange(1, len(values) + 1) / (len(values) + 1)
     weights = np.exp(-1 / (t * (1 - t)))
@@ -58,12 +62,14 @@ def birkhoff_average(values):
 
 
 def find_rotation(points):
-    """Return how a map turns the closed curve on which an orbit lies, or None if it lies on none.
+    """Return the `Rotation` of a map on the closed curve on which an orbit lies, or None.
 
-    The rotation number is the average advance of the angle around the average of the points, which
-    are stretched so that they spread equally in all directions: on a slender curve the angle hardly
-    advances but at the two ends, and its average converges slowly. In the order of their phases by
-    this number points on a closed curve go around once; on other sets they jump from side to side.
+    The rotation number is the average advance of the angle around the average of the points.
+    Before, the points are stretched to have the same spread in all directions. On a slender curve
+    the angle would advance mainly at the two ends, and its average would converge slowly. The
+    result is None if the orbit lies on no closed curve. To test this, the points are sorted by the
+    phases that follow from the rotation number. On a closed curve the sorted points go around once;
+    on other sets they jump from side to side.
 
     Parameters
     ----------
@@ -78,13 +84,13 @@ def find_rotation(points):
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # the advances, a set on a circle, are cut open in the widest gap between them
+    # The advances are points on a circle, which is cut in the widest interval between them.
     order = np.sort(advance)
-    gaps = np.diff(order, append=order[0] + 1)
-    widest = np.argmax(gaps)
-    if gaps[widest] < GAP:
+    intervals = np.diff(order, append=order[0] + 1)
+    widest = np.argmax(intervals)
+    if intervals[widest] < INTERVAL:
         return None
-    cut = order[widest] + gaps[widest] / 2
+    cut = order[widest] + intervals[widest] / 2
     advance = (advance - cut) % 1 + cut
     number = birkhoff_average(advance)
     if not _goes_around_once(angle, number):
@@ -95,7 +101,7 @@ def find_rotation(points):
 
 
 def _rounded(points):
-    """Return points relative to their average, stretched to equal spread in all directions."""
+    """Return points relative to their average, stretched to the same spread in all directions."""
     apart = points - birkhoff_average(points)
     plane = np.stack([apart.real, apart.imag])
     spread, axes = np.linalg.eigh(plane @ plane.T)

@@ -1,4 +1,4 @@
-"""Kernels of multiple shooting: runs over segments of an orbit, products of their derivatives."""
+"""Kernels of multiple shooting: runs over segments of an orbit, and products of derivatives."""
 
 import numpy as np
 
@@ -17,7 +17,10 @@ from impact_damper.motions.extrema import extremum
 
 @kernel
 def largest_displacement(p, y, t, end, tolerance):
-    """Return the largest |Z1| of a motion from y, replaced by its last state, between two times."""
+    """Return the largest |Z1| of a motion from the time t to `end`.
+
+    y, the state at t, is replaced by the last state.
+    """
     work, none = workspace(), np.empty((0, 4))
     side, largest = side_of(p, y), abs(y[0])
     while t < end:
@@ -37,12 +40,13 @@ def flow_all(p, states, tangents, times, tolerance):
     p : array, shape (packed.COUNT,)
         Packed parameters.
     states : array, shape (m, 4)
-        States at the beginnings; replaced by those at the ends.
+        States at the beginnings of the segments, replaced by the states at their ends.
     tangents : array, shape (m, 0, 4) or (m, 4, 4)
-        Solutions of the variational equations; replaced.
+        Solutions of the variational equations at the beginnings, replaced by those at the ends.
     times : array, shape (m + 1,)
+        Ends of the segments.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     """
     work, touching = workspace(), 0.0
     for k in range(len(states)):
@@ -55,15 +59,18 @@ def flow_all(p, states, tangents, times, tolerance):
 
 @kernel
 def sweep(factors, basis, triangles):
-    """Carry a basis through factors, A_k Q_(k-1) = Q_k R_k, by Gram and Schmidt's method, twice.
+    """Compute the QR factors of a product of matrices, A_k Q_(k-1) = Q_k R_k.
+
+    Each step orthogonalises by the Gram-Schmidt method, applied twice.
 
     Parameters
     ----------
     factors : array, shape (m, n, n)
+        The matrices A_k.
     basis : array, shape (n, n)
-        Orthonormal columns; replaced by those after the last factor.
+        Orthonormal columns Q_0, replaced by Q_m.
     triangles : array, shape (m, n, n)
-        Gets the upper triangles R_k.
+        Receives the upper triangular matrices R_k.
     """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))

@@ -1,4 +1,4 @@
-"""Run many motions side by side until they settle; `watch` judges each at every strobe."""
+"""Run many motions side by side until they settle. `watch` judges each motion at every strobe."""
 
 import math
 
@@ -23,21 +23,23 @@ from impact_damper.system.packed import FREQUENCY
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions until each has settled, is certainly chaotic, or `limit` periods are gone.
+    """Run each motion until it has settled or is certainly chaotic, for at most `limit` cycles.
 
     Parameters
     ----------
     parameters : array, shape (m, packed.COUNT)
         Packed parameters.
     states : array, shape (m, 4)
+        First states Z1, Z1', Z2, Z2'.
     start : array, shape (m,)
-        Times of the states, not after the first strobe.
+        Times of the first states, not after the first strobe.
     tolerance, patience, limit
-        Of `Settling`.
+        The attributes of `system.settling.Settling`.
     out : array of records.MOTION, shape (m,)
-        Filled by `watch`; `state` is the last one at a strobe, or the one on the orbit.
+        Filled by `watch`. The field `state` receives the last state at a strobe or, for a settled
+        motion, the state on the orbit.
     stop : array of bool, shape (1,)
-        Set to true by another thread, it ends the run; records are then incomplete.
+        Another thread may set this flag to end the run. The records are then incomplete.
     """
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
@@ -71,7 +73,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if it exists, into place m of the pool of motions that run together."""
+    """Enter motion i, if it exists, at index m of the pool of motions that are stepped together."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])

@@ -1,8 +1,8 @@
-"""Simulate one motion, from a given state or a random one.
+"""Simulate one motion, from a given state or a random state.
 
 A state is Z1, Z1', Z2, Z2': the displacement Z1 of the primary mass, its displacement Z2 relative
-to the loose mass, and the velocities of both. A state taken from a dataset carries its phase W T as
-a coordinate, and motions begin there.
+to the loose mass, and both velocities. A state from a dataset has its forcing phase W T as a
+coordinate, and a motion from this state begins at this phase.
 """
 
 import math
@@ -32,19 +32,21 @@ COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_vel
 
 
 def check_state(state, damper):
-    """Return a state as an array of shape (4,), or raise.
+    """Return a state as an array of shape (4,).
 
-    Without a damper the loose mass is at rest in the origin: Z2 = Z1, Z2' = Z1'.
+    Without a damper two numbers suffice. Then Z2 = Z1 and Z2' = Z1', as for a loose mass at rest at
+    the origin.
 
     Raises
     ------
     TypeError, ValueError
-        If the state is not four numbers, or two without a damper, or out of range.
+        If the state does not consist of four numbers (or two without a damper), or if a number is
+        out of range.
 
     Warns
     -----
     UserWarning
-        If the loose mass is farther beyond a wall than the clearance.
+        If the penetration of the loose mass into a wall exceeds the clearance.
     """
     units = getattr(state, "attrs", {}).get("units", "1")
     if units != "1":
@@ -82,19 +84,22 @@ def _warn_of_compression(relative, damper):
 
 
 def carried_phase(state):
-    """Return the phase W T that a state of a dataset carries as a coordinate, or None."""
+    """Return the phase W T that a state of a dataset has as a coordinate, or None."""
     coordinates = getattr(state, "coords", {})
     phases = [coordinates[name].item() for name in PHASES if name in coordinates]
     return check_number("state phase", phases[0]) if phases else None
 
 
 def start_of(state, start, frequency) -> float:
-    """Return the time T of a state: `start`, or the phase of a dataset's state, or 0.
+    """Return the time T of a state.
+
+    It is `start` if this is given, otherwise the time of the phase that a state of a dataset has,
+    otherwise 0.
 
     Raises
     ------
     TypeError, ValueError
-        If `start` is out of range, or at another phase than the state.
+        If `start` is out of range, or if its phase differs from the phase of the state.
     """
     phase = carried_phase(state)
     if start is None:
@@ -110,19 +115,21 @@ def start_of(state, start, frequency) -> float:
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
-    """Draw states uniformly from a ball around the origin.
+    """Return random states, uniform in a ball around the origin.
 
     Parameters
     ----------
     count : int
     radius : float
-        Dimensionless; 2 in the paper. At most 1000 clearances if draws are within the gap.
+        Radius of the ball, dimensionless; 2 in the paper. With `within_gap` at most 1000
+        clearances.
     damper : Damper or None
         Without a damper states are drawn from a disk of (Z1, Z1'), with Z2 = Z1 and Z2' = Z1'.
     seed : int or sequence of int
     within_gap : bool
-        Whether draws with |Z2| beyond the clearance are repeated. There the contact spring is
-        loaded with a large energy. False gives the paper's ball literally.
+        If True, states with |Z2| beyond the clearance are drawn again. In such states the contact
+        spring would store a large energy. If False, all states of the ball are used, as in the
+        paper.
 
     Returns
     -------
@@ -171,28 +178,31 @@ def simulate(
     ----------
     oscillator : Oscillator
     damper : Damper or None
-        None: without the damper.
+        None for a motion without the damper.
     frequency : float
         Forcing frequency W, dimensionless.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' at time `start`, or the state of a dataset, which carries its phase.
+        Z1, Z1', Z2, Z2' at time `start`, or a state of a dataset, which has its phase as a
+        coordinate.
     periods : float
-        Length in forcing periods.
+        Length of the motion in forcing cycles.
     samples : int
-        Samples per forcing period.
+        Samples in a forcing cycle.
     start : float, optional
-        Time of the first state, dimensionless; the forcing is cos(W T). By default that of the
-        phase which the state carries, 0 if it carries none.
+        Time of the first state, dimensionless; the forcing is cos(W T). The default is the time of
+        the phase of the state, or 0 if the state has no phase.
     tolerance : float
-        Error allowed in each step of the integrator, dimensionless.
+        Largest local error of a step of the integrator, dimensionless.
 
     Returns
     -------
     xarray.Dataset
-        Over `time` the state. Over `contact` the contacts: wall (1 or -1, the side of Z2),
-        beginning, end, and Z2' at both (NaN for an end after the last sample). With a
-        softening spring also `escape_time`, from which on the state is NaN, since the motion has
-        gone over a barrier of the spring and reaches infinity in a finite time; NaN if it has not.
+        - Over `time`: the state.
+        - Over `contact`: wall (1 or -1, the sign of Z2), beginning and end of each contact, and Z2'
+          at the beginning and the end. An end after the last sample is NaN.
+        - With a softening spring also the scalar `escape_time`. After this time the motion has
+          crossed a barrier of the spring and reaches infinity in a finite time, and the state is
+          NaN. Without an escape `escape_time` is NaN.
 
     Raises
     ------
@@ -235,7 +245,7 @@ def simulate(
     if oscillator.cubic < 0:
         escaped = np.isnan(states[:, 0])
         data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
-    made = describe(oscillator, damper) | {
+    parameters = describe(oscillator, damper) | {
         "frequency": float(frequency),
         "state": first.tolist(),
         "start": start,
@@ -243,4 +253,4 @@ def simulate(
         "samples": int(samples),
         "tolerance": float(tolerance),
     }
-    return dataset(data, {"time": times}, made, "Motion of the oscillator")
+    return dataset(data, {"time": times}, parameters, "Motion of the oscillator")

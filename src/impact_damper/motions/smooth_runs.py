@@ -1,14 +1,14 @@
-"""Runs of a machine with a tuned absorber, or alone: smooth motions, without contacts.
+"""Integration of a machine with a tuned absorber, or without absorber: smooth motions, no contacts.
 
     x'' = f cos T - h x' - (k + k3 x^2) x - n
     u'' = x'' - n/m,    n = (kappa + kappa3 u^2) u + eta u'
 
-with the displacement x of the machine and u of the machine relative to the absorber; the time T is
-counted in radian of the forcing. The state is (x, x', u, u'). For the machine alone n and 1/m are
-0, and u has no meaning.
+x is the displacement of the machine, and u the displacement of the machine relative to the
+absorber. The time T is the phase of the forcing in radian. The state is (x, x', u, u'). Without an
+absorber n and 1/m are 0, and u has no meaning.
 
-The method is that of SciPy's DOP853, of order 8, with fixed steps: they are short against the
-fastest vibration, so that none has to be rejected.
+The method is that of SciPy's DOP853, of order 8, with fixed steps. The caller chooses steps that
+are short compared with the fastest vibration, so no step has to be rejected.
 """
 
 import math
@@ -23,17 +23,17 @@ FORCE, DAMPING, STIFFNESS, CUBIC, INVERSE_MASS, LINK_STIFFNESS, LINK_DAMPING, LI
 COUNT, SIZE = 8, 4
 STAGES = DOP853.n_stages
 FRACTIONS = DOP853.C[:STAGES].copy()
-# The last row holds the weights of the step itself.
+# Coefficients of the stages; the last row holds the weights of the final sum.
 TABLEAU = np.zeros((STAGES + 1, STAGES))
 TABLEAU[:STAGES] = DOP853.A[:STAGES, :STAGES]
 TABLEAU[STAGES] = DOP853.B
-# Corrections of the place of an extremum within a step.
+# Number of Newton corrections of the time of an extremum within a step.
 CORRECTIONS = 4
 
 
 @kernel
 def run(p, states, numbers, periods, slopes, largest):
-    """Run states over forcing periods, in place, from T = 0 on.
+    """Integrate states over forcing cycles, in place, from T = 0 on.
 
     Parameters
     ----------
@@ -41,14 +41,15 @@ def run(p, states, numbers, periods, slopes, largest):
         Parameters of each run.
     states : numpy.ndarray, shape (n, SIZE)
     numbers : numpy.ndarray of int, shape (n,)
-        Steps in a forcing period.
+        Steps in a forcing cycle.
     periods : int
+        Number of forcing cycles.
     slopes : numpy.ndarray, shape (n, SIZE, SIZE) or (n, 0, SIZE)
-        Is overwritten by derivatives: row j by that of the state with respect to component j of
-        the start. Without rows they are not computed.
+        Receives derivatives of the last state. Row j is the derivative with respect to component j
+        of the first state. With the shape (n, 0, SIZE) no derivatives are computed.
     largest : numpy.ndarray, shape (n, SIZE)
-        Is overwritten by the largest modulus of each component: exact for displacements, of the
-        states after each step for velocities.
+        Receives the largest modulus of each component. For displacements it is the maximum over
+        time, for velocities the maximum over the ends of steps.
     """
     rows = 1 + slopes.shape[1]
     y, here = np.zeros((rows, SIZE)), np.zeros((rows, SIZE))
@@ -85,7 +86,10 @@ def run(p, states, numbers, periods, slopes, largest):
 
 @kernel_only
 def step(p, i, y, force, h, rates, here):
-    """Replace a state and its disturbances by those after a step; `rates`, `here` are memory."""
+    """Replace a state and its disturbances, the rows of y, by their values after a step.
+
+    `rates` and `here` are working memory.
+    """
     for stage in range(STAGES + 1):
         for row in range(len(y)):
             s0 = s1 = s2 = s3 = 0.0
@@ -107,27 +111,27 @@ def step(p, i, y, force, h, rates, here):
 
 
 @kernel_only
-def write_rate(p, i, y, force, found):
-    """Write the rate of a state, row 0, and of its disturbances, the further rows."""
+def write_rate(p, i, y, force, rate):
+    """Write to `rate` the derivatives of a state (row 0) and of its disturbances (other rows)."""
     x, u, factor = y[0, 0], y[0, 2], 1.0
     for row in range(len(y)):
         spring = p[i, STIFFNESS] + factor * p[i, CUBIC] * x * x
         link = p[i, LINK_STIFFNESS] + factor * p[i, LINK_CUBIC] * u * u
         held = link * y[row, 2] + p[i, LINK_DAMPING] * y[row, 3]
         acceleration = force - p[i, DAMPING] * y[row, 1] - spring * y[row, 0] - held
-        found[row, 0] = y[row, 1]
-        found[row, 1] = acceleration
-        found[row, 2] = y[row, 3]
-        found[row, 3] = acceleration - held * p[i, INVERSE_MASS]
+        rate[row, 0] = y[row, 1]
+        rate[row, 1] = acceleration
+        rate[row, 2] = y[row, 3]
+        rate[row, 3] = acceleration - held * p[i, INVERSE_MASS]
         force, factor = 0.0, 3.0
 
 
 @kernel_only
 def note_largest(p, i, y, force, h, rates, ends, largest):
-    """Raise the largest moduli by those within a step and at its end.
+    """Update the largest moduli by those within a step and at its end.
 
-    Within the step a displacement is the polynomial of degree 5 with the displacements, velocities
-    and accelerations at its ends.
+    Within the step a displacement is represented by the polynomial of degree 5 that agrees with
+    displacement, velocity and acceleration at both ends of the step.
     """
     for k in range(SIZE):
         largest[i, k] = max(largest[i, k], abs(y[0, k]))

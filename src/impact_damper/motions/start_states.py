@@ -1,22 +1,23 @@
-"""Start states from which motions are searched for: random ones, and on known free motions.
+"""Start states of a search for motions: random states, and states on known free motions.
 
-If no radius is given, a search is as wide as the machine: it is scaled by the largest displacement
-and speed of the motions without the damper (free motions) at the frequency. These motions are
-simulated until they settle (`free_motions`); harmonic balance only provides states to start them
-from. The starts are of two kinds:
+Without a given radius, the range of a search is scaled by the largest displacement and speed of the
+free motions (forced motions without the damper) at the frequency. The free motions are simulated
+until they settle (`free_motions`); harmonic balance only provides starts for these simulations. The
+starts of a search are of two kinds:
 
-- random: the primary mass anywhere up to SPREAD times these scales, with sizes spread evenly over
-  their logarithm, so that small and large motions are tried alike;
-- placed: the primary mass on each free motion and at rest, the loose mass in several places with
-  several velocities; the solutions of harmonic balance with contacts; and the ends of slow ramps of
-  the frequency, upward and downward, and of the force, downward, to the values of the system. On a
-  ramp a motion stays on its branch, so that ramps reach the violent motions of weakly damped
-  machines, whose basins are so small that hardly a random start lies in them.
+- random: the state of the primary mass has a random direction, and its size goes up to SPREAD times
+  these scales. Sizes are distributed evenly on a logarithmic scale, so that small and large motions
+  are found equally well.
+- placed: the primary mass on each free motion and at rest, with the loose mass at several places
+  and with several velocities; the solutions of harmonic balance with contacts; and the ends of slow
+  ramps of the frequency (upward and downward) and of the force (downward) to the values of the
+  system. On a ramp a motion stays on its branch. Therefore ramps find the violent motions of weakly
+  damped machines, whose basins are so small that hardly any random start lies in them.
 
-Newton's method then looks for stable orbits beside the motions found (`orbit_search`), from random
-states of the loose mass.
+In a search without a given radius, Newton's method then finds stable orbits beside these motions
+(`orbit_search`), from random states of the loose mass.
 
-If a radius is given, all starts are random, uniform in a ball as in the paper (section 3, iii).
+With a given radius all starts are random and uniform in a ball, as in the paper (section 3, iii).
 """
 
 import math
@@ -35,30 +36,33 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Ratios: largest random start to largest free motion, and smallest to largest random start.
+# SPREAD: size of the largest random start over the largest free motion. SMALLEST: size of the
+# smallest random start over the largest.
 SPREAD = 3.0
 SMALLEST = 0.01
-# Placed starts: Z2 divided by the clearance, and Z2' divided by the speed of the free motion or, if
-# larger, by the speed that crosses the gap in half a forcing period.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the larger of two
+# speeds: the speed of the free motion, and the speed that crosses the gap in half a forcing cycle.
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
-# States of the loose mass from which Newton's method looks for orbits, and largest velocity of the
-# loose mass in them, divided as that of the placed starts.
+# LOOSE_STATES: number of states of the loose mass from which Newton's method searches for orbits.
+# LOOSE_SPEED: largest |Z2'| of these states, divided by the same speed as in VELOCITIES.
 LOOSE_STATES = 240
 LOOSE_SPEED = 2.0
-# With a softening spring, largest random start divided by displacement and speed at the barrier.
-# The energy of a start is then at most three quarters of that at the barrier: starts with more
-# would go over it by themselves.
+# With a softening spring a random start has at most WITHIN times the displacement of the barrier
+# and WITHIN times the speed that reaches it. Its energy is then at most three quarters of the
+# energy at the barrier. With more energy than at the barrier a start would cross the barrier even
+# without forcing.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps: relative change of a parameter in one step; forcing periods per step; ratio of the first
-# frequency to the lowest fold (its inverse for the highest fold); ratio of the first force to the
-# last.
+# Ramps. STEP: relative change of a parameter in one step. PERIODS: forcing cycles of a step. BELOW:
+# first frequency of an upward ramp over the lowest fold, and highest fold over the first frequency
+# of a downward ramp. RAISED: first force over last force.
 STEP = 0.0125
 PERIODS = 20
 BELOW = 0.9
 RAISED = 5.0
-# If n random starts all miss a motion, its share of starts is, at 95 %, at most RULE_OF_THREE/n.
+# If none of n random starts leads to a motion, the share of starts that lead to it is, with 95 %
+# confidence, at most RULE_OF_THREE/n.
 RULE_OF_THREE = 3.0
 
 
@@ -70,14 +74,15 @@ class Search(NamedTuple):
     random : numpy.ndarray, shape (n, m, 4)
         Random starts at T = 0.
     placed : list of numpy.ndarray, shape (k, 4)
-        Placed starts at T = 0 of each system; none if a radius is given.
+        Placed starts at T = 0 of each system; empty if a radius is given.
     loose : list of numpy.ndarray, shape (k, 2)
-        States of the loose mass of each system, as `orbit_search.stable_orbits` takes them; none if
-        a radius is given.
+        States of the loose mass of each system, for `orbit_search.stable_orbits`; empty if a radius
+        is given.
     displacement, speed : numpy.ndarray, shape (n,)
         Largest |Z1| and |Z1'| of a random start.
     free_displacement, free_speed : numpy.ndarray, shape (n,)
-        Largest |Z1| and |Z1'| of the free motions; by harmonic balance if a radius is given.
+        Largest |Z1| and |Z1'| of the free motions. If a radius is given, they are those of harmonic
+        balance.
     """
 
     random: np.ndarray
@@ -89,7 +94,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return registered variables on how wide the search was, along `dimension` if given."""
+        """Return registered variables of the range of the search, along `dimension` if given."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
@@ -99,18 +104,18 @@ class Search(NamedTuple):
 
 
 def describe_search(starts, radius, seed) -> dict:
-    """Return the parameters of a search for a dataset; the radius only if there is one."""
-    made = {"starts": starts, "seed": seed}
-    return made if radius is None else made | {"radius": radius}
+    """Return the parameters of a search for a dataset, without the radius if it is None."""
+    parameters = {"starts": starts, "seed": seed}
+    return parameters if radius is None else parameters | {"radius": radius}
 
 
 def missed_share(starts) -> float:
-    """Return the bound, at 95 %, on the share of starts that lead to a motion never seen."""
+    """Return the 95 % upper bound on the share of starts that lead to a motion not found."""
     return min(1.0, RULE_OF_THREE / starts) if starts else 1.0
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
-    """Return the starts of a search; if a radius is given, warn as `warn_if_narrow` does.
+    """Return the starts of a search. If a radius is given, `warn_if_narrow` is called.
 
     Parameters
     ----------
@@ -118,13 +123,13 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
     systems : list of tuple
         Damper or None, and frequency W, of each system.
     count : int
-        Random starts of each system.
+        Number of random starts of each system.
     radius : float or None
-        Radius of the ball of random starts; None for a search as wide as the machine.
+        Radius of the ball of random starts. None for a search scaled by the free motions.
     seed : int
-        Each system has random starts of its own, drawn with the seed and its place in `systems`.
+        The random starts of a system depend on the seed and on its index in `systems`.
     settling : Settling
-        How free motions are settled.
+        Settings of the runs of free motions.
 
     Raises
     ------
@@ -155,9 +160,10 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
 
 
 def warn_if_narrow(oscillator, frequencies, radius) -> dict:
-    """Return displacement and speed of the largest free motion, keyed by frequency, and warn.
+    """Return (displacement, speed) of the largest free motion for each frequency.
 
-    Both follow from harmonic balance, in which the speed is W times the displacement.
+    Both follow from harmonic balance, in which the speed is W times the displacement. If the radius
+    is too small, a warning is issued.
 
     Warns
     -----
@@ -179,7 +185,7 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return one system's values of the fields of `Search`, in their order, without a radius."""
+    """Return the fields of `Search` for one system, in their order, without a radius."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -194,16 +200,16 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the random starts of a search as wide as the machine, and how wide it is.
+    """Return the random starts of a search without a radius, and the range of the search.
 
     Parameters
     ----------
     oscillator, damper, frequency
-        Of one system.
+        Oscillator, damper or None, and frequency W of one system.
     count : int
     seed : int or sequence of int
     settling : Settling
-        How free motions are settled.
+        Settings of the runs of free motions.
 
     Returns
     -------
@@ -233,7 +239,7 @@ def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple
 
 
 def _crossing_speed(damper, frequency):
-    """Return the speed at which the loose mass crosses its gap in half a forcing period."""
+    """Return the speed at which the loose mass crosses the gap in half a forcing cycle."""
     return 2 * damper.clearance * frequency / math.pi
 
 
@@ -247,21 +253,21 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
         for velocity in VELOCITIES
     ]
     try:
-        # they are starts only, so that those for elastic contact serve all dampers
-        found = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
+        # The solutions are used as starts only, so those for elastic contact serve all dampers.
+        solutions = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     except ArithmeticError:
         return np.array(rows)
-    turn = np.array([np.cos(found.phase), -frequency * np.sin(found.phase)])
-    sizes = found.amplitude, found.relative_amplitude
+    turn = np.array([np.cos(solutions.phase), -frequency * np.sin(solutions.phase)])
+    sizes = solutions.amplitude, solutions.relative_amplitude
     return np.concatenate([rows, np.vstack([size * turn for size in sizes]).T])
 
 
 def ramped(oscillator, damper, frequency, tolerance) -> list:
-    """Return states at T = 0 at the ends of slow ramps; none where a motion has escaped.
+    """Return the states at T = 0 at the ends of slow ramps, without motions that have escaped.
 
-    The frequency rises from below the lowest fold of the free response and falls from above its
-    highest one, from half and twice the frequency at least; the force falls from RAISED times its
-    value.
+    The upward ramp of the frequency begins below the lowest fold of the free response and at most
+    at half the frequency. The downward ramp begins above the highest fold and at least at twice the
+    frequency. The ramp of the force begins at RAISED times the force.
     """
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
@@ -278,11 +284,12 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 def _ramp(target, indices, factor, tolerance):
     """Return the state at T = 0 after a ramp from rest.
 
-    The packed parameters with some indices go from `factor` times their values to these values.
+    The packed parameters with the given indices change from `factor` times their target values to
+    the target values.
     """
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
-    for share in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
-        p[indices] = target[indices] * factor**share
+    for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
+        p[indices] = target[indices] * factor**exponent
         begin = strobe_map.strobe_time(p)
         strobe_map.flow(p, state, none, begin, PERIODS, np.bool_(False), tolerance)
         if not np.isfinite(state).all():

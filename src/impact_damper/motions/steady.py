@@ -1,4 +1,4 @@
-"""The steady motion that a state settles to, and one period of that motion."""
+"""The steady motion that a state leads to, and one period of this motion."""
 
 import numpy as np
 
@@ -24,21 +24,22 @@ def steady_motion(
     frequency : float
         Forcing frequency W, dimensionless.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' at time `start`, or the state of a dataset, which carries its phase.
+        Z1, Z1', Z2, Z2' at time `start`, or a state of a dataset, which has its phase as a
+        coordinate.
     start : float, optional
-        Time of the state, dimensionless. By default that of the phase which the state carries, 0 if
-        it carries none.
+        Time of the state, dimensionless. The default is the time of the phase of the state, or 0 if
+        the state has no phase.
     settling : Settling, optional
 
     Returns
     -------
     xarray.Dataset
-        Scalars: outcome (see `decode`), period (in forcing periods), contacts per forcing period,
-        largest |Z1|, asymmetry (0 if half a period later the motion is its mirror image), phases
-        of its first harmonic, largest Floquet multiplier, Lyapunov exponent, the two frequencies of
-        a quasi-periodic motion; and `state`, a state of the motion at W T = pi/2. The state
-        carries this phase as a coordinate, so that `simulate` and this function go on from there:
-        in a sweep hand it on from one frequency to the next.
+        Scalars: outcome (see `decode`), period (in forcing cycles), contacts per forcing cycle,
+        largest |Z1|, asymmetry (0 if the motion is its own mirror image half a period later),
+        phases of the first harmonic, largest Floquet multiplier, Lyapunov exponent, and the two
+        frequencies of a quasi-periodic motion. Also `state`, a state of the motion at W T = pi/2.
+        The state has this phase as a coordinate, so `simulate` and this function can continue from
+        it. In a sweep, pass it on from one frequency to the next.
 
     Raises
     ------
@@ -64,36 +65,36 @@ def steady_motion(
     data = {name: ((), value) for name, value in tabulate(record).items()}
     data["state"] = (("component",), record["state"])
     data |= {"state_phase": STROBE}
-    made = describe(oscillator, damper, settling) | {
+    parameters = describe(oscillator, damper, settling) | {
         "frequency": float(frequency),
         "state": y.tolist(),
         "start": start,
     }
     coordinates = {"component": list(COMPONENTS), "frequency": ((), float(frequency))}
-    return dataset(data, coordinates, made, "Steady motion of the oscillator")
+    return dataset(data, coordinates, parameters, "Steady motion of the oscillator")
 
 
 def before_strobe(start, frequency) -> float:
-    """Return a time moved by whole forcing periods into the one that ends with the strobe."""
+    """Return a time shifted by whole forcing cycles into the cycle that ends with the strobe."""
     strobe, period = STROBE / frequency, 2 * np.pi / frequency
     moved = start - np.ceil((start - strobe) / period - 1e-9) * period
     return min(moved, strobe)
 
 
 def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=None):
-    """Return one period, sampled, of the steady motion that a state settles to.
+    """Return samples of one period of the steady motion that a state leads to.
 
     Parameters
     ----------
     oscillator, damper, frequency, state, settling
         As in `steady_motion`.
     samples : int
-        Samples per forcing period.
+        Samples in a forcing cycle.
 
     Returns
     -------
     xarray.Dataset
-        As from `simulate`, from W T = pi/2 on.
+        The dataset of `simulate`, from W T = pi/2 on.
 
     Raises
     ------
@@ -107,8 +108,8 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
             raise ArithmeticError(f"{name}: the motion leads to no orbit; simulate shows it")
     if not is_settled(steady):
         raise ArithmeticError(
-            f"settling.limit = {settling.limit}: the motion has not settled by then; "
-            "a larger limit lets it run on, and steady_motion tells what it came to"
+            f"settling.limit = {settling.limit}: the motion has not settled by then; with a larger "
+            "limit it runs longer, and steady_motion returns its outcome"
         )
     return simulate(
         oscillator,

@@ -1,7 +1,7 @@
-"""The strobe map, from one forcing period to the next, and Newton's method for its periodic orbits.
+"""The strobe map, from one forcing cycle to the next, and Newton's method for its periodic orbits.
 
-The strobe is the phase W T = pi/2 of the forcing, with frequency W: midway between the contacts of
-a damper at its design point, which fall near 0 and pi.
+The strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2. It lies
+midway between the contacts of a damper at its design point, which occur near W T = 0 and pi.
 """
 
 import math
@@ -15,14 +15,14 @@ from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MA
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2
-# Newton's method: number of corrections, the largest correction of a converged orbit, and the
-# smallest determinant of a regular matrix.
+# Newton's method. ITERATIONS: largest number of corrections. CONVERGED: the method has converged
+# once a correction is below this. REGULAR: smallest determinant of a matrix that counts as regular.
 ITERATIONS = 10
 CONVERGED = 1e-9
 REGULAR = 1e-12
-# Local error allowed in the integration of orbits.
+# Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
-# States closer than this are the same, in `repeats_sooner`.
+# In `repeats_sooner` two states are the same if they differ by less than SAME_STATE.
 SAME_STATE = 1e-4
 
 
@@ -34,14 +34,18 @@ def strobe_time(p):
 
 @inlined
 def one_period(p, y, tangents, side, tolerance, work):
-    """Integrate a state in place from one strobe to the next; returns as `advance`."""
+    """Integrate a state in place from one strobe to the next; return the results of `advance`."""
     t = strobe_time(p)
     return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[FREQUENCY], tolerance, work)
 
 
 @kernel_only
 def speed_weight(p, side):
-    """Return the weight of Z2' in `distance`: 1 in flight, 1/frequency of a contact during it."""
+    """Return the weight of Z2' in `distance`.
+
+    The weight is 1 in flight. In contact it is nearly 1/w with the natural frequency w of the
+    contact.
+    """
     if side == 0:
         return 1.0
     return 1.0 / math.sqrt(1.0 + p[CONTACT_STIFFNESS] * (1.0 + p[INVERSE_MASS_RATIO]))
@@ -49,18 +53,18 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Return the largest difference between components of two states, that of Z2' weighted."""
+    """Return the largest difference between components of two states, with a weight for Z2'."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
 
 @kernel
 def flow(p, state, tangents, begin, periods, half, tolerance):
-    """Integrate over `periods` forcing periods from the time `begin`, and half a period if `half`.
+    """Integrate over `periods` forcing cycles from `begin`, and half a cycle more if `half`.
 
-    The state (4,) and the tangents, rows of an array (n, 4), are replaced. Returns the number of
-    contacts that began and the time in contact. It returns no array, because numba loses a Ctrl-C
-    that arrives while an array is returned.
+    The state (4,) and the tangents, rows of an array (n, 4), are replaced. Return the number of
+    contacts begun and the time in contact. The function returns no array, because numba loses a
+    Ctrl-C that arrives while an array is returned.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
     work = workspace()
@@ -84,8 +88,8 @@ def flow_map(p, y, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` after a strobe, its derivative (4, 4), and number of contacts."""
-    half = np.bool_(False)  # for a literal the map would be compiled once more
+    """Return the state `periods` cycles after a strobe, its derivative (4, 4), and the contacts."""
+    half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents = y.copy(), np.eye(4)
     contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
     return state, tangents.T.copy(), contacts
@@ -95,7 +99,7 @@ def period_map(p, y, periods, tolerance):
 def solve(matrix, right):
     """Solve a small linear system in place by elimination with pivoting; return the determinant.
 
-    numpy.linalg.solve takes longer to compile than all the rest of this module.
+    `numpy.linalg.solve` would take longer to compile than the rest of this module.
     """
     size = len(right)
     determinant = 1.0
@@ -133,7 +137,7 @@ def largest_modulus(values):
 
 @kernel
 def dominant(values):
-    """Return the value of largest modulus, its imaginary part made positive."""
+    """Return the value with the largest modulus; its imaginary part is replaced by its modulus."""
     best = values[0]
     for value in values:
         if abs(value) > abs(best):
@@ -145,9 +149,17 @@ def dominant(values):
 def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
-    Without contacts the loose mass keeps its place and only Z1 and Z1' are unknown. Returns whether
-    the method converged to an orbit within `reach` of y (Z2' not counted), the residual, and the
-    dominant Floquet multiplier, both NaN otherwise. y is replaced if it converged.
+    Without contacts only Z1 and Z1' are unknown, and Z2 - Z1 and Z2' - Z1' do not change. y is
+    replaced if the method converges.
+
+    Returns
+    -------
+    converged : bool
+        Whether the method converged to an orbit within `reach` of y, in all components but Z2'.
+    residual : float
+        Largest difference between the state and its image, NaN if the method did not converge.
+    multiplier : complex
+        Dominant Floquet multiplier, NaN if the method did not converge.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):
@@ -177,7 +189,7 @@ def polish(p, y, periods, reach, tolerance):
 
 @kernel
 def repeats_sooner(p, y, periods, tolerance):
-    """Return whether the state of an orbit repeats after fewer periods, a divisor of `periods`."""
+    """Return whether the state of an orbit repeats after fewer cycles, a divisor of `periods`."""
     work = workspace()
     none = np.empty((0, 4))
     state = y.copy()

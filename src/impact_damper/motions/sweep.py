@@ -1,10 +1,10 @@
-"""Find the motions along a sweep of one parameter, from start states and by following.
+"""Find the motions along a sweep of one parameter, by runs from start states and by following.
 
-At each value motions are run from the starts of a search, and Newton's method looks for stable
-orbits beside them. Each settled motion is then followed by Newton's method to the next value,
-upward and downward, so that motions with small basins of attraction are found too. A branch ends
-where its motion cannot be followed. Motions that have not settled are matched from value to value
-by `motions.matching`.
+At each value of the parameter motions are run from the starts of a search, and Newton's method
+searches for stable orbits beside these motions. Each settled motion is then followed by Newton's
+method to the next value, upward and downward, so that motions with small basins of attraction are
+found too. A branch ends where its motion cannot be followed. Motions that have not settled are
+matched between neighbouring values by `motions.matching`.
 """
 
 from itertools import count, pairwise
@@ -23,8 +23,9 @@ from impact_damper.motions.orbit_search import add_orbits
 from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.strobe_map import STROBE
 
-# End of a branch: least modulus of a multiplier at a bifurcation, least imaginary part of a complex
-# one, and largest difference in max |Z1| between a motion and the one that splits off.
+# Events at the end of a branch. CRITICAL: smallest modulus of a multiplier at a bifurcation.
+# COMPLEX: a multiplier is complex if its imaginary part exceeds this. CLOSE: largest difference in
+# max |Z1| between a symmetric motion and the asymmetric motion that branches off.
 CRITICAL = 0.98
 COMPLEX = 1e-3
 CLOSE = 0.05
@@ -36,12 +37,12 @@ def _end_event(record, multiplier, beyond):
     Parameters
     ----------
     record : records.MOTION
-        The motion followed.
+        The motion on the branch.
     multiplier : complex
-        Dominant multiplier of its last orbit; NaN where Newton's method fails because the map is
-        not smooth.
+        Dominant multiplier of its last orbit; NaN if Newton's method fails because the map is not
+        smooth.
     beyond : records.MOTION
-        The motion reached from the last orbit at the next value of the parameter.
+        The motion that the state of the last orbit leads to at the next value of the parameter.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -59,8 +60,9 @@ def _end_event(record, multiplier, beyond):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of the catalogue `source` to the next value of the parameter.
 
-    Motions reached are entered in the catalogue `target`; `links` gets pairs of numbers of
-    motions on one branch, `ends` a dictionary for each branch that ends on the way.
+    The motions there are entered in the catalogue `target`. Pairs of numbers of motions on the same
+    branch are appended to `links`, and a dictionary for each branch that ends between the two
+    values is appended to `ends`.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -97,9 +99,10 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _branches(catalogues, links):
-    """Return the branch of each motion, indexed by number: connected components of the links.
+    """Return the branch of each motion, indexed by the number of the motion.
 
-    Motions that have not settled are linked by what they have in common.
+    Branches are the connected components of the links. Links between motions that have not settled
+    are added by `match_unsettled`.
     """
     links = links + [
         (first.numbers[i], second.numbers[j])
@@ -112,9 +115,10 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return variables with dimensions (dimension, motion), largest first, padded by 'absent'.
+    """Return variables with the dimensions (dimension, motion), by descending displacement.
 
-    `starts` is the number of random starts at each value.
+    Rows with fewer motions are padded by motions with the outcome absent. `starts` is the number of
+    random starts at each value.
     """
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
@@ -147,9 +151,9 @@ def _tables(catalogues, branches, dimension, starts):
             extra["motion_starts"][row, column] = catalogue.starts[k]
             extra["origin"][row, column] = catalogue.origins[k]
     interval = np.full((2, *records.shape), np.nan)
-    found = records["outcome"] != flag("outcome", "absent")
+    present = records["outcome"] != flag("outcome", "absent")
     if starts:
-        interval[:, found] = wilson_intervals(extra["motion_starts"][found], starts).T
+        interval[:, present] = wilson_intervals(extra["motion_starts"][present], starts).T
     extra |= {"share_lower": interval[0], "share_upper": interval[1]}
     data = tabulate(records) | extra
     dims = (dimension, "motion")
@@ -165,11 +169,11 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     Parameters
     ----------
     parameters : array, shape (n, packed.COUNT)
-        Packed parameters in the order of the sweep, equal but for one.
+        Packed parameters in the order of the sweep, which differ in one parameter.
     index : int
-        Place of the parameter that varies: FREQUENCY or CLEARANCE.
+        Index of this parameter in the packed array: FREQUENCY or CLEARANCE.
     dimension : str
-        Name of the dimension of the data that stands for this parameter.
+        Name of the dimension of the data for this parameter.
     search : start_states.Search
         Random and placed starts at each value, and states of the loose mass.
     settling : Settling
@@ -179,9 +183,9 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     Returns
     -------
     dict
-        Registered variables: with the dimensions (dimension, motion) the distinct motions, with
-        (dimension, start) the outcomes of the runs, with `end` the ends of branches; and how wide
-        the search was.
+        Registered variables of the distinct motions, with the dimensions (dimension, motion); of
+        the runs, with (dimension, start); of the ends of branches, with (end); and of the range of
+        the search.
     """
     size, starts = search.random.shape[:2]
     runs = ensemble.settle(
@@ -192,7 +196,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
         progress=progress,
     ).reshape(size, starts)
     counts = [len(each) for each in search.placed]
-    others = ensemble.settle(
+    placed = ensemble.settle(
         np.repeat(parameters, counts, axis=0),
         np.concatenate(search.placed),
         settling,
@@ -205,12 +209,12 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
         [catalogue.add(record, "random_start") for record in row]
         for catalogue, row in zip(catalogues, runs, strict=True)
     ]
-    for catalogue, part in zip(catalogues, np.split(others, np.cumsum(counts)[:-1]), strict=True):
+    for catalogue, part in zip(catalogues, np.split(placed, np.cumsum(counts)[:-1]), strict=True):
         for record in part:
             catalogue.add(record, "placed_start")
     add_orbits(catalogues, search.loose, settling, workers)
     links, ends = [], {}
-    # the second sweep upward also follows motions that the sweep downward found
+    # The second sweep upward also follows the motions that the sweep downward found.
     for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
         ends[turn] = []
         for source, target in zip(order, order[1:], strict=False):
@@ -241,5 +245,5 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 
 
 def reached(data):
-    """Return which motions of a `sweep` are reached from a random or a placed start."""
+    """Return the mask of the motions of a `sweep` that a random or a placed start leads to."""
     return (data["motion_starts"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))

@@ -1,9 +1,9 @@
-"""Motions that are undecided when settling ends: run on, and called by their right name.
+"""Run undecided motions longer, until their outcome is certain.
 
-A run that settles on no orbit and is not certainly chaotic may be quasi-periodic, be periodic with
-a long period, approach an orbit slowly, be weakly chaotic, or have a loose mass that drifts in the
-gap. Here such a motion is run on in blocks, each twice as long as the one before, until one of
-these is certain.
+A run that does not settle to an orbit and is not certainly chaotic may be quasi-periodic, may be
+periodic with a long period, may approach an orbit slowly, may be weakly chaotic, or may have a
+loose mass that drifts in the gap. This module continues such a run in blocks, each twice as long as
+the block before, until one of these outcomes is certain.
 """
 
 import math
@@ -29,22 +29,22 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polis
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Most forcing periods of the first block.
+# Largest number of forcing cycles of the first block.
 FIRST = 1500
-# Chaos: least growth of a tangent in a block, as a logarithm. On a motion that leaves an unstable
-# orbit from within rounding, 1e-16, it grows by less.
+# Smallest growth of the tangent of a chaotic motion in a block, as a logarithm. The growth is
+# smaller for a motion that leaves an unstable orbit from a distance of rounding errors, 1e-16.
 GROWN = 40.0
-# Batches of a block, from which the standard error of the exponent follows.
+# Number of batches of a block, from which the standard error of the exponent is computed.
 BATCHES = 30
-# Exponents within this number of standard errors of 0 are taken for 0.
+# An exponent counts as 0 if it is within NEUTRAL standard errors of 0.
 NEUTRAL = 3.0
-# Longest period of an orbit, in forcing periods.
+# Longest period of an orbit, in forcing cycles.
 LONGEST = 256
-# Largest distance moved in Newton's method onto an orbit.
+# Largest distance that Newton's method may move a state onto an orbit.
 REACH = 1e-2
-# Largest distance of a motion from closed curves already known, if it is the motion on them.
+# A motion lies on known closed curves if its distance from them is below NEIGHBOUR.
 NEIGHBOUR = 1e-3
-# What such a motion has in common with the one known.
+# Fields that are copied to the record of such a motion from the record of the known motion.
 TORUS = (
     "outcome",
     "lyapunov_exponent",
@@ -57,26 +57,29 @@ TORUS = (
 
 @kernel
 def run_block(p, y, tangent, states, growth, stop):
-    """Run a motion in place over the forcing periods of a block.
+    """Run a motion in place over the forcing cycles of a block.
 
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
     y : array, shape (4,)
-        State at the strobe; replaced.
+        State at the strobe, replaced by the last state.
     tangent : array, shape (1, 4)
-        Solution of the variational equations; replaced, of length 1 after each period.
+        Solution of the variational equations, also replaced. It is scaled to length 1 after each
+        cycle.
     states : array, shape (n, 4)
-        Gets the state after each period.
+        Receives the state after each cycle.
     growth : array, shape (n,)
-        Gets the logarithm of the growth of the tangent in each period.
+        Receives the logarithm of the growth of the tangent in each cycle.
     stop : array of bool, shape (1,)
-        Set to true by another thread, it ends the run.
+        Another thread may set this flag to end the run.
 
     Returns
     -------
     contacts : int
+        Number of contacts.
     escaped : bool
+        Whether the motion escaped.
     """
     work = workspace()
     side = side_of(p, y)
@@ -100,19 +103,19 @@ def run_block(p, y, tangent, states, growth, stop):
 
 
 def name_undecided(parameters, records, limit, further, stop):
-    """Run on the motions of `records` that are unresolved, and complete their records in place.
+    """Continue the unresolved motions of `records`, and complete their records in place.
 
     Parameters
     ----------
     parameters : array, shape (m, packed.COUNT)
     records : array of records.MOTION, shape (m,)
-        As from `settling.settle_many`.
+        Filled by `settling.settle_many`.
     limit : int
-        Forcing periods of the run before; the first block is as long, but not longer than FIRST.
+        Forcing cycles of the run before. The first block has the same length, but at most FIRST.
     further : int
-        Most forcing periods of all blocks together.
+        Largest number of forcing cycles of all blocks together.
     stop : array of bool, shape (1,)
-        Set to true by another thread, it ends the runs; records are then incomplete.
+        Another thread may set this flag to end the runs. The records are then incomplete.
     """
     curves = []
     for i in np.flatnonzero(records["outcome"] == UNRESOLVED):
@@ -125,7 +128,7 @@ def name_undecided(parameters, records, limit, further, stop):
 
 
 class _Curves(NamedTuple):
-    """Closed curves on which a quasi-periodic motion lies at the strobe, as states on them."""
+    """Closed curves on which a quasi-periodic motion lies at the strobe, represented by states."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -133,10 +136,10 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Run on one motion, whose record is an array of length 1, until it has a name.
+    """Continue one motion, whose record is an array of length 1, until its outcome is certain.
 
-    A motion that comes to closed curves already known is the one that lies on them. Returns the
-    states of the last block.
+    A motion that reaches known closed curves is the same motion as the known one. Return the states
+    of the last block.
     """
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
@@ -173,7 +176,7 @@ def _name_one(p, record, limit, further, known, stop):
 
 
 def _is_known(record, known, states):
-    """Return whether states lie, to NEIGHBOUR, on known curves; if so, complete the record."""
+    """Return whether states lie on known curves (NEIGHBOUR). If they do, complete the record."""
     for curves in known:
         apart = np.abs(states[:, None, :3] - curves.states[None, :, :3]).max(axis=2)
         if np.max(np.min(apart, axis=1)) < NEIGHBOUR:
@@ -184,9 +187,9 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean growth in a period and its standard error, from BATCHES long batches.
+    """Return the mean growth in a cycle and its standard error, from BATCHES long batches.
 
-    On a closed curve growth and decay alternate, and short batches would not see that they cancel.
+    On a closed curve growth and decay alternate and cancel only over long batches.
     """
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
@@ -194,13 +197,13 @@ def _exponent(growth):
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent grows for certain, and still does in the last quarter."""
+    """Return whether a tangent certainly grows, and still grows in the last quarter."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Move a motion onto the stable orbit near it; return its outcome, UNRESOLVED without one.
+    """Move a motion onto the stable orbit near it and return its outcome; else UNRESOLVED.
 
     If the loose mass has touched no wall, only the primary mass must be on an orbit.
     """
@@ -210,7 +213,7 @@ def _on_orbit(p, record, states, contacts, limit):
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # an orbit that repeats sooner would have been found with its own, shorter period
+        # An orbit that repeats sooner would have been found with its own, shorter period before.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]
@@ -227,20 +230,20 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states lie on closed curves that the map turns, or UNRESOLVED.
 
-    Each of the curves is tried, since one on which contacts begin or end at the strobe has corners;
-    and each in the plane of the primary mass and in that of the relative motion, since in one of
-    them it may be bent so far that it does not go around its centre.
+    `find_rotation` is tried on each of the curves, because a curve on which contacts begin or end
+    at the strobe has corners. It is tried in the plane of (Z1, Z1') and in the plane of (Z2, Z2'),
+    because in one of them the curve may be so bent that it does not go around its centre.
     """
     if abs(mean) > NEUTRAL * error:
         return UNRESOLVED
     planes = [states[:, k] + 1j * states[:, k + 1] / p[FREQUENCY] for k in (0, 2)]
     for curves in range(1, LONGEST_PERIOD + 1):
-        found = [
+        rotations = [
             find_rotation(points[first::curves]) for points in planes for first in range(curves)
         ]
-        found = [rotation for rotation in found if rotation is not None]
-        if found:
-            best = min(found, key=lambda rotation: rotation.error)
+        rotations = [rotation for rotation in rotations if rotation is not None]
+        if rotations:
+            best = min(rotations, key=lambda rotation: rotation.error)
             first = p[FREQUENCY] / curves
             record["first_frequency"], record["second_frequency"] = first, first * best.number
             record["frequency_error"] = first * best.error

@@ -1,9 +1,10 @@
-"""Judge a motion at each strobe: whether it has settled on a stable orbit, and how chaotic it is.
+"""Judge a motion at each strobe: whether it has settled to a stable orbit, or is chaotic.
 
-States n periods apart approach each other geometrically as a motion settles. Once the sum of the
-remaining geometric series is small, Newton's method on the n-period map, with its exact
-derivative, moves the state onto the orbit. The motion has settled if that orbit is close and
-stable. A slow passage near a fold, where states hardly change, is thus not taken for an orbit.
+When a motion settles to an orbit of period n, the distances between states n cycles apart decrease
+geometrically. Once the sum of the remaining geometric series is small, Newton's method on the map
+over n cycles, with its exact derivative, moves the state onto the orbit. The motion has settled if
+this orbit is close and stable. By this test a slow passage near a fold, during which states hardly
+change, is not mistaken for an orbit. For other motions the largest Lyapunov exponent is computed.
 """
 
 import math
@@ -32,27 +33,30 @@ from impact_damper.motions.strobe_map import (
 )
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Longest period looked for, in forcing periods, and number of strobe states kept for it.
+# LONGEST_PERIOD: longest period of an orbit that is searched for, in forcing cycles. RING: number
+# of strobe states that are stored for this search.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# Lyapunov exponent: number of standard errors by which it must be positive, and value per unit time
-# below which it is weak.
+# A motion is chaotic if its Lyapunov exponent is positive by CONFIDENCE standard errors. The
+# exponent is weak if it is below WEAK per unit of time.
 CONFIDENCE = 4.0
 WEAK = 0.05
-# Distance from an orbit at which Newton's method is first tried, and at which it is tried last.
+# Distance from an orbit at which Newton's method is first tried, and smallest distance at which it
+# is tried.
 NEAR = 1e-4
 NEAREST = 1e-9
-# Without forcing a motion is at rest once its energy is below this share of the first energy.
+# Without forcing a motion is at rest once its energy is below REST times the first energy.
 REST = 1e-9
-# What is remembered of one motion while it runs: its index; the number of strobes and of periods
-# without contact so far; the distance from an orbit at which Newton's method is tried next; without
-# forcing the energy at the first strobe. Of its tangent vector, for the Lyapunov exponent: periods,
-# logarithmic growth in the present batch, and mean, squares and last values of complete batches.
+# Data of one motion while it runs. index: its number. strobes: number of strobes so far. untouched:
+# number of successive forcing cycles without contact. near: distance from an orbit at which
+# Newton's method is tried next. energy: without forcing, the energy at the first strobe. The other
+# fields belong to the growth of the tangent (`growth`): number of cycles, growth in the present
+# batch, and mean, sum of squares and last values of complete batches.
 SEEN = np.dtype(
     [
         ("index", "i8"),
         ("strobes", "i8"),
-        ("quiet", "i8"),
+        ("untouched", "i8"),
         ("near", "f8"),
         ("energy", "f8"),
         ("periods", "i8"),
@@ -68,8 +72,8 @@ SEEN = np.dtype(
 def nearby_period(ring, k, weight, floor, tolerance):
     """Return the period of an orbit within `tolerance` of the motion, or 0.
 
-    `ring[k % RING]` is the last of k + 1 strobe states; distances below `floor` are errors of the
-    integration.
+    `ring[k % RING]` is the last of k + 1 strobe states. Distances below `floor` count as errors of
+    the integration. `weight` is the weight of Z2' in a distance.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -89,12 +93,12 @@ def nearby_period(ring, k, weight, floor, tolerance):
 
 @inlined
 def move_onto_orbit(p, y, periods, near, out):
-    """Move a state y onto the stable orbit near it; return whether there is one.
+    """Move a state y onto the stable orbit near it; return whether there is such an orbit.
 
-    A motion that spirals towards an orbit seems to repeat after a multiple of its period, so the
-    divisors of `periods` are tried first. At a distance below NEAREST a motion counts as an orbit
-    even if Newton's method fails, since the map may not be smooth there; its residual and
-    multiplier are then NaN.
+    A motion that spirals towards an orbit may seem to repeat after a multiple of the orbit's
+    period, so the divisors of `periods` are tried first. At a distance below NEAREST a motion
+    counts as an orbit even if Newton's method fails, because the map may not be smooth there. The
+    residual and the multiplier are then NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -113,7 +117,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the exponent of the run before an orbit by that of the orbit, which has no error."""
+    """Replace the exponent of the run before an orbit by the exponent of the orbit."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -121,10 +125,10 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move a state y without contacts onto the orbit of the primary mass near it, if there is one.
+    """Move the primary mass of a motion without contacts onto the orbit near it, if there is one.
 
-    The loose mass keeps its distance from the primary mass and its speed. Returns whether there is
-    such an orbit, stable and of at most LONGEST_PERIOD.
+    Z2 - Z1 and Z2' - Z1' are not changed. Return whether there is a stable orbit of the primary
+    mass with a period of at most LONGEST_PERIOD.
     """
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
@@ -140,7 +144,7 @@ def stays_without_contact(p, y, ring, k, out):
 @inlined
 def begin_watch(seen, index, out):
     """Reset `seen` and the record `out` before the motion `index` is run."""
-    seen.index, seen.strobes, seen.quiet, seen.near = index, 0, 0, NEAR
+    seen.index, seen.strobes, seen.untouched, seen.near = index, 0, 0, NEAR
     seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
     out.outcome, out.period = UNRESOLVED, 0
     out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
@@ -151,7 +155,7 @@ def begin_watch(seen, index, out):
 
 @kernel_only
 def watch_free(p, y, seen, out):
-    """Judge a motion without forcing as `watch` does; set a motion at rest exactly to rest."""
+    """Judge an unforced motion as `watch` does; set a motion at rest exactly to rest."""
     left = energy(p, y)
     if seen.strobes == 0:
         seen.energy = left
@@ -166,35 +170,39 @@ def watch_free(p, y, seen, out):
 
 @inlined
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
-    """Judge a motion at a strobe; return whether it can be stopped.
+    """Judge a motion at a strobe; return whether the motion is stopped.
 
-    It is stopped
+    A motion is stopped
 
     - when it has settled, diverged or escaped, or at `limit`;
-    - as at rest when there is no forcing and its energy, which can only fall, is below the share
-      REST of that at the first strobe. A motion without forcing is stopped for no other reason
-      than this, an escape, a divergence, or `limit`;
-    - as non-colliding when it has settled without contacts, or when the loose mass has touched no
-      wall for `patience` periods and would drift by less than 1 % of the clearance until `limit`,
-      while the primary mass is on an orbit;
-    - as drifting at `limit` if the loose mass has touched no wall for `patience` periods and drifts
-      farther, while the primary mass is on an orbit;
-    - as chaotic after `patience` periods if the largest Lyapunov exponent is positive by
-      CONFIDENCE standard errors and recent batches grow too (a chaotic transient may just have
-      ended). With a WEAK exponent it is stopped only at `limit`, because a slow spiral can look
-      like weak chaos for a while.
+    - with the outcome at_rest if there is no forcing and its energy, which cannot grow, is below
+      REST times the energy at the first strobe. An unforced motion is stopped only for this reason,
+      after an escape or divergence, or at `limit`;
+    - with the outcome non_colliding if it has settled without contacts, or if the primary mass is
+      on
+      an orbit, the loose mass has touched no wall for `patience` cycles, and it would drift by less
+      than 1 % of the clearance until `limit`;
+    - with the outcome drifting at `limit` if the primary mass is on an orbit, the loose mass has
+      touched no wall for `patience` cycles, and it drifts farther;
+    - with the outcome chaotic after `patience` cycles if the largest Lyapunov exponent is positive
+      by
+      CONFIDENCE standard errors and the growth continues in the last batches. (Otherwise a chaotic
+      transient may just have ended.) With an exponent below WEAK the motion is stopped only at
+      `limit`, because a slow spiral can look like weak chaos for some time.
 
-    The exponent is computed from one tangent, from half of `patience` on; on an orbit it follows
-    from the dominant multiplier, since the run before it is a transient. From there on `reach` is
-    the largest distance sqrt(Z1^2 + (Z1'/W)^2) at a strobe. Outcome, period, residual, dominant
-    multiplier, periods_run, reach and the exponent per unit time are written to the record `out`; y
-    is moved onto the orbit if there is one.
+    The exponent is computed from one tangent in the second half of `patience` and later. For a
+    motion on an orbit it is computed from the dominant multiplier, because the run before is a
+    transient. In the same time `reach` is computed, the largest (Z1^2 + (Z1'/W)^2)^(1/2) at a
+    strobe.
+
+    Outcome, period, residual, dominant multiplier, periods_run, reach and the exponent per unit of
+    time are written to the record `out`. y is moved onto the orbit if there is one.
     """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf
     if k == limit:
-        untouched = bounded and contacts == 0 and side == 0 and seen.quiet >= patience
-        if untouched and stays_without_contact(p, y, ring, k, out):
+        flying = bounded and contacts == 0 and side == 0 and seen.untouched >= patience
+        if flying and stays_without_contact(p, y, ring, k, out):
             out.outcome = DRIFTING
         return True
     period = 2.0 * math.pi / p[FREQUENCY]
@@ -202,7 +210,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
         ring[k % RING, i] = y[i]
     out.periods_run = k
     if k > 0:
-        seen.quiet = seen.quiet + 1 if contacts == 0 and side == 0 else 0
+        seen.untouched = seen.untouched + 1 if contacts == 0 and side == 0 else 0
     if has_escaped(p, y[0], y[1]):
         out.outcome = ESCAPED
         return True
@@ -214,13 +222,13 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
     if n > 0:
         if move_onto_orbit(p, y, n, seen.near, out):
-            if seen.quiet >= out.period and bounded:
+            if seen.untouched >= out.period and bounded:
                 out.outcome = NON_COLLIDING
             leave_transient(p, out)
             return True
         seen.near = max(0.1 * seen.near, NEAREST)
     drift = abs(y[3] - y[1]) * limit * period
-    if bounded and seen.quiet >= patience and drift < 0.01 * p[CLEARANCE]:
+    if bounded and seen.untouched >= patience and drift < 0.01 * p[CLEARANCE]:
         if stays_without_contact(p, y, ring, k, out):
             out.outcome = NON_COLLIDING
             return True

@@ -1,48 +1,52 @@
-"""Points of a branch between two others of the same problem, guessed by a cubic through both."""
+"""Find points of a branch between two known points, with a cubic through both as first guess."""
 
 import numpy as np
 from scipy.optimize import brentq
 
 
 def at_distance(point, ahead, distance):
-    """Return the point of a branch between two others, or None if Newton's method fails.
+    """Return the point of a branch at a distance from `point`, or None if Newton's method fails.
 
     Parameters
     ----------
-    point, ahead : Point
-        Of the same problem.
+    point, ahead : continuation.Point
+        Two points with the same problem. The point lies between them.
     distance : float
-        Distance from the first one, in the direction of its tangent.
+        Distance from `point` in the direction of its tangent.
     """
-    share = distance / ((point.problem.metric * point.tangent) @ (ahead.x - point.x))
-    return point.problem.near(_cubic(point, ahead, share), point.tangent, distance)
+    fraction = distance / ((point.problem.metric * point.tangent) @ (ahead.x - point.x))
+    return point.problem.near(_cubic(point, ahead, fraction), point.tangent, distance)
 
 
 def at_value(point, ahead, value):
-    """Return the same as `at_distance`, at a value of the parameter between those of both."""
+    """Return the point of a branch at a value of the parameter between those of two points.
+
+    The arguments `point` and `ahead` are those of `at_distance`. The result is None if Newton's
+    method fails.
+    """
     problem, chord = point.problem, ahead.x - point.x
 
-    def beyond(share):
-        return _cubic(point, ahead, share)[-1] - value
+    def beyond(fraction):
+        return _cubic(point, ahead, fraction)[-1] - value
 
     x = _cubic(point, ahead, brentq(beyond, 0.0, 1.0))
     x[-1] = value
-    found = problem.near(x, np.eye(len(x))[-1], problem.length(chord))
-    if found is None:
+    near = problem.near(x, np.eye(len(x))[-1], problem.length(chord))
+    if near is None:
         return None
-    turned = np.sign((problem.metric * found.tangent) @ chord)
-    return found._replace(tangent=found.tangent * turned)
+    turned = np.sign((problem.metric * near.tangent) @ chord)
+    return near._replace(tangent=near.tangent * turned)
 
 
-def _cubic(point, ahead, share):
-    """Return unknowns on the cubic that passes two points with the tangents of both.
+def _cubic(point, ahead, fraction):
+    """Return the unknowns on the cubic that passes through two points with their tangents.
 
-    `share` is the share of the way along the tangent of the first one.
+    `fraction` is the fraction of the distance along the tangent of the first point.
     """
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x
     length = row @ chord
     aside = chord - length * point.tangent
     slope = length * (ahead.tangent / (row @ ahead.tangent) - point.tangent)
-    bent = share**2 * ((3 - 2 * share) * aside + (share - 1) * slope)
-    return point.x + share * length * point.tangent + bent
+    bent = fraction**2 * ((3 - 2 * fraction) * aside + (fraction - 1) * slope)
+    return point.x + fraction * length * point.tangent + bent

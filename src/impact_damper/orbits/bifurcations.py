@@ -1,7 +1,7 @@
 """Locate bifurcations and changes of contact on a step between two points of a branch.
 
-A bifurcation is located as the zero of a test function along the step, a change of contact as
-the place where the sequence of walls that an orbit touches changes.
+A bifurcation is located as the zero of a test function along the step. A change of contact is
+located as the place at which the sequence of walls that the orbit touches changes.
 """
 
 from typing import NamedTuple
@@ -13,13 +13,13 @@ from impact_damper.orbits import between
 from impact_damper.orbits.continuation import Point
 from impact_damper.system.packed import FREQUENCY
 
-# Largest tolerance on the place of a bifurcation, as a share of the step.
+# Largest tolerance of the place of a bifurcation, divided by the length of the step.
 FINE = 1e-3
-# Tolerance on the place of a change of contact along the branch, relative for steps above 1.
+# Tolerance of the place of a change of contact along the branch; relative for steps longer than 1.
 PLACE = 1e-12
-# A multiplier is complex if its imaginary part exceeds this.
+# A multiplier is complex if its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
-# A flight between two contacts shorter than this share of the forcing period is about to vanish.
+# A flight between two contacts is about to vanish if it is shorter than MERGED forcing cycles.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
@@ -31,7 +31,8 @@ class Event(NamedTuple):
     Attributes
     ----------
     kind : str
-        fold, symmetry_breaking, period_doubling, neimark_sacker, grazing or merging.
+        fold, symmetry_breaking, period_doubling, neimark_sacker, grazing or merging. At a grazing a
+        contact appears or vanishes in flight; at a merging two contacts with one wall become one.
     point : Point
         Point of the branch at the event.
     before, after : str
@@ -50,13 +51,19 @@ def _fold(point):
 
 
 def _symmetry(point):
-    """Return the test function of a multiplier -1 of the root; 1 if the orbit is not symmetric."""
+    """Return the test function of a multiplier -1 of the root, or 1 if there is no root.
+
+    Only symmetric orbits have a root (`Orbit.root`).
+    """
     orbit = point.orbit
     return 1.0 if orbit.root is None else _product(orbit.cycle_multipliers + 1)
 
 
 def _doubling(point):
-    """Return the test function of a multiplier -1; 1 if symmetric: such an orbit cannot double."""
+    """Return the test function of a multiplier -1, or 1 for an orbit with a root.
+
+    An orbit with a root is symmetric, and a symmetric orbit has no period doubling.
+    """
     orbit = point.orbit
     return 1.0 if orbit.root is not None else _product(orbit.cycle_multipliers + 1)
 
@@ -69,17 +76,18 @@ def _pairs(point):
 
 
 def _product(values):
-    """Return the product of complex numbers of which those above 1 are divided by their modulus.
+    """Return a number with the sign of a product of complex numbers.
 
-    Its sign is that of the product, without overflow.
+    Numbers with a modulus above 1 are divided by their modulus, so that the product cannot
+    overflow.
     """
     return float(np.prod(values / np.maximum(1, np.abs(values))).real)
 
 
-# For each kind of bifurcation a function of a point that is zero at the bifurcation, and the
-# tolerance on the place of the zero, in branch length. A fold needs less accuracy: the parameter
-# changes with the square of the distance from the fold, and Newton's method becomes singular closer
-# to it.
+# For each kind of bifurcation the test function of a point, which is zero at the bifurcation, and
+# the tolerance of the place of the zero, in branch length. A fold needs less accuracy, because the
+# parameter changes with the square of the distance from the fold, and because Newton's method is
+# nearly singular there.
 TESTS = {
     "fold": (_fold, 1e-7),
     "symmetry_breaking": (_symmetry, 1e-11),
@@ -94,20 +102,20 @@ def bifurcations_between(point_at, start, end, first, last):
     Parameters
     ----------
     point_at : callable
-        Function from a place, between `first` and `last`, to the point of the branch there; it
-        raises ArithmeticError where there is none.
+        Function from a place between `first` and `last` to the point of the branch there. It raises
+        ArithmeticError if there is no point.
     start, end : Point
-        Points at both places.
+        Points at the places `first` and `last`.
     first, last : float
         Places, such as distances along the branch.
 
     Returns
     -------
     located : list of (float, Event)
-        Places and events, in order. Two real multipliers whose product passes 1 are no
-        Neimark-Sacker bifurcation and are left out.
+        Places and events, in order. If the product of two real multipliers passes 1, this is no
+        Neimark-Sacker bifurcation and is not listed.
     lost : int
-        Number of events that were not located, since Newton's method failed.
+        Number of events that were not located because Newton's method failed.
     """
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
@@ -125,7 +133,7 @@ def bifurcations_between(point_at, start, end, first, last):
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
             if start.orbit.stable != end.orbit.stable and not point.orbit.stable:
-                # of both sides of the bifurcation the stable one
+                # The point is moved to the stable side of the bifurcation.
                 aside = place + np.copysign(
                     2 * tolerance, (first if start.orbit.stable else last) - place
                 )
@@ -140,14 +148,14 @@ def bifurcations_between(point_at, start, end, first, last):
 
 
 def events_between(start, end, length):
-    """Locate all events on a step, as far as the sequence of contacts changes little.
+    """Locate all events on a step, at most MOST_CHANGES of them changes of contact.
 
     Parameters
     ----------
     start, end : Point
-        Points at both ends of the step.
+        Points at the two ends of the step.
     length : float
-        Distance of the end along the tangent at the start.
+        Distance of `end` from `start` along the tangent at `start`.
 
     Returns
     -------
@@ -179,9 +187,9 @@ def _is_complex_pair(multipliers):
 
 
 def _changes_of_contact(point_at, start, end, length):
-    """Locate changes of the sequence of walls on a step, one after the other, by bisection.
+    """Locate the changes of the sequence of walls on a step by bisection.
 
-    Returns pairs of a distance along the step and an event.
+    Return a list of pairs: distance along the step, and event.
     """
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:
@@ -195,7 +203,7 @@ def _changes_of_contact(point_at, start, end, length):
                 inner = middle
             else:
                 outer, after = middle, orbit
-        # the event is stored with the orbit on the side on which the contact exists
+        # The event is stored with the orbit of the side on which the contact exists.
         sides = point_at(inner), point_at(outer)
         point = max(sides, key=lambda side: len(side.orbit.sequence))
         kind = _contact_event(point.orbit)
@@ -205,10 +213,10 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return how the slowest contact of an orbit appeared.
+    """Return the kind of event at which the slowest contact of an orbit appeared.
 
-    "merging" if it has just separated from a contact with the same wall, "grazing" if it began in
-    flight.
+    The kind is "merging" if a very short flight separates the contact from another contact with the
+    same wall, otherwise "grazing".
     """
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))

@@ -19,23 +19,26 @@ from impact_damper.orbits.continuation import (
 from impact_damper.orbits.grazing import through_grazing
 from impact_damper.orbits.orbit import Orbit
 
-# Most orbits in one direction.
+# Largest number of orbits in one direction.
 MOST_POINTS = 10_000
-# Two orbits at the same parameter are the same if their strobe states differ by less.
+# Two orbits at the same parameter are the same if their strobe states differ by less than SAME.
 SAME = 1e-5
-# `Branch.holds` compares states only where max |Z1| on the step comes so close to the orbit's.
+# `Branch.holds` compares an orbit with the orbits of a step only if max |Z1| on the step comes
+# within NEARBY of max |Z1| of the orbit.
 NEARBY = 0.02
-# If contacts slower than this disappear, the branch has come to a motion without contacts.
+# If the branch is lost where the fastest contact is slower than WEAK, the branch has reached a
+# motion without contacts.
 WEAK = 0.02
-# The tangents at both ends of a step differ by at most this angle, and its chord from their mean by
-# at most this share of its length: it would if the step led to another branch close by.
+# A step is accepted if the tangents at its ends differ by at most the angle TURNED, and if its
+# chord differs from the mean of the tangents by at most SKEW times its length. A larger difference
+# would indicate that the step led to another branch nearby.
 TURNED, SKEW = 0.35, 0.02
-# A step is followed by one that turns less than the most by this factor, and that is at most so
-# much longer, or shorter if the step failed.
+# The length of the next step is chosen to turn by AIM times the largest turn. It is at most GROWTH
+# times the length before and, after a failure, at least SHRINKAGE times this length.
 AIM, GROWTH, SHRINKAGE = 0.8, 1.5, 0.3
-# The step below which a grazing is looked for within so many steps.
+# If a step shorter than CLOSE_STEP fails, a grazing is searched for within REACH times its length.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# A step that meets another branch is halved down to this until the place is seen.
+# A step that crosses another branch is halved, down to CLEAR_STEP, until the crossing is located.
 CLEAR_STEP = 1e-4
 
 
@@ -48,11 +51,11 @@ class Branch:
     family : callable
         Maps the parameter to packed parameters.
     points : list of Point
-        Points in order along the branch, those of events among them.
+        Points in order along the branch, including the points of events.
     events : list of (int, Event)
         Events, each with the index of its point.
     ends : tuple of str
-        Reason why the branch ends before the first point and after the last: range_ends, closed,
+        Reasons why the branch ends before the first and after the last point: range_ends, closed,
         symmetry_breaking, period_doubling, contact_lost, lost or point_limit.
     lost : int
         Number of events that could not be located.
@@ -77,8 +80,8 @@ class Branch:
     def holds(self, orbit, value) -> bool:
         """Return whether an orbit at a value of the parameter lies on the branch.
 
-        On each step of the branch that crosses the value, and on which max |Z1| comes close to
-        that of the orbit, the orbit of the branch at the value is computed and compared.
+        The orbit is compared with the orbit of the branch at this value on each step that crosses
+        the value and on which max |Z1| comes close to max |Z1| of the orbit.
         """
         if orbit.periods != self.points[0].orbit.periods:
             return False
@@ -88,8 +91,8 @@ class Branch:
         crossing = (away[:-1] * away[1:] <= 0) & (closeness <= NEARBY + np.abs(np.diff(size)))
         for k in np.flatnonzero(crossing):
             point = self.points[k if abs(away[k]) <= abs(away[k + 1]) else k + 1]
-            found = point.problem.at_value(point, value)
-            if found is not None and found.orbit.is_same(orbit, SAME):
+            near = point.problem.at_value(point, value)
+            if near is not None and near.orbit.is_same(orbit, SAME):
                 return True
         return False
 
@@ -104,11 +107,11 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS) -> Branch:
     orbit : Orbit
         A converged orbit of the branch.
     value : float
-        The parameter of that orbit.
+        Value of the parameter of this orbit.
     span : tuple of float
         Least and greatest value of the parameter.
     most : int
-        Number of orbits in one direction after which the branch is left ("point_limit").
+        Largest number of orbits in one direction. A branch with more orbits ends as "point_limit".
 
     Returns
     -------
@@ -117,7 +120,7 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS) -> Branch:
     Raises
     ------
     ArithmeticError
-        If the orbit is not one of the family at the value.
+        If the orbit is not an orbit of the family at this value.
     """
     problem = Problem.of(family, orbit)
     walks = []
@@ -137,12 +140,15 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS) -> Branch:
 
 
 def _reversed(event):
-    """Return the event as met in the other direction."""
+    """Return the event with `before` and `after` exchanged, as seen in the other direction."""
     return event._replace(before=event.after, after=event.before)
 
 
 def _walk(problem, first, span, most) -> Branch:
-    """Follow a branch from a point along its tangent; the start has the end reason ""."""
+    """Follow a branch from a point along its tangent.
+
+    In the attribute `ends` of the result the reason before the first point is "".
+    """
     points, events, lost, end = [first], [], 0, ""
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
@@ -204,18 +210,20 @@ def _walk(problem, first, span, most) -> Branch:
 
 
 def _passes_unseen(point, ahead, located):
-    """Return whether a step passes an orbit of more symmetry without the fold that belongs there.
+    """Return whether a step crosses a branch of orbits of more symmetry without a located fold.
 
-    The step has then led from one branch to the other.
+    Where the two branches meet, the parameter has an extremum along the branch, so the events of
+    the step should include a fold. Without it the step may have led to the other branch.
     """
     folds = any(event.kind == "fold" for event in located)
     return not folds and _deviation(point.orbit) @ _deviation(ahead.orbit) < 0
 
 
 def _through_grazing(point, reach):
-    """Return the pieces of a branch through a grazing within reach, [] if there is none.
+    """Return the pieces of a branch through a grazing within reach, or [] if there is no grazing.
 
-    Each piece is a point, the next one, the events between, and the number of those not located.
+    Each piece consists of a point, the next point, the events between them, and the number of
+    events that were not located.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -233,11 +241,11 @@ def _through_grazing(point, reach):
 
 
 def _deviation(orbit: Orbit):
-    """Return the difference, shape (4,), of an orbit from one of more symmetry.
+    """Return a vector, shape (4,), that vanishes where an orbit has more symmetry.
 
-    The branches of both orbits meet where the difference changes sign. The other orbit is the
-    symmetric one if the period n is odd, and one of half the period if n is even. A symmetric orbit
-    has no such branch to meet; the difference is then replaced by ones.
+    The orbit of more symmetry is a symmetric orbit if the period n is odd, and an orbit of half the
+    period if n is even. The branches of both orbits meet where the vector changes its sign. An
+    orbit with a root is symmetric and has no such branch; for it the vector of ones is returned.
     """
     if orbit.root is not None:
         return np.ones(4)
@@ -246,9 +254,9 @@ def _deviation(orbit: Orbit):
 
 
 def _up_to_fold(events, kind):
-    """Drop events after the first fold and relabel that fold as `kind`.
+    """Drop events after the first fold and relabel this fold as `kind`.
 
-    Returns the events, and whether there was a fold.
+    Return the events, and whether there was a fold.
     """
     for k, event in enumerate(events):
         if event.kind == "fold":
@@ -257,10 +265,11 @@ def _up_to_fold(events, kind):
 
 
 def _next(point, span, length):
-    """Return the next point and the factor by which the length of the step after it may change.
+    """Return the next point, and the factor for the length of the step after it.
 
-    The point lies at the end of the range if the step would leave it. It is None if Newton's
-    method fails, if the branch turns by too much, or if the point lies on another branch.
+    If the step would leave the range, the point lies at the end of the range. The point is None if
+    Newton's method fails, if the branch turns by too much, or if the point seems to lie on another
+    branch.
     """
     problem = point.problem
     ahead = problem.step(point, length)
@@ -281,7 +290,7 @@ def _next(point, span, length):
 
 
 def _loss(last):
-    """Return why a branch ends at a point beyond which Newton's method finds no other."""
+    """Return the reason why a branch ends at a point after which Newton's method finds no point."""
     orbit = last.orbit
     if orbit.touching and np.max(np.abs(orbit.contacts[:, 3])) < WEAK:
         return "contact_lost"
@@ -289,9 +298,9 @@ def _loss(last):
 
 
 def _passes(point, ahead, first):
-    """Return the place on the step between two points at which the branch began, or None.
+    """Return the first point of a branch if the step between two points passes it again, or None.
 
-    The parameter changes there in the same direction as at the beginning.
+    At this place the parameter must change in the same direction as at the beginning.
     """
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
@@ -301,6 +310,6 @@ def _passes(point, ahead, first):
 
 
 def _is_between(start, point, ahead):
-    """Return whether a point of a step lies before another one."""
+    """Return whether a point of the step that begins at `start` lies before the point `ahead`."""
     row = start.problem.metric * start.tangent
     return bool(row @ (point.x - start.x) < row @ (ahead.x - start.x))

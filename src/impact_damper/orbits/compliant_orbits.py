@@ -1,6 +1,6 @@
-"""Symmetric orbits of period 1 with two compliant contacts, by Newton's method.
+"""Find symmetric orbits of period 1 with two compliant contacts by Newton's method.
 
-The counterpart with rigid impacts is `contact.rigid_orbits`.
+`contact.rigid_orbits` finds the corresponding orbits with rigid impacts.
 """
 
 from typing import NamedTuple
@@ -15,7 +15,7 @@ SYMMETRIC = 1e-6
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit with two contacts per forcing period, stable or not.
+    """A symmetric orbit with two contacts in a forcing cycle, stable or unstable.
 
     Attributes
     ----------
@@ -24,7 +24,7 @@ class CompliantOrbit(NamedTuple):
     state : numpy.ndarray, shape (4,)
         Z1, Z1', Z2, Z2' at the strobe, W T = pi/2, where W is the forcing frequency.
     multiplier : complex
-        Dominant Floquet multiplier, its imaginary part not negative.
+        Dominant Floquet multiplier, with an imaginary part that is not negative.
     displacement : float
         max |Z1|.
     """
@@ -36,7 +36,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Find a symmetric orbit with two contacts per forcing period by Newton's method.
+    """Find a symmetric orbit with two contacts in a forcing cycle by Newton's method.
 
     Parameters
     ----------
@@ -45,11 +45,11 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     guess : array, shape (4,)
         State near the orbit at W T = pi/2.
     reach : float
-        Largest distance of the orbit from the guess, not counting Z2'.
+        Largest distance of the orbit from the guess, in all components but Z2'.
     tolerance : float
-        Local error allowed in a step of the integrator.
+        Largest local error of a step of the integrator.
     asymmetry : float
-        Largest difference between the states half a period apart, one of them mirrored.
+        Largest difference between a state and the mirrored state half a cycle later.
 
     Returns
     -------
@@ -58,8 +58,8 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
         "found", "not_followed" if Newton's method fails, or "other_contacts".
     """
     state = np.array(guess, float)
-    found, _, multiplier = polish(p, state, 1, reach, tolerance)
-    if not found:
+    converged, _, multiplier = polish(p, state, 1, reach, tolerance)
+    if not converged:
         return None, "not_followed"
     record = measured(p, state, 1, tolerance)
     if record["contacts"] != CONTACTS or not record["asymmetry"] < asymmetry:

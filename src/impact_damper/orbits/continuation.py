@@ -1,11 +1,11 @@
 """Pseudo-arclength continuation of periodic orbits in one parameter.
 
-The unknowns are the states at the beginning of an orbit's segments, at phases of the forcing at
-which it is in flight, and the parameter. A mild orbit is one segment (single shooting); one that
-amplifies disturbances strongly is cut into several (`segments`). A step goes along the tangent of
-the branch and is corrected by Newton's method at right angles to the tangent, so that folds are
-passed. The derivative with respect to the parameter is a central difference; its error affects
-the direction of a step, not the orbit.
+The unknowns are the parameter and the states at the beginnings of an orbit's segments, at phases of
+the forcing at which the loose mass is in flight. Most orbits have one segment (single shooting). An
+orbit that strongly amplifies disturbances is cut into several segments (`segments`). A step goes
+along the tangent of the branch and is corrected by Newton's method orthogonally to the tangent, so
+that the continuation passes folds. The derivative with respect to the parameter is a central
+difference. Its error changes the direction of a step, but not the orbits.
 """
 
 from collections.abc import Callable
@@ -21,25 +21,28 @@ from impact_damper.system.packed import CLEARANCE
 
 # Change of the parameter in the central difference.
 NUDGE = 2e-7
-# Newton's method: most corrections, and the largest of them. It has converged once a correction is
-# below CLOSE, or below ROUNDING and no longer halved by the next.
+# Newton's method. NEWTON: largest number of corrections. LARGEST: largest size of a correction. The
+# method has converged once a correction is below CLOSE, or below ROUNDING and more than half the
+# correction before.
 NEWTON = 16
 LARGEST = 0.5
 CLOSE, ROUNDING = 1e-10, 1e-4
-# Singular values below this share of the largest are left out.
+# Singular values below SINGULAR times the largest singular value are set to zero.
 SINGULAR = 1e-8
-# An orbit with a smaller asymmetry is symmetric.
+# An orbit is symmetric if its asymmetry is below SYMMETRIC.
 SYMMETRIC = 1e-6
-# Steps, in branch length.
+# First and shortest step, in branch length.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# The longest steps on symmetric or stable orbits, and on others, as shares of the unknowns' size.
+# Longest step divided by the length of the unknowns: on symmetric or stable orbits, and on other
+# orbits.
 LONGEST, LONGEST_UNSTABLE = 0.02, 0.06
+# Largest distance of a first guess along the tangent, in `Problem.at_value`.
 FARTHEST_GUESS = 0.08
-# A correction by more than this share of the step may have led to another branch.
+# A correction that exceeds ASIDE times the step may have led to another branch.
 ASIDE = 0.2
-# An orbit is cut again if a contact comes closer to a section than this, in radians, or if a
-# segment amplifies by this factor more than when it was cut; and made one segment again if it
-# amplifies less than this share of AMPLIFYING.
+# An orbit is cut into new segments if a contact comes closer to a section than NEAR_SECTION
+# (radian), or if a segment amplifies ROUGHER times more than when it was cut. It becomes one
+# segment again if it amplifies less than MILD times AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
@@ -52,13 +55,14 @@ class Point(NamedTuple):
         The parameter.
     orbit : Orbit
     x : numpy.ndarray, shape (m n + 1,)
-        The unknowns: for each of m segments Z1, Z1', with a damper Z2, Z2' too, then the parameter.
+        The unknowns: Z1, Z1' and, with a damper, Z2, Z2' for each of m segments; then the
+        parameter.
     tangent : numpy.ndarray, shape (m n + 1,)
         Unit tangent of the branch, in the metric of the problem.
     problem : Problem
         The equations that the unknowns solve.
     bend : numpy.ndarray, shape (m n + 1,), or float
-        Estimate of the derivative of the tangent by the length, for the guess of the next point.
+        Estimate of the derivative of the tangent by the branch length, for the next first guess.
     """
 
     value: float
@@ -73,26 +77,26 @@ class Point(NamedTuple):
 class Problem:
     """The equations that the orbits of a branch solve.
 
-    The distance of two points is the root of the mean square over the segments of the distance of
-    their states, and of the square of the difference of the parameter.
+    The square of the distance of two points is the mean over the segments of the squared distance
+    of their states, plus the squared difference of the parameter.
 
     Attributes
     ----------
     family : callable
         Maps the parameter to packed parameters.
     periods : int
-        Period of the orbits in forcing periods.
+        Period of the orbits in forcing cycles.
     phases : numpy.ndarray, shape (m + 1,)
-        Phases W T at which the segments begin, and at which the last one ends, radian.
+        Phases W T at which the segments begin, and at which the last segment ends, radian.
     loose : numpy.ndarray, shape (2,)
         Z2 - Z1 and Z2' - Z1'. Without a damper they have no effect and are kept constant.
     damped : bool
-        Whether the damper is on.
+        Whether there is a damper.
     symmetric : bool
-        Whether orbits are found as symmetric ones, by the map over half the period. This map is
-        regular where an orbit loses its symmetry; the map over the period is not.
+        If True, only symmetric orbits are found, by the map over half the period. This map is
+        regular where an orbit loses its symmetry. The map over the whole period is singular there.
     rough : float
-        Largest norm of the derivative of a segment when the orbit was cut into them.
+        Largest norm of the derivative of a segment at the time when the orbit was cut.
     """
 
     family: Callable[[float], np.ndarray]
@@ -107,7 +111,7 @@ class Problem:
     def of(cls, family, orbit, *, symmetric=None):
         """Return the problem that an orbit of a family solves.
 
-        Whether it is a symmetric one is seen from the orbit unless `symmetric` says so.
+        By default the attribute `symmetric` is True if the orbit is symmetric.
         """
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
@@ -129,7 +133,7 @@ class Problem:
 
     @property
     def metric(self):
-        """Weights of the squares of the unknowns in a distance, shape (m n + 1,)."""
+        """Weights of the squared unknowns in a squared distance, shape (m n + 1,)."""
         m = len(self.phases) - 1
         return np.append(np.full(m * (4 if self.damped else 2), 1 / m), 1.0)
 
@@ -151,7 +155,7 @@ class Problem:
     def shoot(self, x):
         """Return the `Orbit` at the unknowns x, without iteration, and its defect, shape (m n,).
 
-        The defect is the states after each segment less the states that they should be.
+        The defect is the state after each segment minus the state at which the next segment begins.
         """
         p, states = self.family(x[-1]), self._states(x)
         if len(states) == 1:
@@ -165,7 +169,7 @@ class Problem:
     def rate(self, value):
         """Return the derivative of the packed parameters by the parameter, shape (COUNT,)."""
         ahead, behind = self.family(value + NUDGE), self.family(value - NUDGE)
-        # without a damper the clearance is infinite
+        # Without a damper the clearance is infinite. Its derivative is set to 0.
         return np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf) / (
             2 * NUDGE
         )
@@ -173,7 +177,7 @@ class Problem:
     def rows(self, x, orbit, rate=None):
         """Return the derivative of the defect by the unknowns, shape (m n, m n + 1).
 
-        `rate` is the one at a parameter nearby, if it is known.
+        `rate` is the result of `Problem.rate` at a parameter nearby, if it is known.
         """
         n = 4 if self.damped else 2
         states = self._states(x)
@@ -187,11 +191,11 @@ class Problem:
         return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), by_parameter.ravel()])
 
     def correct(self, x, border):
-        """Return the point that Newton's method reaches at right angles to `border`, or None.
+        """Return the point that Newton's method reaches from x, or None.
 
-        Where branches cross the matrix is singular: its smallest singular value is left out. The
-        last corrections are then rounding errors, which no longer shrink, so convergence is
-        judged by the residual.
+        The corrections are orthogonal to `border`. Where branches cross the matrix is singular, and
+        its smallest singular value is set to zero. The last corrections are then rounding errors,
+        which no longer shrink, so the residual decides whether the method has converged.
         """
         x, last, row = x.copy(), np.inf, self.metric * border
         rate = self.rate(x[-1])
@@ -204,7 +208,7 @@ class Problem:
             except (np.linalg.LinAlgError, ValueError):
                 return None
             if not border[:-1].any():
-                change[-1] = 0.0  # the parameter is given, to the last digit
+                change[-1] = 0.0  # the parameter must keep its value exactly
             size = np.max(np.abs(change))
             if not size < LARGEST:
                 return None
@@ -214,27 +218,30 @@ class Problem:
         return None
 
     def point(self, x, orbit, rows, row):
-        """Return the point at converged unknowns, its tangent with a positive product by `row`."""
+        """Return the point at converged unknowns; its tangent has a positive product with `row`."""
         tangent = _solved(np.vstack([rows, row]), np.eye(len(x))[-1])
         return Point(x[-1], orbit, x, tangent / self.length(tangent), self)
 
     def step(self, point, length):
-        """Return the point a step along the branch from a point, or None."""
+        """Return the point at a distance `length` along the branch from a point, or None."""
         bent = length**2 / 2 * point.bend
         return self.near(point.x + length * point.tangent + bent, point.tangent, length)
 
     def near(self, x, border, length):
-        """Return the point that Newton's method finds close to a guess, relative to a length."""
-        found = self.correct(x, border)
+        """Return the point that Newton's method finds from a guess x, or None.
+
+        None is also returned if the correction exceeds ASIDE times the length.
+        """
+        point = self.correct(x, border)
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
-        return None if found is None or self.length(found.x - x) > aside else found
+        return None if point is None or self.length(point.x - x) > aside else point
 
     def at_value(self, point, value):
-        """Return the point at a value of the parameter close to that of a point, or None.
+        """Return the point at a value of the parameter close to the value of a point, or None.
 
-        The first guess lies on the tangent. Near a fold, where the tangent is at right angles to
-        the parameter, it would lie far away, in states that take minutes to integrate: it is
-        taken at most FARTHEST_GUESS along the tangent.
+        The first guess lies on the tangent, at a distance of at most FARTHEST_GUESS. Near a fold
+        the tangent is nearly orthogonal to the parameter. Without the limit the guess would then be
+        a large state, whose integration takes minutes.
         """
         length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
         x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
@@ -246,35 +253,35 @@ class Problem:
         return near._replace(tangent=near.tangent * turned)
 
     def begin(self, orbit, value, direction):
-        """Return the point of an orbit at a parameter value, or None.
+        """Return the point of an orbit at a value of the parameter, or None.
 
-        Along the tangent the parameter falls (direction -1) or rises (1).
+        Along the tangent of the point the parameter decreases (direction -1) or increases (1).
         """
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])
 
     def holds_still(self, point):
-        """Return whether the sections of a point are still good ones."""
+        """Return whether the segments of a point can be kept (see NEAR_SECTION)."""
         orbit = point.orbit
         if not self.damped:
             return True
         if len(self.phases) == 2 and self.rough == 0:
-            return orbit.amplification <= AMPLIFYING and orbit.quiet_phase() == orbit.phase
+            return orbit.amplification <= AMPLIFYING and orbit.flight_phase() == orbit.phase
         norms = np.linalg.norm(orbit.factors, 2, axis=(1, 2))
         near = min(orbit.margin(phase) for phase in self.phases[:-1])
         mild = orbit.amplification < MILD * AMPLIFYING
         return not mild and near > NEAR_SECTION and np.max(norms) < ROUGHER * self.rough
 
     def recut(self, point, between=()):
-        """Return a point with new sections, or the same point if Newton's method fails with them.
+        """Return a point with new segments, or the same point if Newton's method fails with them.
 
-        The direction of the tangent is kept: a point displaced along it is integrated to the new
-        sections. With phases `between`, segments are cut as `segments.cut` says.
+        To keep the direction of the tangent, a point displaced along the tangent is integrated to
+        the new sections too. `between` is the argument of `segments.cut`.
         """
         orbit = point.orbit
         phases, rough = segments.cut(orbit, self.cycle, between), 1.0
         if not between and orbit.amplification <= AMPLIFYING:
-            phases, rough = orbit.quiet_phase() + np.array([0.0, self.cycle]), 0.0
+            phases, rough = orbit.flight_phase() + np.array([0.0, self.cycle]), 0.0
         problem = replace(self, phases=phases - phases[0] + phases[0] % TURN, rough=rough)
         x = np.append([orbit.at(phase) for phase in phases[:-1]], point.x[-1])
         nudged = point.x + NUDGE * point.tangent
@@ -294,10 +301,10 @@ class Problem:
 
 
 def _solved(matrix, right):
-    """Solve linear equations; the smallest singular values are left out if the matrix has some.
+    """Return the solution of linear equations, with very small singular values set to zero.
 
-    The equations of many segments are solved by elimination, which is faster, unless the result
-    is so large that the matrix must be nearly singular.
+    The equations of several segments are solved by elimination, which is faster, unless the
+    solution is so large that the matrix must be nearly singular.
     """
     if len(right) > 5:
         solution = np.linalg.solve(matrix, right)

@@ -1,12 +1,12 @@
-"""Follow a branch through a grazing, where a contact appears, vanishes, or parts in two.
+"""Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
-Let h be the height |Z2| - d0 of an extremum of Z2 close to a wall. Beyond h = 0, on the side with
-more contacts, the force of the wall changes the orbit by a term of the order |h|^(3/2), with a
-large factor: the multipliers change with the root of |h|, and the branch turns sharply, often
-within 1e-8 of the parameter. There the branch is continued in h in place of its length. As a
-function of h the orbits are smooth up to the 3/2-power: at a fixed h the equations do not turn.
-Derivatives by the parameter are integrated (`variations`), since differences would reach across
-the grazing.
+Let h be the height |Z2| - d0 of an extremum of Z2 close to a wall. On the side of h = 0 with more
+contacts, the force of the wall changes the orbit by a term of the order |h|^(3/2) with a large
+factor. The multipliers change with the root of |h|, and the branch turns sharply, often within 1e-8
+of the parameter. Near a grazing the branch is therefore continued in h in place of the branch
+length. As functions of h the orbits are smooth except for the term of power 3/2, so Newton's method
+at fixed h converges. Derivatives by the parameter are integrated (`variations`), because difference
+quotients would reach across the grazing.
 """
 
 from typing import NamedTuple
@@ -19,13 +19,15 @@ from impact_damper.orbits.sensitivity import path_of
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Heights from one point to the next grow by RATIO, from LEAST to MOST in modulus.
+# On the side with more contacts the heights of successive points have the ratio RATIO, from LEAST
+# to MOST in modulus.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # Heights of the points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
-# Newton's method: largest correction, relative error of the height, and its rounding.
+# Newton's method. LARGEST: largest size of a correction. CLOSE, ROUNDING: largest relative and
+# absolute error of the height.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
-# Phase by which an extremum may move between two heights, radian.
+# Largest change of the phase (radian) of an extremum between two heights.
 MOVED = 0.1
 
 
@@ -35,10 +37,11 @@ class Turn(NamedTuple):
     Attributes
     ----------
     segment : int
+        Index of the segment of the orbit.
     phase : float
         W T, radian.
     outer : bool
-        Whether |Z2| is largest there, in flight or in contact, and not least.
+        True if |Z2| has a maximum, False if it has a minimum.
     height : float
         |Z2| - d0.
     gradient : numpy.ndarray, shape (4 m + 1,)
@@ -56,9 +59,9 @@ class Turn(NamedTuple):
 
 
 def turns_of(problem, x, orbit, segment=None):
-    """Return every `Turn` of an orbit, or of one segment of it."""
+    """Return every `Turn` of an orbit, or of one segment of the orbit."""
     rate = problem.rate(x[-1])
-    found = []
+    turns = []
     for k in range(len(problem.phases) - 1) if segment is None else [segment]:
         path = path_of(orbit) if orbit.chain is None else orbit.chain.path(k)
         steps, sizes, weights, times = path.turns(1)
@@ -70,35 +73,35 @@ def turns_of(problem, x, orbit, segment=None):
         if k == len(problem.phases) - 2 and problem.symmetric:
             by_parameter = -by_parameter
         for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
-            wall, here = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
+            wall, part = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
             gradient = np.zeros(len(x))
-            gradient[4 * k : 4 * k + 4] = wall * (path.tangents[2, :, here] @ weight)
-            gradient[-1] = wall * (change[here] @ weight) - rate[CLEARANCE]
-            before = path.times[here] < time
-            speed = wall * path.states[3, here]
+            gradient[4 * k : 4 * k + 4] = wall * (path.tangents[2, :, part] @ weight)
+            gradient[-1] = wall * (change[part] @ weight) - rate[CLEARANCE]
+            before = path.times[part] < time
+            speed = wall * path.states[3, part]
             outer = (speed[before][-1] if before.any() else -speed[~before][0]) > 0
             height = wall * size - orbit.p[CLEARANCE]
             phase = orbit.p[FREQUENCY] * time
-            found.append(Turn(k, phase, bool(outer), height, gradient, by_parameter))
-    return found
+            turns.append(Turn(k, phase, bool(outer), height, gradient, by_parameter))
+    return turns
 
 
 def exact_rows(problem, x, orbit, turn):
-    """Return `Problem.rows` with the integrated derivative by the parameter, for one segment."""
+    """Return `Problem.rows`, with the derivative by the parameter integrated for one segment."""
     rows = problem.rows(x, orbit)
     rows[4 * turn.segment : 4 * turn.segment + 4, -1] = turn.by_parameter
     return rows
 
 
 def nearest(turns, turn):
-    """Return the turn of the same kind closest to another in phase, or None."""
+    """Return the turn closest in phase to a given turn, preferably of the same kind, or None."""
     near = [each for each in turns if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
     return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point at which an extremum has a height, and its `Turn`, or None.
+    """Return the point at which an extremum has a given height, and the `Turn` there, or None.
 
     Parameters
     ----------
@@ -109,7 +112,7 @@ def at_height(problem, x, turn, height, direction):
         The extremum at the guess.
     height : float
     direction : int
-        1 if the height rises along the tangent of the point, -1 if it falls.
+        1 if the height increases along the tangent of the point, -1 if it decreases.
     """
     x = x.copy()
     for _ in range(NEWTON):
@@ -140,8 +143,8 @@ class Passage(NamedTuple):
     Attributes
     ----------
     points : list of Point
-        In order along the branch; the first is the one from which the passage began, with other
-        sections.
+        In order along the branch. The first point is the point before the passage, cut into new
+        segments.
     heights : list of float
         Heights of the extremum at the points.
     turns : list of Turn
@@ -159,34 +162,34 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function from a height between points k and k + 1 to the point there."""
+        """Return a function that maps a height between points k and k + 1 to a point."""
 
         def point_at(height):
             end = k if abs(height - self.heights[k]) < abs(height - self.heights[k + 1]) else k + 1
             start, turn = self.points[end], self.turns[end]
             direction = np.sign(self.heights[k + 1] - self.heights[k])
             x = guess(start, turn, height)
-            found = at_height(start.problem, x, turn, height, direction)
-            if found is None:
+            reached = at_height(start.problem, x, turn, height, direction)
+            if reached is None:
                 raise ArithmeticError
-            return found[0]
+            return reached[0]
 
         return point_at
 
 
 def guess(point, turn, height):
-    """Return the unknowns, on the tangent of a point, at which an extremum has a height."""
+    """Return the unknowns on the tangent of a point at which an extremum has a given height."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
 def next_grazing(point, reach):
-    """Return the extremum that next comes to its wall along the tangent of a point, or None.
+    """Return the extremum that first reaches its wall along the tangent of a point, or None.
 
     Parameters
     ----------
     point : Point
     reach : float
-        Distance along the tangent within which it does.
+        Largest distance along the tangent.
     """
     candidates = []
     for turn in turns_of(point.problem, point.x, point.orbit):
@@ -202,14 +205,14 @@ def through_grazing(point, reach):
     Parameters
     ----------
     point : Point
-        With a damper.
+        A point of a branch with a damper.
     reach : float
-        Distance along the tangent within which the extremum is to reach the wall.
+        Distance along the tangent within which an extremum must reach its wall.
 
     Returns
     -------
     Passage or None
-        None if no extremum does, or if Newton's method fails at the grazing.
+        None if no extremum reaches its wall, or if Newton's method fails at the grazing.
     """
     turn = next_grazing(point, reach)
     if turn is None:
@@ -225,15 +228,15 @@ def through_grazing(point, reach):
     grazing, one = None, 2 if point.problem.symmetric else 1
     fewest = len(point.orbit.sequence) - one * (direction != sharp)
     for target in targets:
-        found = at_height(
+        reached = at_height(
             point.problem, guess(points[-1], turns[-1], target), turns[-1], target, direction
         )
         contacts = fewest + one * (sharp * target > 0)
-        if found is None or len(found[0].orbit.sequence) != contacts:
+        if reached is None or len(reached[0].orbit.sequence) != contacts:
             break
-        points.append(found[0])
+        points.append(reached[0])
         heights.append(target)
-        turns.append(found[1])
+        turns.append(reached[1])
         if abs(target) == LEAST:
             grazing = len(points) - 1
     if grazing is None:
@@ -247,11 +250,11 @@ def _targets(height, sharp, direction):
     Parameters
     ----------
     height : float
-        Height of the extremum at the beginning.
+        Height of the extremum before the passage.
     sharp : int
-        Sign of heights on the side with more contacts.
+        Sign of the height on the side with more contacts.
     direction : int
-        Sign of the change of height.
+        Sign of the change of the height along the branch.
     """
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:

@@ -7,7 +7,7 @@ import numpy as np
 from impact_damper.data.datasets import flag
 from impact_damper.motions.following import Followed, follow
 
-# Between neighbouring cells a step that fails is halved down to this share of their distance.
+# Between neighbouring cells a step that fails is halved, down to SHORTEST times their distance.
 SHORTEST = 1 / 32
 
 
@@ -19,28 +19,28 @@ def follow_line(
     Parameters
     ----------
     correct : callable
-        Maps a point and a predicted state to an orbit with the attribute `state`, or None, and a
-        status, which is "found" for an orbit.
+        Function of a point and a predicted state. It returns an orbit with the attribute `state`,
+        or None if it fails, and a status, which is "found" for an orbit.
     first, last : array, shape (m,)
         Points.
     orbit
         Orbit at the first point.
     shortest : float
-        Shortest step tried, as a share of the distance.
+        Shortest step, divided by the distance of the points.
     extrapolating : bool
-        Whether predictions extrapolate the last two orbits. Only then does a step grow again after
-        a success, because without extrapolation a longer step that has failed would fail again.
+        Whether the prediction is extrapolated from the last two orbits. Only then a step grows
+        again after a success. Without extrapolation a longer step that has failed would fail again.
     behind : optional
-        Orbit at 2 first - last. Given this orbit, the first prediction extrapolates too.
+        Orbit at 2 first - last. With this orbit the first prediction is extrapolated too.
 
     Returns
     -------
     Followed
-        Its values are shares of the distance, from 0 to 1.
+        Its values are fractions of the distance, from 0 to 1.
     """
 
-    def correct_at(share, guess):
-        return correct((1 - share) * first + share * last, guess)
+    def correct_at(fraction, guess):
+        return correct((1 - fraction) * first + fraction * last, guess)
 
     return follow(
         correct_at,
@@ -48,7 +48,7 @@ def follow_line(
         1.0,
         orbit,
         shortest=shortest,
-        growth=2.0 if extrapolating else 1.0,  # exact in binary, so that shares add up to 1
+        growth=2.0 if extrapolating else 1.0,  # exact in binary, so the fractions add up to 1
         extrapolating=extrapolating,
         behind=behind,
     )
@@ -67,14 +67,14 @@ class Grid:
         Axes of the grid in the order in which orbits are followed along them; by default the
         first axis first.
     extrapolating : bool
-        As in `follow_line`; the orbit behind is that of the cell on the other side.
+        As in `follow_line`. The argument `behind` is then the orbit of the cell on the other side.
 
     Attributes
     ----------
     orbits : dict
         Orbits, keyed by cell, a tuple of indices.
     status : dict
-        Status of the search, keyed by cell, wherever an orbit was followed to.
+        Status of the last search in each cell to which an orbit was followed, keyed by cell.
     """
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
@@ -87,14 +87,14 @@ class Grid:
         self.orbits, self.status = {}, {}
 
     def put(self, cell, orbit):
-        """Enter a known orbit."""
+        """Enter a known orbit in a cell."""
         self.orbits[cell], self.status[cell] = orbit, "found"
 
     def spread(self):
         """Follow orbits into neighbouring cells until no further cell is reached.
 
-        Cells are visited in the order in which their orbits were entered, so that cells near to
-        known orbits come first.
+        Cells are visited in the order in which their orbits were entered, so that cells close to
+        known orbits are reached first.
         """
         queue = deque(self.orbits)
         while queue:
@@ -116,7 +116,7 @@ class Grid:
         return target if inside else None
 
     def follow(self, cell, direction) -> Followed:
-        """Follow the orbit of a cell to the neighbour in a direction, as `follow_line` does."""
+        """Follow the orbit of a cell to the neighbour in a direction, by `follow_line`."""
         return follow_line(
             self.correct,
             self.points[cell],
@@ -128,7 +128,7 @@ class Grid:
         )
 
     def flags(self, variable):
-        """Return the status of all cells as flags of a variable, by default `not_attempted`."""
+        """Return the status of all cells as flags of a variable; `not_attempted` without status."""
         flags = np.full(self.shape, flag(variable, "not_attempted"))
         for cell, status in self.status.items():
             flags[cell] = flag(variable, status)

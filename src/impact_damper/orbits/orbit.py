@@ -1,7 +1,7 @@
-"""A periodic orbit, stable or not: its multipliers, contacts, motion, and phases far from contacts.
+"""A periodic orbit, stable or unstable: its multipliers, contacts, motion and flights.
 
-The state of an orbit is given at a phase W T of the forcing at which the loose mass is in flight,
-far from contacts, where the map over the period is smooth and well scaled.
+The state of an orbit is stored at a phase W T of the forcing at which the loose mass is in flight,
+far from contacts. With such a state the map over the period is smooth and well scaled.
 """
 
 import math
@@ -18,9 +18,9 @@ from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MAS
 
 TURN = 2 * math.pi
 STROBE = math.pi / 2
-# A phase is kept while the nearest contact is further away than this, in radians of the forcing.
+# The phase of an orbit is kept if the nearest contact is further away than MARGIN (radian).
 MARGIN = 0.15
-# Largest number of contacts in a forcing period that are listed.
+# Largest number of contacts in a forcing cycle that can be listed.
 CONTACTS = 64
 
 
@@ -33,30 +33,32 @@ class Orbit:
     p : numpy.ndarray, shape (packed.COUNT,)
         Packed parameters.
     periods : int
-        Period n in forcing periods.
+        Period n in forcing cycles.
     phase : float
-        Phase W T of the state, radian; W is the forcing frequency.
+        Phase W T of the state, radian, with the forcing frequency W.
     state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at that phase; Z2 is the displacement of the primary mass, Z1, relative to
-        the loose mass.
+        Z1, Z1', Z2, Z2' at this phase. Z1 is the displacement of the primary mass, and Z2 its
+        displacement relative to the loose mass.
     monodromy : numpy.ndarray, shape (4, 4)
-        Derivative of the map over n periods.
+        Derivative of the map over n cycles.
     root : numpy.ndarray, shape (4, 4), or None
-        For a symmetric orbit of odd n, derivative of the map over n/2 periods with a change of
-        sign. Its square is the monodromy matrix.
+        For a symmetric orbit of odd n, the derivative of the map over n/2 cycles followed by a
+        change of sign. Its square is the monodromy matrix.
     residual : float
         Largest difference between the state and the state a period later.
     touching : float
         Time in contact during a period.
     converged : bool
-        Whether the residual is at most RESIDUAL times the largest component of the state, or times
-        1 if that is less. Otherwise the state is the best that Newton's method found.
+        Whether the residual is at most `shooting.RESIDUAL` times the largest component of the
+        state, or times 1 if all components are smaller. If not, the state is the best state that
+        Newton's method found.
     maps : int
         Number of maps over the period that Newton's method computed.
     chain : segments.Chain or None
-        Segments of an orbit by multiple shooting. The state is that of the first segment; the
-        monodromy matrix and its root are products of factors, which are exact only relative to
-        their norm. Everything else is computed from the segments, with their accuracy.
+        Segments of an orbit that was found by multiple shooting. The state is the state of the
+        first segment. The monodromy matrix and its root are products of the derivatives of the
+        segments, which are accurate only relative to their norm. All other properties are computed
+        from the segments, with the accuracy of the segments.
     """
 
     p: np.ndarray
@@ -73,7 +75,11 @@ class Orbit:
 
     @property
     def cycle(self):
-        """Phase after which the motion repeats, with a change of sign if the orbit has a root."""
+        """Length of a cycle of the orbit, radian.
+
+        A cycle is the period or, for an orbit with a root, half the period, after which the motion
+        repeats with a change of sign.
+        """
         return self.periods * TURN * (1.0 if self.root is None else 0.5)
 
     @property
@@ -91,12 +97,12 @@ class Orbit:
 
     @property
     def active(self):
-        """Number of unknowns: 4, or 2 if no wall is touched and the loose mass keeps its place."""
+        """Number of unknowns: 4, or 2 if the loose mass touches no wall and stays where it is."""
         return 4 if self.touching > 0 else 2
 
     @cached_property
     def multipliers(self):
-        """Floquet multipliers by falling modulus, shape (4,); two are NaN without contacts."""
+        """Floquet multipliers by descending modulus, shape (4,); two are NaN without contacts."""
         values = np.full(4, complex(np.nan, np.nan))
         n = self.active
         active = self.cycle_multipliers if self.root is None else self.cycle_multipliers**2
@@ -105,21 +111,21 @@ class Orbit:
 
     @cached_property
     def cycle_multipliers(self):
-        """Multipliers of a cycle, shape (active,): those of the root if the orbit has one."""
+        """Multipliers of the map over a cycle, shape (active,)."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
     @property
     def stable(self):
-        """Whether all multipliers are less than 1 in modulus."""
+        """True if all multipliers are less than 1 in modulus."""
         return bool(abs(self.multipliers[0]) < 1)
 
     @property
     def liouville_error(self):
-        """Return the relative error of the determinant of the monodromy matrix.
+        """Relative error of the determinant of the monodromy matrix.
 
         By Liouville's theorem the determinant is exp(-h n 2 pi/W - c (1 + 1/rm) t_c), with the
-        dashpot's coefficient c = 2 zeta_c sqrt(r1 rm) and the time in contact t_c.
+        dashpot coefficient c = 2 zeta_c sqrt(r1 rm) and the time in contact t_c.
         """
         p = self.p
         contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
@@ -129,12 +135,14 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """Contacts in order, shape (k, 5): wall (-1 or 1), time of beginning and end, Z2' at both.
+        """Contacts in the order of time, shape (k, 5).
+
+        A row holds the wall (-1 or 1), the times of beginning and end, and Z2' at both.
 
         Raises
         ------
         ArithmeticError
-            If there are more than CONTACTS in a forcing period.
+            If there are more than CONTACTS contacts in a forcing cycle.
         """
         if self.chain is not None:
             log = self.chain.log()
@@ -144,7 +152,7 @@ class Orbit:
             return np.concatenate([log, log * [-1, 1, 1, -1, -1] + [0, shift, shift, 0, 0]])
         begin = self.phase / self.p[FREQUENCY]
         end = begin + self.periods * TURN / self.p[FREQUENCY]
-        # a contact at the phase itself is complete only a period later
+        # A contact during which the first state lies is complete only a period later.
         touching = side_of(self.p, self.state) != 0
         last = end + touching * (end - begin)
         log = np.empty(((1 + touching) * self.periods * CONTACTS, 5))
@@ -159,30 +167,30 @@ class Orbit:
         )
         if count > len(log):
             raise ArithmeticError(
-                f"{count} contacts in an orbit: more than {CONTACTS} a forcing period"
+                f"{count} contacts in an orbit: more than {CONTACTS} in a forcing cycle"
             )
         log = log[touching:count]
         return log[log[:, 1] < end]
 
     @property
     def sequence(self):
-        """Walls touched in order, such as "+-"; of all cyclic shifts the first in the alphabet."""
+        """Walls touched in order, such as "+-"; the first of all cyclic shifts in the alphabet."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
     @property
     def least_speed(self):
-        """Least |Z2'| at which a contact begins, small near grazing; NaN without contacts."""
+        """Smallest |Z2'| at which a contact begins, NaN without contacts; small near a grazing."""
         return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
 
     @property
     def restitution(self):
-        """Least ratio of |Z2'| after a contact to |Z2'| before; NaN without contacts."""
+        """Smallest ratio of |Z2'| after a contact to |Z2'| before it, NaN without contacts."""
         before, after = np.abs(self.contacts[:, 3]), np.abs(self.contacts[:, 4])
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
     def at(self, phase):
-        """Return the state, shape (4,), at a phase W T not before that of the orbit, radian."""
+        """Return the state, shape (4,), at a phase W T (radian) not before the orbit's phase."""
         if self.chain is not None:
             return self.chain.at(phase)
         y = self.state.copy()
@@ -194,7 +202,7 @@ class Orbit:
 
     @cached_property
     def strobe_states(self):
-        """States at W T = pi/2 of every forcing period, shape (n, 4)."""
+        """States at W T = pi/2 in each forcing cycle of the period, shape (n, 4)."""
         first = self.phase + (STROBE - self.phase) % TURN
         return np.array([self.at(first + k * TURN) for k in range(self.periods)])
 
@@ -213,14 +221,15 @@ class Orbit:
         begin = self.phase + (STROBE - self.phase) % TURN
         sums = self.at(begin) + self.at(begin + self.periods * TURN / 2)
         record["asymmetry"] = np.max(np.abs(sums)) if self.periods % 2 else np.nan
-        # half a symmetric orbit has the mean of the whole, since it has only odd harmonics
+        # A symmetric orbit has only odd harmonics, so half the orbit has the same mean as the
+        # whole.
         phases, states = self.chain.samples(STROBE, TURN / records.SAMPLES)
         first, _, second, _ = 2 / len(states) * (np.exp(-1j * phases) @ states)
         record["harmonic_displacement"], record["harmonic_relative"] = first, second
         return record
 
     def is_same(self, other, tolerance=1e-6):
-        """Return whether another orbit is this one or its mirror image, up to a shift in time."""
+        """Return whether `other` is this orbit or its mirror image, up to a shift in time."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2
@@ -229,7 +238,7 @@ class Orbit:
         return bool(np.min(np.max(np.abs(states - other.strobe_states[0]), axis=1)) < tolerance)
 
     def repeats_sooner(self, tolerance=1e-6):
-        """Return whether the state repeats after fewer periods, a divisor of n."""
+        """Return whether the state repeats after fewer cycles than n, a divisor of n."""
         shift = np.max(np.abs(self.strobe_states - self.strobe_states[0]), axis=1)
         return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
 
@@ -241,11 +250,11 @@ class Orbit:
         inside = (phase - begins) % cycle < (ends - begins)
         return -1.0 if inside.any() else np.min([ahead, behind], initial=np.inf)
 
-    def quiet_phase(self):
-        """Return a phase far from contacts, radian, less than a period after that of the orbit.
+    def flight_phase(self):
+        """Return a phase (radian) far from contacts, less than a period after the orbit's phase.
 
-        The phase of the orbit itself if it is further than MARGIN from all contacts, else the
-        middle of the longest flight.
+        This is the orbit's phase if it is further than MARGIN from all contacts, otherwise the
+        phase in the middle of the longest flight.
         """
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase

@@ -1,7 +1,8 @@
-"""Motions with their derivative by the first state, at all times, from the series of their steps.
+"""Motions with their derivatives by the first state, at all times.
 
-The series of a step and of its tangents are known to the tolerance of the integration. They are
-evaluated at Chebyshev points of the step, between which polynomials give values and integrals.
+Each step of the integrator has the Taylor series of the motion and of its tangents, accurate to the
+tolerance of the integration. The series are evaluated at Chebyshev points of the step. Polynomials
+through these points give values and integrals at all times.
 """
 
 from dataclasses import dataclass
@@ -26,17 +27,17 @@ from impact_damper.kernel.single import (
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE
 
-# Points of a step, its ends among them. A step in contact turns the phase of the contact by up to
-# 3.5 radians, and products of two of its oscillations by twice as much: with 21 points the error of
-# their integrals is about 1e-13.
+# Number of points of a step, including its ends. A step in contact turns the phase of the contact
+# by up to 3.5 radian, and the phase of a product of two such oscillations by up to 7 radian. With
+# 21 points the error of integrals of such products is about 1e-13.
 POINTS = 21
-# Corrections of the time of a turn.
+# Number of Newton corrections of the time of a turn.
 CORRECTIONS = 4
 TERMS = max(FLIGHT_ORDER, CONTACT_ORDER) + 1
 _ON_CIRCLE = -np.cos(np.pi * np.arange(POINTS) / (POINTS - 1))
 _TO_SERIES = np.linalg.inv(chebyshev.chebvander(_ON_CIRCLE, POINTS - 1))
-# Places of the points on a step of length 1, and the matrix that maps values there to integrals
-# from the beginning of the step to each point.
+# PLACES: places of the points on a step of length 1. INTEGRALS: matrix that maps values at the
+# points to the integrals from the beginning of the step to each point.
 PLACES = (_ON_CIRCLE + 1) / 2
 INTEGRALS = chebyshev.chebval(_ON_CIRCLE, chebyshev.chebint(_TO_SERIES, lbnd=-1)).T / 2
 
@@ -80,7 +81,7 @@ class Path:
 
     @cached_property
     def tangents(self):
-        """Derivative P of the states by the first one at all points, shape (4, 4, N)."""
+        """Derivatives P of the states by the first state at all points, shape (4, 4, N)."""
         return np.ascontiguousarray(self._values[1:].swapaxes(0, 1))
 
     @property
@@ -95,20 +96,24 @@ class Path:
 
     @cached_property
     def contacts(self):
-        """Wall touched, -1, 0 or 1, and penetration with its sign, at all points, shape (N,)."""
+        """Wall in contact (-1, 0 or 1) and signed penetration at all points, shape (N,) each."""
         walls = np.repeat(self.sides, POINTS)
         clearance = self.p[CLEARANCE] if walls.any() else 0.0
         return walls, np.where(walls, self.states[2] - walls * clearance, 0.0)
 
     @cached_property
     def events(self):
-        """Beginnings and ends of contacts: points before, walls, and 1 (beginning) or -1 (end)."""
+        """Beginnings and ends of contacts, three arrays.
+
+        They hold the index of the last point before each event, the wall, and 1 for a beginning or
+        -1 for an end.
+        """
         change = np.abs(self.sides[1:]) - np.abs(self.sides[:-1])
         at = np.flatnonzero(change)
         return POINTS * (at + 1) - 1, (self.sides[1:] + self.sides[:-1])[at], change[at]
 
     def turns(self, moving):
-        """Find the turns of Z1 or of Z2, where its velocity is zero.
+        """Find the turns (extrema) of Z1 or of Z2, at which its velocity is zero.
 
         Parameters
         ----------
@@ -118,20 +123,20 @@ class Path:
         Returns
         -------
         steps : numpy.ndarray of int, shape (n,)
-            Steps that hold the turns.
+            Steps that contain the turns.
         values : numpy.ndarray, shape (n,)
-            Z1 or Z2 there.
+            Z1 or Z2 at the turns.
         weights : numpy.ndarray, shape (n, POINTS)
-            Weights of values at the points of the step, for those at the turn.
+            Weights with which the values at the points of the step give the value at the turn.
         times : numpy.ndarray, shape (n,)
             Times T of the turns.
         """
         speed = self.states[2 * moving + 1].reshape(-1, POINTS)
         steps, points = np.nonzero(speed[:, :-1] * speed[:, 1:] <= 0)
         before, after = speed[steps, points], speed[steps, points + 1]
-        share = before / np.where(before == after, 1.0, before - after)
+        fraction = before / np.where(before == after, 1.0, before - after)
         lengths = self.lengths[steps]
-        times = lengths * (PLACES[points] + share * (PLACES[points + 1] - PLACES[points]))
+        times = lengths * (PLACES[points] + fraction * (PLACES[points + 1] - PLACES[points]))
         series = self.series[steps, :, moving, 0]
         for _ in range(CORRECTIONS):
             slope, curve = (_derivative(series, times, order) for order in (1, 2))
@@ -141,14 +146,14 @@ class Path:
 
 
 def _derivative(series, times, order):
-    """Return the value of series, shape (n, terms), or a derivative of it, each at its time."""
+    """Return a derivative (order 0: the value) of n series, shape (n, terms), each at its time."""
     for _ in range(order):
         series = series[:, 1:] * np.arange(1, series.shape[1])
     return np.sum(series * times[:, None] ** np.arange(series.shape[1]), axis=1)
 
 
 def follow_path(p, state, begin, end) -> Path:
-    """Follow a motion and its derivative from one time to another.
+    """Return the path of a motion from one time to another.
 
     Parameters
     ----------
@@ -181,7 +186,10 @@ def follow_path(p, state, begin, end) -> Path:
 
 
 def _series(p, work, side, first):
-    """Return the series of a step, shape (TERMS, 2, 5), from its workspace and its first states."""
+    """Return the series of a step, shape (TERMS, 2, 5).
+
+    They come from the workspace of the step and from the state and tangents at its beginning.
+    """
     series = np.zeros((TERMS, 2, 5))
     count = (FLIGHT_ORDER if side == 0 else CONTACT_ORDER) + 1
     series[:count, 0, 0] = work[X : X + count]

@@ -1,11 +1,11 @@
-"""The quiet orbit, stable or not, on a grid of parameters.
+"""The quiet orbit, stable or unstable, on a grid of parameters.
 
-The quiet orbit has the period of the forcing, touches each wall once a period, and is its own
-mirror image half a period later. It is therefore a fixed point of the map over half a period with
-a change of sign, the root of the map over a period. The multipliers of the root say how the orbit
-becomes unstable: a multiplier 1 is a fold, -1 the loss of symmetry, and a conjugate pair of
-modulus 1 a Neimark-Sacker bifurcation. The multipliers of a period are their squares, so a period
-doubling would need a pair at i and -i.
+The quiet orbit has period 1, touches each wall once in a cycle, and is its own mirror image half a
+cycle later. It is therefore a fixed point of the map over half a cycle followed by a change of
+sign. The derivative of this map is called the root. The multipliers (eigenvalues) of the root
+determine how the orbit becomes unstable: at a fold a multiplier is 1, at the loss of symmetry it is
+-1, and at a Neimark-Sacker bifurcation a conjugate pair has modulus 1. The multipliers over a whole
+cycle are the squares of these multipliers, so a period doubling would require a pair at i and -i.
 """
 
 from typing import NamedTuple
@@ -20,14 +20,15 @@ from impact_damper.orbits.shooting import shoot
 from impact_damper.system import packed
 
 # Phase W T of the states, far from contacts. Contacts lie between about -0.2 and pi/2, and half a
-# period later.
+# cycle later.
 PHASE = 0.75 * np.pi
-# Newton's method: number of corrections, and largest distance from the guess.
+# Newton's method. ITERATIONS: largest number of corrections. REACH: largest distance from the
+# guess.
 ITERATIONS = 10
 REACH = 0.05
-# Shortest step between cells, as a share of their distance.
+# Shortest step between cells, divided by their distance.
 SHORTEST = 2.0**-12
-# A row ends at a fold if the law of a fold predicts one within this number of shortest steps.
+# A row ends at a fold if extrapolation predicts a fold within NEAR shortest steps (see `_end`).
 NEAR = 4
 
 
@@ -37,11 +38,12 @@ class QuietOrbits(NamedTuple):
     Attributes
     ----------
     multiplier : numpy.ndarray of complex, shape (rows, columns)
-        Multiplier of the root of largest modulus, its imaginary part not negative.
+        Multiplier of the root with the largest modulus; its imaginary part is not negative.
     displacement, harmonic : numpy.ndarray, shape (rows, columns)
-        Largest |Z1|, and amplitude of the first harmonic of Z1.
+        max |Z1|, and amplitude of the first harmonic of Z1.
     end : numpy.ndarray, shape (rows, 2)
-        Least and greatest column of each row's orbits, with decimals between two columns.
+        Smallest and largest column at which each row has an orbit, as a fractional number if the
+        orbits end between two columns.
     end_event : numpy.ndarray, shape (rows, 2)
         Reasons why the orbits end there, flags of `quiet_end_event`.
     """
@@ -56,11 +58,12 @@ class QuietOrbits(NamedTuple):
 def straight_flight_end(oscillator, clearance, restitution) -> float:
     """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
-    In this limit, of rigid walls and high frequency, the equations of `straight_flight_ratio` give
-    W^2 d0/f = k sin(s) - cos(s) for the phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e) and
-    the forcing amplitude f = F + U W^2 + V/W^2, whatever the mass ratio. There is no solution
-    beyond W^2 d0/f = sqrt(1 + k^2), where the forcing no longer supplies the energy that impacts
-    dissipate: a quadratic in W^2.
+    The limit is that of rigid walls and high frequency. The equations of
+    `theory.optimum_clearance.straight_flight_ratio` then give W^2 d0/f = k sin(s) - cos(s) for the
+    phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e) and the forcing amplitude
+    f = F + U W^2 + V/W^2, for any mass ratio. For W^2 d0/f > sqrt(1 + k^2) there is no solution,
+    because the forcing cannot supply the energy that the impacts dissipate. The equality is a
+    quadratic equation in W^2.
 
     Parameters
     ----------
@@ -71,7 +74,8 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
     Returns
     -------
     float
-        Infinite for e = 1, and for an unbalance that supplies the energy at any frequency.
+        W, dimensionless. Infinite for e = 1, and for an unbalance that supplies the energy at any
+        frequency.
     """
     if restitution == 1:
         return np.inf
@@ -84,20 +88,20 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def is_symmetric_pair(records):
-    """Return where `records.MOTION` are symmetric motions of period 1 with two contacts."""
+    """Return the mask of `records.MOTION` that are symmetric, of period 1, with two contacts."""
     two = (records["contacts"] == CONTACTS) & (records["period"] == 1)
     return two & (records["asymmetry"] < SYMMETRIC)
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from known ones to all cells they reach.
+    """Return the quiet orbits of a grid, followed from known orbits to all cells that they reach.
 
     Parameters
     ----------
     parameters : array, shape (rows, columns, packed.COUNT)
-        Packed parameters of the cells; along a row only the frequency changes.
+        Packed parameters of the cells. Along a row only the frequency changes.
     states : array, shape (rows, columns, 4)
-        States of known orbits at W T = pi/2, NaN where none is known.
+        States of known orbits at W T = pi/2, NaN in cells without a known orbit.
 
     Returns
     -------
@@ -106,7 +110,7 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
     Raises
     ------
     ValueError
-        If the arrays are not of these shapes.
+        If the arrays do not have these shapes.
     """
     grid = quiet_orbits(parameters, states)
     rows, columns = grid.shape
@@ -121,10 +125,10 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
 
 
 def quiet_orbits(parameters, states, *, shortest=SHORTEST) -> Grid:
-    """Return the grid with the quiet orbits in the cells to which they are followed.
+    """Return a grid with the quiet orbits in all cells to which they can be followed.
 
-    Parameters and errors as of `follow_quiet_orbits`; `shortest` is the shortest step between
-    cells, as a share of their distance.
+    Parameters and errors are those of `follow_quiet_orbits`. `shortest` is the shortest step
+    between cells, divided by their distance.
     """
     if parameters.shape[2:] != (packed.COUNT,) or states.shape != (*parameters.shape[:2], 4):
         raise ValueError(
@@ -173,39 +177,40 @@ def find_quiet_orbit(p, guess):
 
 
 def dominant_root(orbit):
-    """Return the multiplier of the root of largest modulus, its imaginary part not negative."""
+    """Return the multiplier of the root with the largest modulus, its imaginary part >= 0."""
     values = np.linalg.eigvals(orbit.root)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
 
 def _row_ends(grid, row):
-    """Return where the orbits of a row end, as columns with decimals, and flags of the reasons."""
+    """Return the fractional columns at which the orbits of a row end, and flags of the reasons."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, [flag("quiet_end_event", "no_orbit")] * 2
     places, events = [], []
     for column, turn in ((min(columns), -1), (max(columns), 1)):
-        share, event = 0.0, "map_ends"
+        fraction, event = 0.0, "map_ends"
         if grid.beside((row, column), (0, turn)) is not None:
-            share, event = _end(grid.follow((row, column), (0, turn)))
-        places.append(column + turn * share)
+            fraction, event = _end(grid.follow((row, column), (0, turn)))
+        places.append(column + turn * fraction)
         events.append(flag("quiet_end_event", event))
     return places, events
 
 
 def _end(followed):
-    """Return the share of the way at which following ended, and the event at that place.
+    """Return the fraction of the distance at which following ended, and the event there.
 
-    Towards a fold, det(1 - root) falls with the square root of the distance from the fold. The
-    event is a fold if this law, through the last two orbits, predicts one close to the last.
+    Towards a fold, det(1 - root) decreases with the square root of the distance from the fold. The
+    event is a fold if this law, extrapolated from the last two orbits, predicts a fold close to the
+    last orbit.
     """
-    if followed.arrived:  # only because the cell behind was not known yet in `spread`
+    if followed.arrived:  # `spread` failed here, because it did not know the cell behind yet
         return 0.0, "not_converged"
-    before, share = followed.values
-    gaps = [np.linalg.det(np.eye(4) - each.root) ** 2 for each in followed.orbits]
-    if gaps[1] < gaps[0]:
-        ahead = (share - before) * gaps[1] / (gaps[0] - gaps[1])
+    before, fraction = followed.values
+    squares = [np.linalg.det(np.eye(4) - each.root) ** 2 for each in followed.orbits]
+    if squares[1] < squares[0]:
+        ahead = (fraction - before) * squares[1] / (squares[0] - squares[1])
         if ahead < NEAR * SHORTEST:
-            return share + ahead, "fold"
-    return share, followed.status
+            return fraction + ahead, "fold"
+    return fraction, followed.status

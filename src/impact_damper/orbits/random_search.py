@@ -1,6 +1,6 @@
-"""Stable orbits by Newton's method from random states, for branches without a settled motion.
+"""Find stable orbits by Newton's method from random states, for branches without a settled motion.
 
-Newton's method finds orbits of small basins, to which hardly a random start settles.
+Newton's method also finds orbits with small basins, to which hardly any random start leads.
 """
 
 import numpy as np
@@ -8,17 +8,19 @@ import numpy as np
 from impact_damper.motions.simulate import random_states
 from impact_damper.orbits.shooting import find_orbit
 
-# Frequencies, spread evenly over the range, random states at each of them, and periods looked for.
+# FREQUENCIES: number of frequencies, spread evenly over the range. STATES: number of random states
+# at each frequency. PERIODS: periods of the orbits, in forcing cycles.
 FREQUENCIES, STATES, PERIODS = 20, 6, (1, 2, 3)
-# Radius of the ball from which states are drawn, as in the paper, and seed.
+# Radius of the ball from which states are drawn, as in the paper, and seed of the draws.
 RADIUS, SEED = 2.0, 4
+# Number of searches.
 COUNT = FREQUENCIES * STATES * len(PERIODS)
 
 
 def stable_orbits(family, damper, span):
-    """Yield the frequency and the orbit of every search, of COUNT, that ends at a stable orbit.
+    """Yield the frequency and the orbit of each of the COUNT searches that finds a stable orbit.
 
-    Motions that touch no wall are left out if there is a damper.
+    With a damper, orbits without contacts are omitted.
 
     Parameters
     ----------

@@ -1,12 +1,13 @@
-"""Multiple shooting: an orbit as a chain of segments, each from one flight to the next.
+"""Multiple shooting: an orbit as a chain of segments that begin and end in flight.
 
-A strongly unstable orbit amplifies rounding by its largest multiplier over a period. Cut into
-segments that amplify little, with a state at the beginning of each, it keeps its digits: the
-states solve F_k = Phi_k(y_k) - y_(k+1) = 0 for all segments k, where Phi_k is the flow over
-segment k and the last segment leads back to the first, with a change of sign if the chain is half
-of a symmetric orbit. The multipliers are those of the product of the segments' derivatives, the
-factors, and are found without forming it. Segments begin at phases of the forcing at which the
-loose mass is in flight, so that the sections depend smoothly on the state.
+A strongly unstable orbit amplifies rounding errors over a period by its largest multiplier. To keep
+its accuracy, the orbit is cut into segments that amplify little. The unknowns are the states y_k at
+the beginnings of the segments. They solve F_k = Phi_k(y_k) - y_(k+1) = 0 for all segments k, where
+Phi_k is the flow over segment k. The last segment leads back to the first, with a change of sign if
+the chain is half of a symmetric orbit. The derivatives of the segments are called factors. The
+multipliers of the orbit are the eigenvalues of the product of the factors and are computed without
+forming the product. The sections between segments lie at phases of the forcing at which the loose
+mass is in flight, so that the flow is smooth there.
 """
 
 from dataclasses import dataclass
@@ -20,16 +21,16 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
 from impact_damper.system.packed import FREQUENCY
 
-# Multipliers whose moduli differ by more than this factor are separated by orthogonal iteration;
-# the others by eigenvalues of a product. It takes at most SWEEPS iterations, and fewer if bases
-# change by less than SETTLED.
+# Multipliers whose moduli differ by more than the factor APART are separated by orthogonal
+# iteration. The iteration ends after SWEEPS sweeps, or when the basis changes by less than SETTLED.
+# Other multipliers are eigenvalues of products of small blocks.
 APART = 30.0
 SWEEPS, SETTLED = 14, 1e-15
-# A segment is ended before its derivative exceeds this norm.
+# A segment ends before the norm of its derivative exceeds AMPLIFIED.
 AMPLIFIED = 30.0
-# Least distance of a section from contacts, radian.
+# Smallest distance of a section from contacts, radian.
 CLEAR = 0.05
-# Largest number of contacts in a segment that are listed.
+# Largest number of contacts in a segment that can be listed.
 CONTACTS = 512
 
 
@@ -42,16 +43,16 @@ class Chain:
     p : numpy.ndarray, shape (packed.COUNT,)
         Packed parameters.
     phases : numpy.ndarray, shape (m + 1,)
-        Phases W T at which the segments begin, and at which the last one ends, radian.
+        Phases W T at which the segments begin, and at which the last segment ends, radian.
     states : numpy.ndarray, shape (m, 4)
-        States at the beginnings.
+        States at the beginnings of the segments.
     sign : int
         -1 if the chain is half of a symmetric orbit, else 1.
     ends : numpy.ndarray, shape (m, 4)
-        States to which the flow leads from the beginning of each segment to its end.
+        States at the ends of the segments, by integration from `states`.
     factors : numpy.ndarray, shape (m, 4, 4)
-        Derivatives of the ends with respect to the states, in order of time, the last one with
-        the sign.
+        Derivatives of the ends with respect to the states, in the order of time. The last factor is
+        multiplied by `sign`.
     touching : float
         Time in contact.
     """
@@ -71,13 +72,13 @@ class Chain:
 
     @property
     def defects(self):
-        """Ends less the states that they should be, shape (m, 4), the last one with the sign."""
+        """The values F_k, shape (m, 4), which are zero for an orbit."""
         defects = self.ends - np.roll(self.states, -1, axis=0)
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
         return defects
 
     def at(self, phase):
-        """Return the state, shape (4,), at a phase not before the first, radian."""
+        """Return the state, shape (4,), at a phase (radian) not before the first phase."""
         turns = int((phase - self.phases[0]) // self.cycle)
         local = phase - turns * self.cycle
         k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
@@ -100,12 +101,12 @@ class Chain:
         return np.concatenate(logs)
 
     def samples(self, first, spacing):
-        """Return phases, shape (n,), and states, (n, 4), at equal distances over the chain.
+        """Return phases, shape (n,), and states, shape (n, 4), at equal distances over the chain.
 
         Parameters
         ----------
         first, spacing : float
-            A phase of the grid, not necessarily on the chain, and the distance, radian.
+            A phase of the grid, which need not lie on the chain, and the spacing, radian.
         """
         begin = self.phases[0] + (first - self.phases[0]) % spacing
         count = round(self.cycle / spacing)
@@ -114,11 +115,11 @@ class Chain:
         for k, state in enumerate(self.states):
             chosen = (places >= self.phases[k]) & (places < self.phases[k + 1])
             times = places[chosen] / self.p[FREQUENCY]
-            found, begin = np.empty((len(times), 4)), self.phases[k] / self.p[FREQUENCY]
+            part, begin = np.empty((len(times), 4)), self.phases[k] / self.p[FREQUENCY]
             records.trace(
-                self.p, state.copy(), begin, times, POLISH_TOLERANCE, found, np.empty((0, 5))
+                self.p, state.copy(), begin, times, POLISH_TOLERANCE, part, np.empty((0, 5))
             )
-            states[chosen] = found
+            states[chosen] = part
         return places, states
 
     def path(self, k):
@@ -143,7 +144,7 @@ def _advance(p, state, tangents, begin, end):
 
 
 def chain_of(p, phases, states, sign) -> Chain:
-    """Integrate all segments of a chain; arguments as its attributes."""
+    """Return a chain after integration of all its segments; the arguments are its attributes."""
     ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
     touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)
     factors = tangents.transpose(0, 2, 1).copy()
@@ -152,14 +153,14 @@ def chain_of(p, phases, states, sign) -> Chain:
 
 
 def ends_of(p, phases, states):
-    """Return only the ends of the segments of a chain, shape (m, 4)."""
+    """Return the ends of the segments of a chain, shape (m, 4), without derivatives."""
     ends, none = np.array(states, float), np.empty((len(states), 0, 4))
     flow_all(p, ends, none, phases / p[FREQUENCY], POLISH_TOLERANCE)
     return ends
 
 
 def cyclic(factors):
-    """Return the derivative of the defects with respect to the states, shape (m n, m n)."""
+    """Return the derivative of `Chain.defects` with respect to the states, shape (m n, m n)."""
     m, n = factors.shape[:2]
     matrix = np.zeros((m, n, m, n))
     for k in range(m):
@@ -171,18 +172,18 @@ def cyclic(factors):
 def multipliers(factors):
     """Return the eigenvalues of the product of matrices, without forming it.
 
-    Orthogonal iteration on the cyclic product separates multipliers of different moduli; those of
-    similar moduli are eigenvalues of the product of diagonal blocks.
+    Orthogonal iteration on the cyclic product separates eigenvalues of different moduli.
+    Eigenvalues of similar moduli are computed from the product of diagonal blocks.
 
     Parameters
     ----------
     factors : array, shape (m, n, n)
-        In the order in which they act: the last is leftmost in the product.
+        In the order in which they act, so the last matrix is leftmost in the product.
 
     Returns
     -------
     numpy.ndarray of complex, shape (n,)
-        By falling modulus.
+        By descending modulus.
     """
     m, n = factors.shape[:2]
     if m == 1:
@@ -213,58 +214,59 @@ def log_determinant(factors):
 
 
 def cut(orbit, cycle, between=()):
-    """Return the phases of segments into which an orbit is cut, shape (m + 1,).
+    """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
-    Sections lie in the middle of flights. A segment ends at the last section at which its
-    derivative is below AMPLIFIED in norm, or else at the first.
+    Sections can lie in the middle of flights. A segment ends at the last of these phases at which
+    the norm of its derivative is below AMPLIFIED, or at the first if the norm is larger at all.
 
     Parameters
     ----------
     orbit : Orbit
     cycle : float
-        Phase that the segments cover, radian: the period, or half of it.
+        Phase that the segments cover, radian: the period or half the period.
     between : sequence of float
-        Phases at which the orbit comes near a wall: a flight with one has two sections, before it
-        and after it, and segments end at both.
+        Phases at which the loose mass comes close to a wall in flight. Such a flight is cut twice,
+        before and after this phase.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
     places, forced = _sections(orbit, cycle, between)
     phases, state = [places[0]], orbit.at(places[0])
     product = np.eye(4)
-    for here, ahead in zip(places, np.append(places[1:], places[0] + cycle), strict=True):
+    for place, ahead in zip(places, np.append(places[1:], places[0] + cycle), strict=True):
         tangents = np.eye(4)
-        begin = orbit.at(here) if here != places[0] else state
-        _advance(orbit.p, begin, tangents, here, ahead)
+        begin = orbit.at(place) if place != places[0] else state
+        _advance(orbit.p, begin, tangents, place, ahead)
         grown = tangents.T @ product
-        if here > phases[-1] and (here in forced or np.linalg.norm(grown, 2) > AMPLIFIED):
-            phases.append(here)
+        if place > phases[-1] and (place in forced or np.linalg.norm(grown, 2) > AMPLIFIED):
+            phases.append(place)
             grown = tangents.T
         product = grown
     return np.array([*phases, places[0] + cycle])
 
 
 def _sections(orbit, cycle, between):
-    """Return phases in flight within one cycle, ascending from the longest flight's, (k,).
+    """Return the possible phases of sections in a cycle, shape (k,), and the forced sections.
 
-    The second result holds those beside the phases `between`.
+    The phases are the middles of flights, ascending from the middle of the longest flight. Sections
+    before and after the phases `between` are forced.
     """
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
-    found, forced, longest = [], [], (0.0, first)
+    middles, forced, longest = [], [], (0.0, first)
     for end, begin in zip(ends, following, strict=True):
         turns = sorted(end + (phase - end) % cycle for phase in between)
         marks = [end, *(turn for turn in turns if turn < begin), begin]
         for low, high in zip(marks, marks[1:], strict=False):
             middle = first + ((low + high) / 2 - first) % cycle
             if high - low > 2 * CLEAR:
-                found.append(middle)
+                middles.append(middle)
                 forced += [middle] * (len(marks) > 2)
             longest = max(longest, (high - low, middle))
     start = longest[1]
-    # a symmetric orbit has each section twice in a period
-    places = np.sort(start + (np.array([*found, start]) - start + 1e-9) % cycle - 1e-9)
+    # In a symmetric orbit each section occurs twice in a period, so duplicates are removed.
+    places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]
     forced = start + (np.array(forced) - start + 1e-9) % cycle - 1e-9

@@ -1,10 +1,11 @@
 """Exact derivatives of a periodic orbit by its parameters: state, largest |Z1|, stability.
 
 An orbit solves y = R(y, p), where R is the map over its period or, for a symmetric orbit, the map
-over half of it with a change of sign. So its state changes by y_p = (1 - R_y)^-1 R_p. The largest
-|Z1| changes as Z1 does at that phase, since Z1' is zero there. A simple multiplier with the right
-and left eigenvectors r and l changes by l (dR_y/dp) r / (l r), where dR_y/dp is taken along the
-orbit (`variations`). No differences are taken.
+over half the period followed by a change of sign. The derivative of its state is therefore
+y_p = (1 - R_y)^-1 R_p. The derivative of max |Z1| is the derivative of |Z1| at the phase of the
+maximum, because Z1' is zero there. The derivative of a simple multiplier with the right and left
+eigenvectors r and l is l (dR_y/dp) r / (l r), where dR_y/dp is the total derivative along the orbit
+(`variations`). No difference quotients are used.
 """
 
 from dataclasses import dataclass
@@ -16,37 +17,37 @@ from impact_damper.orbits.paths import POINTS, Path, follow_path
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import COUNT, DESIGN, FREQUENCY, design_slopes
 
-# Relative distance within which two extrema of |Z1|, or the moduli of two multipliers, are equal,
-# and within which two multipliers are a double one.
+# Two extrema of |Z1|, two moduli of multipliers, or two multipliers count as equal if they differ
+# relatively by less than EQUAL.
 EQUAL = 1e-6
 
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Derivatives of an orbit, with respect to its packed parameters unless said otherwise.
+    """Derivatives of an orbit with respect to its packed parameters.
 
     Attributes
     ----------
     orbit : Orbit
     state_slopes : numpy.ndarray, shape (4, packed.COUNT)
-        Of the state, at the phase of the orbit.
+        Derivatives of the state at the phase of the orbit.
     maximum_displacement : float
         max |Z1|.
     displacement_slopes : numpy.ndarray, shape (packed.COUNT,)
-        Of max |Z1|.
+        Derivatives of max |Z1|.
     displacement_smooth : bool
-        Whether max |Z1| has these derivatives. Not if |Z1| is largest twice in a period, with
-        different derivatives: max |Z1| then has a kink.
+        Whether max |Z1| is differentiable. It is not, but has a kink, if |Z1| is largest at two
+        phases with different derivatives.
     modulus : float
         Modulus of the largest Floquet multiplier.
     modulus_slopes : numpy.ndarray, shape (packed.COUNT,)
-        Of the modulus.
+        Derivatives of the modulus.
     modulus_smooth : bool
-        Whether the modulus has these derivatives. Not if two multipliers that are no conjugate
-        pair have the largest modulus, nor if a real one is double.
+        Whether the modulus is differentiable. It is not if two multipliers that are not a conjugate
+        pair have the largest modulus, or if a real multiplier is double.
     matrix_slopes : numpy.ndarray, shape (packed.COUNT, n, n)
-        Of the root of the monodromy matrix or, if the orbit has none, of the monodromy matrix,
-        along the orbits; n is `Orbit.active`.
+        Total derivatives of the root (`Orbit.root`) along the orbits or, for an orbit without root,
+        of the monodromy matrix; n is `Orbit.active`.
     """
 
     orbit: Orbit
@@ -60,25 +61,25 @@ class Sensitivity:
     matrix_slopes: np.ndarray
 
     def by_design(self, slopes) -> dict:
-        """Return derivatives by the parameters `packed.DESIGN`, keyed by name.
+        """Return derivatives with respect to the parameters `packed.DESIGN`, keyed by name.
 
         Parameters
         ----------
         slopes : array, shape (..., packed.COUNT)
-            Derivatives by packed parameters, such as `displacement_slopes`.
+            Derivatives with respect to packed parameters, such as `displacement_slopes`.
 
         Returns
         -------
         dict
-            Each derivative is a number, or an array of the shape (...). By the parameters of the
-            damper it is 0 without a damper.
+            Each derivative is a number or an array of the shape (...). Without a damper the
+            derivatives with respect to the damper's parameters are 0.
         """
         values = np.asarray(slopes) @ design_slopes(self.orbit.p)
         return dict(zip(DESIGN, np.moveaxis(values, -1, 0), strict=True))
 
 
 def path_of(orbit) -> Path:
-    """Return the motion over the period of an orbit, or over half of it if it has a root."""
+    """Return the path of an orbit over its period, or over half the period if it has a root."""
     begin = orbit.phase / orbit.p[FREQUENCY]
     turns = orbit.periods * (1.0 if orbit.root is None else 0.5)
     return follow_path(orbit.p, orbit.state, begin, begin + turns * TURN / orbit.p[FREQUENCY])
@@ -92,7 +93,7 @@ def sensitivity(orbit) -> Sensitivity:
     ValueError
         If the orbit has not converged.
     numpy.linalg.LinAlgError
-        If a multiplier is exactly 1: at a fold orbits have no derivative.
+        If a multiplier is exactly 1. At a fold the derivatives do not exist.
     """
     if not orbit.converged:
         raise ValueError(f"orbit: must have converged, its residual is {orbit.residual:.1e}")
@@ -100,7 +101,7 @@ def sensitivity(orbit) -> Sensitivity:
     variations = Variations(path)
     matrix, sign = (orbit.monodromy, 1) if orbit.root is None else (orbit.root, -1)
     state = np.linalg.solve(np.eye(n) - matrix[:n, :n], sign * variations.slopes()[:n])
-    if n == 2:  # the loose mass keeps its place
+    if n == 2:  # the loose mass does not move
         state = np.vstack([state, state])
     along = np.eye(COUNT)
     slopes = sign * variations.matrix_changes(state, along)[:, :n, :n]
@@ -121,7 +122,7 @@ def sensitivity(orbit) -> Sensitivity:
 
 
 def _displacement(path, changes):
-    """Return max |Z1| on a path, its derivatives, and whether it is smooth.
+    """Return max |Z1| on a path, its derivatives, and whether it is differentiable.
 
     Parameters
     ----------
@@ -143,7 +144,7 @@ def _displacement(path, changes):
 def _modulus(matrix, slopes):
     """Return the largest modulus of the eigenvalues of a matrix, and its relative derivatives.
 
-    The third result says whether the modulus is smooth.
+    The third result states whether the modulus is differentiable.
     """
     values, right = np.linalg.eig(matrix)
     first = int(np.argmax(np.abs(values)))

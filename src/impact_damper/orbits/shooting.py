@@ -1,8 +1,8 @@
-"""Periodic orbits, stable or not, by Newton's method on the event-driven flow.
+"""Find periodic orbits, stable or unstable, by Newton's method on the event-driven flow.
 
-The state of an orbit is given at a phase W T of the forcing at which the loose mass is in flight,
-far from contacts, where the map over the period is smooth and well scaled. Its derivative comes
-from the variational equations, with saltation matrices where the dashpot's force jumps.
+The state of an orbit is stored at a phase W T of the forcing at which the loose mass is in flight,
+far from contacts, so that the map over the period is smooth and well scaled. The derivative of this
+map comes from the variational equations, with saltation matrices where the dashpot's force jumps.
 """
 
 from dataclasses import replace
@@ -14,17 +14,18 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE, TURN, Orbit
 from impact_damper.system.packed import FREQUENCY
 
-# Newton's method: residual of a converged orbit relative to its state, number of corrections, and
-# largest correction.
+# Newton's method. RESIDUAL: largest residual of a converged orbit, relative to its state.
+# ITERATIONS: largest number of corrections. FAR: largest size of a correction.
 RESIDUAL = 1e-12
 ITERATIONS = 20
 FAR = 10.0
-# Residual below which an orbit is known well enough to move its phase.
+# If the residual is below NEAR, the state of an orbit can be integrated to another phase.
 NEAR = 1e-6
-# Norm of the derivative of the map above which single shooting loses too many digits.
+# If the norm of the derivative of the map exceeds AMPLIFYING, single shooting is not accurate
+# enough.
 AMPLIFYING = 100.0
-# Multiple shooting: an orbit is cut again, at most CUTS times, while a segment amplifies by more
-# than ROUGH times what it should.
+# Multiple shooting: while a segment amplifies by more than ROUGH * `segments.AMPLIFIED`, the orbit
+# is cut again, at most CUTS times.
 CUTS, ROUGH = 4, 4.0
 
 
@@ -37,17 +38,17 @@ def shoot(p, state, periods, phase, *, symmetric=False):
         Packed parameters.
     state : array, shape (4,)
     periods : int
-        Period n in forcing periods, odd if symmetric.
+        Period n in forcing cycles, odd if symmetric.
     phase : float
         Phase W T of the state, radian.
     symmetric : bool
-        Use the map over n/2 periods with a change of sign instead, whose fixed points are the
-        symmetric orbits: a mirrored motion, half a forcing period later, is a motion again.
+        If True, the map over n/2 cycles followed by a change of sign is used. Its fixed points are
+        the symmetric orbits.
 
     Returns
     -------
     orbit : Orbit
-        Orbit that the state would be; its residual says how far it is from one.
+        The orbit with this state. Its residual states how far the state is from being periodic.
     end : numpy.ndarray, shape (4,)
         The state after the map.
     """
@@ -65,10 +66,10 @@ def shoot(p, state, periods, phase, *, symmetric=False):
 
 
 def find_orbit(p, state, periods=1, phase=STROBE):
-    """Find the orbit near a state by Newton's method, and move its phase into flight.
+    """Find the orbit near a state by Newton's method, and move its phase into a flight.
 
-    Where no wall is touched only Z1 and Z1' are unknown, and the loose mass keeps its place.
-    An orbit that amplifies disturbances by more than AMPLIFYING is found by multiple shooting.
+    If no wall is touched, only Z1 and Z1' are unknown, and the loose mass does not move. An orbit
+    that amplifies disturbances by more than AMPLIFYING is found by multiple shooting.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ def find_orbit(p, state, periods=1, phase=STROBE):
     Returns
     -------
     Orbit
-        Its attribute `converged` says whether Newton's method converged.
+        Its attribute `converged` states whether Newton's method converged.
     """
     state = np.array(state, float)
     orbit = _newton(p, state, periods, phase)
@@ -86,16 +87,17 @@ def find_orbit(p, state, periods=1, phase=STROBE):
         chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase)[0])
         if chain.residual < orbit.residual:
             return replace(chain, maps=orbit.maps + chain.maps)
-    # during a contact rounding errors grow at its natural frequency: `converged` is too much to ask
-    if not orbit.residual < NEAR or orbit.quiet_phase() == orbit.phase:
+    # In a contact rounding errors grow at the contact's natural frequency. Therefore the test uses
+    # NEAR in place of the stricter attribute `converged`.
+    if not orbit.residual < NEAR or orbit.flight_phase() == orbit.phase:
         return orbit
-    phase = orbit.quiet_phase()
+    phase = orbit.flight_phase()
     moved = _newton(p, orbit.at(phase), periods, phase % TURN)
     return replace(moved, maps=orbit.maps + moved.maps)
 
 
 def _newton(p, state, periods, phase):
-    """Return the orbit of least residual on the way of Newton's method."""
+    """Return the orbit with the smallest residual among the iterates of Newton's method."""
     best, end = shoot(p, state, periods, phase)
     orbit = best
     maps = 1
@@ -122,13 +124,13 @@ def _newton(p, state, periods, phase):
 
 
 def orbit_of(chain, periods):
-    """Return the orbit that a `segments.Chain` would be; its residual says how far it is from one.
+    """Return the orbit of a `segments.Chain`, whose residual is the largest of its defects.
 
     Parameters
     ----------
     chain : segments.Chain
     periods : int
-        Period n in forcing periods of the orbit, odd if the chain is half of it.
+        Period n of the orbit in forcing cycles, odd if the chain is half of the orbit.
     """
     product = np.eye(4)
     for factor in chain.factors:
@@ -152,16 +154,17 @@ def orbit_of(chain, periods):
 
 
 def polish(orbit):
-    """Return an orbit by multiple shooting, from an orbit or a state that is nearly one.
+    """Return an orbit by multiple shooting, from an approximate orbit.
 
     Parameters
     ----------
     orbit : Orbit
+        Approximate orbit, which need not have converged.
 
     Returns
     -------
     Orbit
-        Its attribute `converged` says whether Newton's method converged.
+        Its attribute `converged` states whether Newton's method converged.
     """
     maps = orbit.maps
     for _ in range(CUTS):
@@ -175,7 +178,7 @@ def polish(orbit):
 
 
 def _newton_of_chain(orbit, phases, states):
-    """Return the orbit of least residual on the way of Newton's method, and the number of maps."""
+    """Return the iterate of Newton's method with the smallest residual, and the number of maps."""
 
     def shot(states):
         sign = 1 if orbit.root is None else -1

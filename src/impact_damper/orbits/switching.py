@@ -1,8 +1,8 @@
-"""Switch to the other branch where an orbit loses its symmetry or doubles its period.
+"""Switch to the branch that leaves where an orbit loses its symmetry or doubles its period.
 
-There the derivative of the equations of the longer or less symmetric orbits has two null vectors.
-The other branch leaves along the one without a change of the parameter, which changes with the
-square of the distance.
+At such a point the derivative of the equations for the less symmetric or longer orbits has two null
+vectors. On the branch that leaves, the parameter changes with the square of the distance from the
+point. The branch therefore leaves along the null vector without a change of the parameter.
 """
 
 import numpy as np
@@ -10,8 +10,8 @@ import numpy as np
 from impact_damper.orbits.continuation import SYMMETRIC, Point, Problem
 from impact_damper.orbits.shooting import shoot
 
-# Distances from the bifurcation at which an orbit is looked for, and the largest correction of the
-# guess as a share of the distance.
+# DISTANCES: distances from the bifurcation at which an orbit is searched for. ASIDE: largest
+# correction of the first guess, divided by the distance.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4), 0.5
 LEAVING = ("symmetry_breaking", "period_doubling")
 
@@ -47,11 +47,11 @@ def other_branch(event) -> Point | None:
     leaving = null.T @ [-second, first] / np.hypot(first, second)
     for distance in DISTANCES:
         guess = x + distance * leaving
-        found = problem.correct(guess, leaving)
-        if found is None or problem.length(found.x - guess) > ASIDE * distance:
+        near = problem.correct(guess, leaving)
+        if near is None or problem.length(near.x - guess) > ASIDE * distance:
             continue
-        if doubled and not found.orbit.repeats_sooner():
-            return found
-        if not doubled and found.orbit.record["asymmetry"] > SYMMETRIC:
-            return found
+        if doubled and not near.orbit.repeats_sooner():
+            return near
+        if not doubled and near.orbit.record["asymmetry"] > SYMMETRIC:
+            return near
     return None

@@ -1,14 +1,16 @@
-"""Tori behind Neimark-Sacker points: stable or not, and how a motion on them turns.
+"""Tori that branch off at Neimark-Sacker points: their stability and their rotation numbers.
 
-At a Neimark-Sacker point a pair of multipliers exp(+-i angle) leaves the unit circle. Close to the
-orbit the logarithm of the amplitude r in the plane of the pair changes by growth r^2 a period. If
-the growth is negative, the orbit is surrounded, where it is unstable, by a stable torus of the
-amplitude sqrt(-log |multiplier| / growth). If it is positive, an unstable torus surrounds the
-stable orbit, and no stable torus splits off (Yu. A. Kuznetsov, Elements of Applied Bifurcation
-Theory, section 4.7). A torus is unstable too if another multiplier lies outside the unit circle.
+At a Neimark-Sacker point a pair of multipliers exp(+-i angle) crosses the unit circle. Let r be the
+amplitude of a motion close to the orbit, in the plane of the pair. At the point, log r changes by
+growth * r^2 in each period of the orbit. If the coefficient `growth` is negative, a stable torus
+surrounds the unstable orbit, with the amplitude sqrt(-log |multiplier| / growth). If it is
+positive, an unstable torus surrounds the stable orbit, and no stable torus branches off (Yu. A.
+Kuznetsov, Elements of Applied Bifurcation Theory, section 4.7). A torus is also unstable if another
+multiplier lies outside the unit circle.
 
-The growth is measured on motions that begin close to the orbit; then stable tori are run onto, at
-two distances from the point, and their rotation numbers are extrapolated to the point.
+The coefficient is measured on motions that begin close to the orbit. Then motions are run onto the
+stable torus at two distances from the point, and their rotation numbers are extrapolated to the
+point.
 """
 
 import math
@@ -22,47 +24,50 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.system.packed import FREQUENCY
 
-# Amplitudes of the motions that measure the growth, and their iterates. Two amplitudes must agree
-# to AGREEMENT, and 1/r^2 must change by a share between SEEN, which is more than rounding, and
-# LARGE.
+# Measurement of the growth. AMPLITUDES: amplitudes of the motions. ITERATES: number of periods of
+# each motion. The results of two successive amplitudes must agree to AGREEMENT, and the relative
+# change of 1/r^2 must lie between SEEN, which is above rounding errors, and LARGE.
 AMPLITUDES = tuple(10.0**-k for k in (2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6))
 ITERATES = 400
 AGREEMENT, SEEN, LARGE = 0.1, 3e-6, 0.5
-# Largest |multiplier| - 1 of a pair on the unit circle.
+# A multiplier lies on the unit circle if its modulus differs from 1 by at most ON_CIRCLE.
 ON_CIRCLE = 1e-6
-# Tori are looked for where log |multiplier| of the orbit is close to these, until two are found.
+# Tori are searched for at orbits with log |multiplier| close to one of LEVELS, until two are found.
+# CLOSE: largest relative error of log |multiplier|. STEPS: largest number of steps to such an
+# orbit.
 LEVELS = tuple(0.01 * 0.5**k for k in range(4))
 CLOSE, STEPS = 0.1, 4
 # Largest distance of such an orbit from the point, in units of the parameter.
 FARTHEST = 0.1
-# Changes of the parameter from which the derivative of log |multiplier| is taken.
+# Changes of the parameter in the difference quotient of log |multiplier|.
 NUDGES = (1e-7, 1e-9, 1e-11)
-# Iterates over which a motion approaches a torus, times the level, and iterates after that, one
-# block after the other, until the rotation number is known.
+# A motion approaches a torus for APPROACH / level periods. Then it runs for the numbers of periods
+# in BLOCKS, one after the other, until the rotation number is known.
 APPROACH, BLOCKS = 8.0, (1000, 3000)
-# Most forcing periods of the approach.
+# Largest number of forcing cycles of the approach.
 MOST_PERIODS = 30_000
 
 
 class Torus(NamedTuple):
-    """What splits off from an orbit at a Neimark-Sacker point.
+    """The torus that branches off from an orbit at a Neimark-Sacker point.
 
     Attributes
     ----------
     kind : str
-        stable, unstable (no stable torus splits off), of_unstable_orbit (another multiplier lies
-        outside the unit circle) or unknown (the growth is not found, mostly next to a grazing).
+        stable; unstable if no stable torus branches off; of_unstable_orbit if another multiplier
+        lies outside the unit circle; or unknown if the growth is not found, mostly near a grazing.
     angle : float
         Angle of the multiplier, revolutions, from 0 to 1/2.
     growth : float
-        Change of the logarithm of the amplitude in a period of the orbit over the square of the
-        amplitude; the complex eigenvector of the amplitude 1 has the length 1. NaN if not found.
+        Coefficient `growth` of the module docstring. The amplitude is that of the complex
+        eigenvector of length 1. NaN if not found.
     value : float
-        Parameter at which a stable torus was run onto, the closer one of two; NaN without them.
+        Parameter of a stable torus that a motion was run onto, the closer one of two; NaN without
+        two such tori.
     number : float
-        Its rotation number, revolutions per period of the orbit, from 0 to 1/2.
+        Rotation number of this torus, revolutions per period of the orbit, from 0 to 1/2.
     error : float
-        Of the rotation number, as in `rotation_numbers.Rotation`.
+        Error of the rotation number (`rotation_numbers.Rotation.error`).
     limit : float
         Rotation number extrapolated to the Neimark-Sacker point.
     """
@@ -77,7 +82,7 @@ class Torus(NamedTuple):
 
 
 def torus_behind(point) -> Torus:
-    """Return what splits off at a Neimark-Sacker point.
+    """Return the `Torus` that branches off at a Neimark-Sacker point.
 
     Parameters
     ----------
@@ -92,26 +97,26 @@ def torus_behind(point) -> Torus:
     growth = amplitude_growth(orbit) if np.min(away) < ON_CIRCLE else math.nan
     if not growth < 0:
         return Torus("unstable" if growth > 0 else "unknown", angle, growth)
-    found = []
+    tori = []
     for level in LEVELS:
         if orbit.periods * APPROACH / level > MOST_PERIODS:
             continue
         beyond = _beyond(point, level)
         rotation = None if beyond is None else _rotation(beyond.orbit, level, growth)
         if rotation is not None:
-            found.append((beyond.value, rotation))
-        if len(found) == 2:
+            tori.append((beyond.value, rotation))
+        if len(tori) == 2:
             break
     else:
         return Torus("stable", angle, growth)
-    (far, first), (value, second) = found
+    (far, first), (value, second) = tori
     slope = (first.number - second.number) / (far - value)
     limit = second.number - slope * (value - point.value)
     return Torus("stable", angle, growth, value, second.number, second.error, limit)
 
 
 class _Pair(NamedTuple):
-    """A complex multiplier with its eigenvectors; `left` times `right` is 1."""
+    """A complex multiplier with its eigenvectors, normalised such that left @ right = 1."""
 
     multiplier: complex
     right: np.ndarray
@@ -119,7 +124,7 @@ class _Pair(NamedTuple):
 
 
 def _pair(orbit: Orbit):
-    """Return the `_Pair` of an orbit that is nearest to the unit circle, or None."""
+    """Return the complex pair of an orbit that is nearest to the unit circle, or None."""
     if not np.all(np.isfinite(orbit.monodromy)):
         return None
     values, vectors = np.linalg.eig(orbit.monodromy)
@@ -131,10 +136,11 @@ def _pair(orbit: Orbit):
 
 
 def amplitude_growth(orbit) -> float:
-    """Return the growth of an orbit at a Neimark-Sacker point, NaN if it is not found.
+    """Return the coefficient `growth` of an orbit at a Neimark-Sacker point, NaN if not found.
 
-    On the unit circle 1/r^2 falls by twice the growth in each period. The averages over both halves
-    of a motion are free of the change of r within a revolution.
+    With a pair on the unit circle 1/r^2 decreases by 2 * growth in each period. The coefficient is
+    computed from weighted averages of 1/r^2 over both halves of a motion, because averages do not
+    depend on the variation of r within a revolution.
     """
     pair, last = _pair(orbit), math.nan
     if pair is None:
@@ -151,7 +157,7 @@ def amplitude_growth(orbit) -> float:
 
 
 def _iterates(orbit, state, count):
-    """Return the states, shape (count, 4), after each of the next periods of an orbit."""
+    """Return the states, shape (count, 4), of a motion after each of `count` periods."""
     begin = orbit.phase / orbit.p[FREQUENCY]
     times = begin + orbit.periods * TURN / orbit.p[FREQUENCY] * np.arange(1, count + 1)
     states = np.empty((count, 4))
@@ -160,7 +166,7 @@ def _iterates(orbit, state, count):
 
 
 def _beyond(point, level):
-    """Return the point of the branch at which log |multiplier| is close to a level, or None."""
+    """Return the point of the branch with log |multiplier| close to a level, or None."""
     for nudge in NUDGES:
         sides = [_logarithm(_at(point, point.value + step)) for step in (nudge, -nudge)]
         if max(map(abs, sides)) < level:
@@ -183,20 +189,21 @@ def _beyond(point, level):
 
 
 def _at(point, value):
-    """Return the point of the branch at a value, or None."""
+    """Return the point of the branch at a value of the parameter, or None."""
     return point.problem.at_value(point, value)
 
 
 def _logarithm(point):
-    """Return log |multiplier| of the pair at a point, infinite if there is none."""
+    """Return log |multiplier| of the pair at a point, infinite if there is no pair."""
     pair = None if point is None else _pair(point.orbit)
     return math.inf if pair is None else math.log(abs(pair.multiplier))
 
 
 def _rotation(orbit, level, growth):
-    """Return the `Rotation` on the torus around an unstable orbit, None if the motion is on none.
+    """Return the `Rotation` on the torus around an unstable orbit, or None if there is no torus.
 
-    The two planes are those of `undecided`.
+    As in `motions.undecided`, the rotation number is searched for in the planes of (Z1, Z1') and of
+    (Z2, Z2').
     """
     start = orbit.state + math.sqrt(level / -growth) * _pair(orbit).right.real
     state = _iterates(orbit, start, int(APPROACH / level))[-1]
@@ -207,11 +214,11 @@ def _rotation(orbit, level, growth):
         state = states[-1]
         planes = [states[:, k] + 1j * states[:, k + 1] / orbit.p[FREQUENCY] for k in (0, 2)]
         finite = np.all(np.isfinite(state))
-        found = [find_rotation(points) for points in planes] if finite else []
-        found = [rotation for rotation in found if rotation is not None]
-        if not found:
+        rotations = [find_rotation(points) for points in planes] if finite else []
+        rotations = [rotation for rotation in rotations if rotation is not None]
+        if not rotations:
             return None
-        best = min(found, key=lambda rotation: rotation.error)
+        best = min(rotations, key=lambda rotation: rotation.error)
         if best.known:
             return best
     return None

@@ -1,20 +1,21 @@
-"""First and second variations of a motion: how its end and its derivative change with parameters.
+"""First and second variations of a motion: derivatives of its end and of its derivative matrix.
 
-Let y be the state (Z1, Z1', Z2, Z2'), f its rate, A the Jacobian of f, and P the derivative of y
-with respect to the state at the beginning. A change of that state and of the parameters by a
-direction d changes y, at a given phase W T of the forcing, by
+Let y be the state (Z1, Z1', Z2, Z2'), f its time derivative, A the Jacobian of f, and P the
+derivative of y with respect to the first state. A direction d is a simultaneous change of the first
+state, by s, and of the parameters. At a given phase W T of the forcing it changes y by
 
-    y_d = P (s + integral of P^-1 f_d dT)
+    y_d = P (s + integral of P^-1 f_d dT)      (Duhamel's integral)
 
-with the change s of the first state (Duhamel's integral), and P by P B with
+and P by P B with
 
-    B = integral of P^-1 A_d P dT,
+    B = integral of P^-1 A_d P dT.
 
-where A_d is the change of A along the motion, by parameters and by y_d. Where a contact begins or
-ends at the wall n = -1 or 1, Z2 = n d0, the state is continuous but f and A are not. There y_d
-jumps by the jump of f times the delay of the event, and B gains a term likewise. With the phase as
-variable in place of T, f/W is the rate and the end of the motion does not move with W, so a change
-of W counts as a change of f at constant phase less f/W.
+Here f_d is the change of f by the parameters, and A_d the change of A along the motion, by the
+parameters and by y_d. Where a contact begins or ends at the wall n = -1 or 1, Z2 = n d0, the state
+is continuous, but f and A jump. There y_d jumps by the jump of f times the delay of the event, and
+B has a corresponding additional term. The independent variable is the phase W T. The derivative of
+y by the phase is f/W, so a change dW of W changes f by its derivative at constant phase minus f
+dW/W.
 """
 
 from dataclasses import dataclass
@@ -59,9 +60,10 @@ class Variations:
 
     @cached_property
     def _columns(self):
-        """Changes of P^-1 y_d by forces on both masses, by a wall, and on the loose mass only.
+        """P^-1 times three directions of a rate, each of shape (4, N).
 
-        Each has the shape (4, N).
+        A force on the primary mass changes Z1'' and Z2'' by the same amount. The force of a wall
+        changes Z2'' by (1 + 1/rm) times the change of Z1''. The third direction is Z2'' alone.
         """
         first, second = self._inverse[:, 1], self._inverse[:, 3]
         return first + second, first + (1 + self.path.p[INVERSE_MASS_RATIO]) * second, second
@@ -73,7 +75,7 @@ class Variations:
         rates = self._rates().reshape(shape)
         integrals = self.path.lengths[:, None] * (rates @ INTEGRALS.T)
         gains = integrals[..., -1].copy()
-        # Where a wall moves, the jump by the dashpot's force does not follow from Z2 alone.
+        # A change of the clearance moves the wall. This adds a jump by the dashpot's force.
         for point, wall, begun in zip(*self.path.events, strict=True):
             moved = begun * wall * self.path.p[DASHPOT] * self._columns[1][:, point + 1]
             gains[:, CLEARANCE, point // POINTS] += moved
@@ -108,14 +110,14 @@ class Variations:
         return rates
 
     def slopes(self):
-        """Return the derivative of the last state by parameters, shape (4, COUNT).
+        """Return the derivatives of the last state by the parameters, shape (4, COUNT).
 
-        The first state and both phases of the forcing stay as they are.
+        The first state and the first and last phase of the forcing are held fixed.
         """
         return self.path.matrix @ self._integrals[..., -1]
 
     def changes(self, first, parameters):
-        """Return the change of the state along n directions, at all points.
+        """Return the changes of the state along n directions at all points.
 
         Parameters
         ----------
@@ -132,21 +134,21 @@ class Variations:
         return np.einsum("ijn,jkn->ikn", self.path.tangents, inner)
 
     def matrix_changes(self, first, parameters):
-        """Return the change of `matrix` along n directions, shape (n, 4, 4).
+        """Return the changes of `Path.matrix` along n directions, shape (n, 4, 4).
 
         Parameters
         ----------
         first, parameters
-            As of `changes`.
+            As in `changes`.
         """
         changes = self.changes(first, parameters)
         inner = self._smooth(changes[0], parameters) + self._at_events(changes[2], parameters)
         return self.path.matrix @ inner
 
     def _smooth(self, change, parameters):
-        """Return the part of B between events, shape (n, 4, 4), given the change of Z1.
+        """Return the part of B between events, shape (n, 4, 4), from the change of Z1.
 
-        A change of A is a sum of products of a column and a row.
+        A_d is a sum of products of a column and a row.
         """
         p, tangents, inverse = self.path.p, self.path.tangents, self._inverse
         both, pushed, loose = self._columns
@@ -173,7 +175,7 @@ class Variations:
         return -bent - np.tensordot(parameters[kinds].T, parts, axes=1)
 
     def _at_events(self, change, parameters):
-        """Return the part of B that events contribute, shape (n, 4, 4), given the change of Z2."""
+        """Return the part of B from the events, shape (n, 4, 4), computed from the change of Z2."""
         p, third = self.path.p, np.eye(4)[2]
         column = np.array([0.0, 1.0, 0.0, 1.0 + p[INVERSE_MASS_RATIO]])
         total = np.zeros((parameters.shape[1], 4, 4))

@@ -1,1 +1,1 @@
-"""How a machine does with a given damper: costs, transients, contact stiffness; in SI units."""
+"""Performance of a machine with a given damper: costs, transients, contact stiffness."""

@@ -1,4 +1,4 @@
-"""Stiffness of the linear spring that replaces a contact after Hertz."""
+"""Stiffness of the linear spring that replaces a contact by Hertz's theory."""
 
 import json
 from dataclasses import replace
@@ -15,8 +15,8 @@ from impact_damper.motions.steady import steady_motion
 from impact_damper.system.bounds import shown
 
 _simulate, _steady_motion = map(takes_machine, (simulate, steady_motion))
-# Search for the stiffness: largest number of motions computed, and relative change of the stiffness
-# below which the search has converged.
+# Search for the stiffness. MOST_MOTIONS: largest number of motions that are computed. AGREED: the
+# search has converged when the relative change of the stiffness is below AGREED.
 MOST_MOTIONS = 30
 AGREED = 1e-6
 
@@ -25,33 +25,34 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
     """Find the linear contact stiffness that replaces Hertz's contact in a steady motion.
 
     The linear spring has the same largest compression as Hertz's contact. Its stiffness grows with
-    the speed of impact, and this speed depends on the stiffness: stiffness and motion are computed
-    in turn until they agree. The first speed is the one at which the loose mass crosses the gap in
-    half a forcing period. Each motion starts from the state of the motion before.
+    the speed of impact, and the speed of impact depends on the stiffness. Therefore stiffness and
+    motion are computed alternately until they agree. The first speed is the speed with which the
+    loose mass crosses the gap in half a forcing cycle. Each motion starts from the state of the
+    motion before.
 
     Parameters
     ----------
     machine : Machine
     damper : MachineDamper
-        With a `contact`.
+        It must have a `contact`.
     frequency : float
         Forcing frequency, Hz.
     state : sequence of 4 floats
-        State at time 0 from which the first motion settles, m and m/s.
+        State at time 0 that leads to the first motion, m and m/s.
     settling : Settling, optional
 
     Returns
     -------
     xarray.Dataset
-        `hertz_stiffness` (N/m), for `dataclasses.replace(damper, contact=None,
+        `hertz_stiffness` (N/m), for use in `dataclasses.replace(damper, contact=None,
         contact_stiffness=...)`; speed, compression, force and duration of the fastest impact of the
-        motion; its largest displacement; `hertz_status` says how the search ended. Numbers that
-        are not known are NaN.
+        motion; the largest displacement of the motion; and `hertz_status`, the status of the
+        search. Unknown numbers are NaN.
 
     Raises
     ------
     TypeError, ValueError
-        If an argument is not of its kind or out of range; the message names it.
+        If an argument has the wrong type or is out of range; the message names it.
 
     Examples
     --------
@@ -60,8 +61,8 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
     >>> nylon = idm.Material("3 GPa", 0.4)
     >>> ball = idm.HertzContact("20 mm", nylon)
     >>> damper = machine.damper(mass=0.6, gap="3 mm", restitution=0.8, contact=ball)
-    >>> found = idm.hertz_stiffness(machine, damper, 20, (0, 0, 0, "0.3 m/s"))
-    >>> f"{found.hertz_stiffness.item():.3g} N/m"
+    >>> contact = idm.hertz_stiffness(machine, damper, 20, (0, 0, 0, "0.3 m/s"))
+    >>> f"{contact.hertz_stiffness.item():.3g} N/m"
     '3.34e+06 N/m'
     """
     if not isinstance(machine, Machine):
@@ -101,15 +102,15 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
         "impact_force": impact.force if known else np.nan,
         "impact_duration": impact.duration if known else np.nan,
     }
-    found = dataset({}, {}, {"frequency": frequency}, "Contact after Hertz")
-    found = found.assign({name: shown_variable(name, value) for name, value in data.items()})
-    return found.assign_attrs(machine=json.dumps(describe_si(machine, damper), sort_keys=True))
+    labelled = dataset({}, {}, {"frequency": frequency}, "Contact after Hertz")
+    labelled = labelled.assign({name: shown_variable(name, value) for name, value in data.items()})
+    return labelled.assign_attrs(machine=json.dumps(describe_si(machine, damper), sort_keys=True))
 
 
 def _fastest_impact(machine, damper, frequency, steady):
-    """Return the largest speed of impact of a steady motion, m/s, and its state at time 0.
+    """Return the largest speed of impact (m/s) of a steady motion, and its state at time 0.
 
-    `steady` holds the state at a quarter of a forcing period.
+    `steady` holds the state at a quarter of a forcing cycle.
     """
     run = _simulate(
         machine,
@@ -121,4 +122,4 @@ def _fastest_impact(machine, damper, frequency, steady):
     )
     speed = float(np.max(np.abs(run["approach_velocity"].values), initial=0.0))
     last = [run[name].values[-1] for name in COMPONENTS]
-    return speed, [value * share for value, share in zip(last, (1e-3, 1, 1e-3, 1), strict=True)]
+    return speed, [value * unit for value, unit in zip(last, (1e-3, 1, 1e-3, 1), strict=True)]

@@ -1,17 +1,19 @@
-"""What a motion with a damper costs: impacts, forces, losses, noise, and the pressure of contacts.
+"""Costs of a motion with a damper: impacts, forces, losses, noise, and the pressure of contacts.
 
-The force of a wall over the primary mass is f = r1 q + D q', with the penetration q, the contact
-stiffness r1 and the dashpot D; it accelerates the primary mass by -f and the loose mass by f/rm.
-A contact loses the work of D. Over a time in which a motion repeats,
+The force of a wall per unit of primary mass is f = r1 q + D q', with the penetration q, the contact
+stiffness r1 and the dashpot coefficient D. It accelerates the primary mass by -f and the loose mass
+by f/rm. A contact loses the work of the dashpot. Over a time after which a motion repeats,
 
-    work of the external force = loss in the machine's dashpot + loss in contacts,
+    work of the external force = loss in the machine's dashpot + loss in contacts.
 
-and otherwise the difference is stored; the variable `power_error` says how well this holds.
+Over other times the difference is stored as energy of the motion. The variable `power_error` states
+the relative error of this balance.
 
-As a measure of noise, impulses J at the rate n give the sum of J^2 per time, n <J^2>. By Campbell's
-theorem this is the two-sided spectral density of the force of impacts at random times, at
-frequencies between the rate of impacts and the inverse of their duration. With this density they
-excite the panels of a machine. (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
+The measure of noise is n <J^2>, the sum of the squares of the impulses J of impacts per unit of
+time at a rate n of impacts. By Campbell's theorem this is the two-sided spectral density of the
+force of impacts at random times, for frequencies between the rate of impacts and the inverse of
+their duration. It is the density with which impacts excite the panels of a machine. (S. O. Rice,
+Bell System Technical Journal 23, 1944, section 1.5.)
 """
 
 import numpy as np
@@ -37,41 +39,43 @@ from impact_damper.system.packed import (
 )
 from impact_damper.system.parameters import check_damper, describe
 
-# Forcing periods within which a motion that starts in a contact must leave the wall.
+# Forcing cycles within which the loose mass must leave the wall if the first state is in a contact.
 PATIENCE = 2
-# Most forcing periods of a motion; each takes about 10 kB of memory.
+# Largest number of forcing cycles of a motion. Each cycle takes about 10 kB of memory.
 MOST_PERIODS = 10**4
 
 
 def motion_costs(machine, damper, frequency, state, periods, *, start=None, contact=None):
-    """Return what a motion of a machine with its damper costs.
+    """Return the costs of a motion of a machine with its damper.
 
     Parameters
     ----------
     machine : Machine
     damper : MachineDamper
-        With a contact stiffness.
+        It must have a contact stiffness.
     frequency : float
         Forcing frequency, Hz.
     state : sequence of 4 floats
         A state of the motion, m and m/s.
     periods : int
-        Forcing periods over which the costs are measured: the period of the motion, or, for a
-        chaotic motion, enough for the accuracy wanted of its means.
+        Number of forcing cycles over which the costs are measured. For a periodic motion use its
+        period; for a chaotic motion as many cycles as the accuracy of the means requires.
     start : float, optional
-        Time of the state, s; a quarter of a forcing period if it is not given, the phase at which
-        `steady_motion` returns states.
+        Time of the state, s. The default is a quarter of a forcing cycle, the phase of the states
+        that `steady_motion` returns.
     contact : HertzContact, optional
         Radius and materials with which the pressure in the contact is computed.
 
     Returns
     -------
     xarray.Dataset
-        In SI units, with the variables of `measured_costs` and of `pressure_costs`. If the base
-        moves, `force_power` is the power of the force k y + c y' that spring and dashpot pass on
-        for the displacement y of the base, and `dashpot_power` the one of c on the machine's speed
-        in space. Their difference is right, the power that impacts lose; neither is by itself
-        that of the base's drive or of the dashpot, whose ends both move.
+        In SI units, with the variables of `measured_costs` and of `pressure_costs`.
+
+        For a machine on a moving base, let y be the displacement of the base, and k and c the
+        stiffness and damping of the machine. Then `force_power` is the power of the force
+        k y + c y', and `dashpot_power` the power of the dashpot force c times the machine's
+        velocity in space. Neither is the power of the base's drive or the loss in the dashpot,
+        because both ends of the dashpot move. Their difference is the power that impacts lose.
 
     Raises
     ------
@@ -81,13 +85,13 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
     check_fit(machine, damper)
     if contact is not None and not isinstance(contact, HertzContact):
         raise TypeError(f"contact = {shown(contact)}: must be a HertzContact")
-    found = _costs(machine, damper, frequency, state, periods, start=start)
-    pressed = pressure_costs(machine, damper, contact, float(found["impact_speed"]))
-    return found.assign({name: shown_variable(name, value) for name, value in pressed.items()})
+    costs = _costs(machine, damper, frequency, state, periods, start=start)
+    pressed = pressure_costs(machine, damper, contact, float(costs["impact_speed"]))
+    return costs.assign({name: shown_variable(name, value) for name, value in pressed.items()})
 
 
 def pressure_costs(machine, damper, contact, speed) -> dict:
-    """Return force and pressure after Hertz of an elastic impact, and whether it yields.
+    """Return force and pressure of an elastic impact by Hertz's theory, and whether it yields.
 
     Parameters
     ----------
@@ -118,18 +122,19 @@ def pressure_costs(machine, damper, contact, speed) -> dict:
 
 @takes_machine
 def _costs(oscillator, damper, frequency, state, periods, *, start=None):
-    """Return the dataset of `measured_costs`; arguments as in `motion_costs`."""
+    """Return the dataset of `measured_costs`; the arguments are those of `motion_costs`."""
     check_damper(damper)
     p = pack(oscillator, damper, frequency)
     y = check_state(state, damper)
     check_count("periods", periods, most=MOST_PERIODS)
     begin = strobe_time(p) if start is None else check_number("start", start)
-    made = describe(oscillator, damper) | {"frequency": float(frequency), "periods": int(periods)}
-    return dataset(measured_costs(p, y, begin, periods), {}, made, "Costs of a motion")
+    parameters = describe(oscillator, damper)
+    parameters |= {"frequency": float(frequency), "periods": int(periods)}
+    return dataset(measured_costs(p, y, begin, periods), {}, parameters, "Costs of a motion")
 
 
 def measured_costs(p, y, begin, periods) -> dict:
-    """Return what a motion costs.
+    """Return the dimensionless costs of a motion.
 
     Parameters
     ----------
@@ -139,15 +144,16 @@ def measured_costs(p, y, begin, periods) -> dict:
         State Z1, Z1', Z2, Z2' at the time `begin`.
     begin : float
     periods : int
-        Forcing periods. They begin with the next flight if the state is in a contact.
+        Number of forcing cycles. If the state is in a contact, they begin in the next flight.
 
     Returns
     -------
     dict
-        Values of registered variables (`data.variables.costs`), keyed by name: dimensionless,
-        forces and powers divided by the primary mass. Arrays, one entry for each whole contact, are
-        its log, impulse and loss; all others are scalars. Means over impacts are NaN without
-        impacts. After an escape all per time, forces and powers are NaN.
+        Values of registered variables (`data.variables.costs`), keyed by name. They are
+        dimensionless; forces and powers are divided by the primary mass. The log, the impulse and
+        the loss of contacts are arrays with one entry for each whole contact. All other values are
+        scalars. Means over impacts are NaN without impacts. Rates, forces and powers are NaN after
+        an escape.
     """
     begin, y = _in_flight(p, y, begin)
     time = periods * 2 * np.pi / p[FREQUENCY]
@@ -160,7 +166,10 @@ def measured_costs(p, y, begin, periods) -> dict:
 
 
 def _in_flight(p, y, begin):
-    """Return a time and the state then, in the middle of a flight if the state is in a contact."""
+    """Return a time and a state of the motion in flight.
+
+    They are `begin` and y if y is in flight, otherwise the middle of the next flight.
+    """
     if side_of(p, y) == 0:
         return begin, y
     _, log = logged(p, y, begin, np.array([begin + PATIENCE * 2 * np.pi / p[FREQUENCY]]))
@@ -173,14 +182,14 @@ def _in_flight(p, y, begin):
 
 
 def _penetration(p, panels):
-    """Return penetration and its rate at the nodes, 0 in flight."""
+    """Return penetration and rate of penetration at the nodes of panels, 0 in flight."""
     wall = panels.wall[:, None]
     depth = np.where(wall, wall * panels.states[..., 2] - p[CLEARANCE], 0.0)
     return depth, wall * panels.states[..., 3]
 
 
 def _impacts(p, panels, time):
-    """Return the log of whole contacts, and what follows from it."""
+    """Return the log of whole contacts, and impulses, losses, speeds and rate of the impacts."""
     depth, rate = _penetration(p, panels)
     force = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     impulse, loss = (
@@ -211,7 +220,7 @@ def _extremes_and_powers(p, panels, time):
     depth, rate = _penetration(p, panels)
     contact = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     x, v = panels.states[..., 0], panels.states[..., 1]
-    # kernels as plain Python functions, which take arrays
+    # `py_func` is the Python function of a kernel, which accepts arrays.
     external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
     acceleration = external - p[DAMPING] * v - spring.py_func(p, x)
     powers = external * v, p[DAMPING] * v**2, p[DASHPOT] * rate**2

@@ -1,8 +1,8 @@
-"""A motion sampled so that integrals and largest values of smooth functions of it are exact.
+"""A motion sampled such that integrals and maxima of smooth functions of the motion are accurate.
 
-Time is divided at the beginnings and ends of contacts, and further into panels short enough that a
-polynomial through the Chebyshev nodes of a panel gives the motion there to about twelve digits.
-(L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12.)
+Time is divided at the beginnings and ends of contacts, and further into short intervals called
+panels. In each panel a polynomial through the Chebyshev nodes represents the motion to about twelve
+digits. (L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12.)
 """
 
 from typing import NamedTuple
@@ -15,20 +15,21 @@ from impact_damper.motions.records import trace
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
-# Nodes of a panel on [-1, 1]; matrix from values at the nodes to coefficients of Chebyshev
-# polynomials; weights of an integral (Clenshaw and Curtis), the integrals of the even polynomials
-# being 2/(1 - k^2).
+# NODES: nodes of a panel on [-1, 1]. COEFFICIENTS: matrix that maps values at the nodes to
+# coefficients of Chebyshev polynomials. WEIGHTS: weights of an integral (Clenshaw and Curtis). The
+# integral of the Chebyshev polynomial of even degree k is 2/(1 - k^2).
 NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 _INTEGRALS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))]
 WEIGHTS = _INTEGRALS @ COEFFICIENTS
-# Matrix from values at the nodes to values at 33 points. The largest value within a panel exceeds
-# the largest of these by less than the share MISSED.
+# FINE: matrix that maps values at the nodes to values at 33 points. The largest value within a
+# panel exceeds the largest of these 33 values relatively by less than MISSED.
 FINE = chebyshev.chebvander(np.linspace(-1, 1, 33), len(NODES) - 1) @ COEFFICIENTS
 MISSED = 0.01
-# Longest panel, as angle (radian) of the fastest oscillation.
+# Longest panel, as an angle (radian) of the fastest oscillation.
 LONGEST_ANGLE = 2.0
-# Samples in a forcing period from which the size of the motion is estimated; room of the first log.
+# SAMPLES: number of samples in a forcing cycle, from which the size of the motion is estimated.
+# FIRST_LOG: number of contacts for which the first log has room.
 SAMPLES = 32
 FIRST_LOG = 256
 
@@ -39,10 +40,11 @@ class Panels(NamedTuple):
     Attributes
     ----------
     log : numpy.ndarray, shape (contacts, 5)
-        Contacts, as from `records.trace`.
+        Log of the contacts, from `records.trace`.
     lengths : numpy.ndarray, shape (panels,)
-        Times.
+        Lengths of the panels in units of T.
     times : numpy.ndarray, shape (panels, nodes)
+        Times of the nodes.
     states : numpy.ndarray, shape (panels, nodes, 4)
         Z1, Z1', Z2, Z2'; NaN after an escape.
     contact : numpy.ndarray of int, shape (panels,)
@@ -73,13 +75,15 @@ def sampled(p, state, begin, end) -> Panels:
     """
     rough = np.linspace(begin, end, int(SAMPLES * (end - begin) * p[FREQUENCY] / (2 * np.pi)) + 2)
     states, log = logged(p, state, begin, rough)
-    # beginnings and ends of contacts in turn, so that every second interval is a flight
+    # The edges are alternately beginnings and ends of contacts, so every second interval is a
+    # flight.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)
     walls[1::2] = log[:, 0]
     farthest = np.nanmax(np.abs(states[:, 0]))
-    # the slope is steepest at one of the two ends, for a hardening and for a softening spring
+    # For a hardening and for a softening spring, the slope is steepest at Z1 = 0 or at the farthest
+    # Z1.
     steepest = np.max(np.abs(spring_slope.py_func(p, np.array([0.0, farthest]))))
     fastest = np.sqrt(steepest) + p[FREQUENCY]
     contact = np.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
@@ -104,7 +108,8 @@ def sampled(p, state, begin, end) -> Panels:
 def logged(p, state, begin, times, room=FIRST_LOG):
     """Return the states of a motion at given times, and the log of its contacts.
 
-    `room` is the number of contacts that the first attempt can log.
+    `room` is the number of contacts for which the first attempt has room. If there are more, the
+    motion is integrated again.
     """
     states = np.empty((len(times), 4))
     while True:
@@ -116,12 +121,12 @@ def logged(p, state, begin, times, room=FIRST_LOG):
 
 
 def integrals(panels, values):
-    """Return the integral over each panel of values given at its nodes, shape (panels,)."""
+    """Return the integral over each panel of a function with `values` at the nodes."""
     return values @ WEIGHTS * panels.lengths / 2
 
 
 def largest(values) -> float:
-    """Return the largest modulus of a function given at the nodes of panels, 0 without panels."""
+    """Return the largest modulus of a function with `values` at the nodes, 0 without panels."""
     if len(values) == 0:
         return 0.0
     fine = np.max(np.abs(values @ FINE.T), axis=1)

@@ -1,4 +1,4 @@
-"""The ring-down of a machine from a displacement, with its damper and without."""
+"""The ring-down (unforced decay) of a machine from a displacement, with its damper and without."""
 
 import math
 
@@ -16,36 +16,41 @@ from impact_damper.system.bounds import FARTHEST
 from impact_damper.system.families import FORCING
 from impact_damper.system.packed import CUBIC, STIFFNESS, pack
 
-# A ring-down ends once the energy has fallen to the energy at the share REST of the first
-# displacement, and at the latest after MOST_WINDOWS free periods.
+# A ring-down ends when the energy has fallen to the energy at REST times the first displacement, or
+# after MOST_WINDOWS periods of the unforced vibration.
 REST = 1e-3
 MOST_WINDOWS = 10**4
-# Longest window, in periods of small vibrations of a softening spring, whose period has no bound.
+# The period on a softening spring has no upper bound. The longest window is LONGEST periods of
+# small vibrations.
 LONGEST = 2.0
 
 
 def ring_down(machine, damper, displacement):
-    """Let a machine ring down without forcing from a displacement, with its damper and without.
+    """Compute the unforced decay of a machine from a displacement, with its damper and without.
 
-    Machine and loose mass start at rest, the loose mass in the middle of its gap.
+    Machine and loose mass are at rest at the beginning, with the loose mass in the middle of the
+    gap.
 
     Parameters
     ----------
     machine : Machine
     damper : MachineDamper
-        With a contact stiffness.
+        It must have a contact stiffness.
     displacement : float
-        m, above 0.
+        First displacement in m, above 0.
 
     Returns
     -------
     xarray.Dataset
-        In SI units. A window is a period of the free vibration without damping that has the energy
-        at its beginning. `time` at the middle of the window, `frequency`, `envelope` and
-        `window_contacts`, all (equipment, window), NaN after the end; `transient_status`
-        (equipment): at_rest once the energy of both masses has fallen to the energy at a thousandth
-        of the displacement; escaped over a barrier of a softening spring; limit after MOST_WINDOWS
-        windows.
+        In SI units. Time is divided into windows. The length of a window is the period of an
+        undamped unforced vibration with the energy that the motion has at the beginning of the
+        window.
+
+        - (equipment, window): `time` at the middle of the window, `frequency`, `envelope` and
+          `window_contacts`, NaN after the end of the ring-down.
+        - (equipment): `transient_status`: at_rest if the energy of both masses has fallen to the
+          energy at a thousandth of the displacement; escaped if the motion has crossed the barrier
+          of a softening spring; limit after MOST_WINDOWS windows.
 
     Raises
     ------
@@ -64,13 +69,16 @@ def ring_down(machine, damper, displacement):
     names = ("time", "frequency", "envelope", "window_contacts")
     data = {name: (("equipment", "window"), padded[..., k]) for k, name in enumerate(names)}
     data["transient_status"] = [flag("transient_status", status) for _, status in runs]
-    made = {"displacement": first, "tolerance": TOLERANCE}
-    labelled = dataset(data, {"equipment": list(EQUIPMENT)}, made, "Ring-down")
+    parameters = {"displacement": first, "tolerance": TOLERANCE}
+    labelled = dataset(data, {"equipment": list(EQUIPMENT)}, parameters, "Ring-down")
     return in_si(labelled, machine, damper)
 
 
 def _unforced(machine, damper):
-    """Return the packed parameters of a machine without forcing; their frequency has no effect."""
+    """Return the packed parameters of a machine without forcing.
+
+    The forcing frequency in these parameters has no effect.
+    """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
     p = pack(machine.oscillator(scales.to_si(1.0, "frequency")), scaled, 1.0)
@@ -79,14 +87,14 @@ def _unforced(machine, damper):
 
 
 def _decay(p, displacement):
-    """Let an oscillator ring down.
+    """Compute the unforced decay of an oscillator from a displacement.
 
     Returns
     -------
-    numpy.ndarray, shape (windows, 4)
-        Time at the middle of each window, frequency, largest |Z1|, contacts.
-    str
-        Status.
+    rows : numpy.ndarray, shape (windows, 4)
+        Time at the middle of each window, frequency, largest |Z1|, number of contacts.
+    status : str
+        "at_rest", "escaped" or "limit".
     """
     y = np.array([displacement, 0.0, 0.0, 0.0])
     rest = energy.py_func(p, REST * y)
@@ -105,15 +113,16 @@ def _decay(p, displacement):
 
 
 def _window(p, left):
-    """Return the period of a free vibration with the energy `left`, at most the longest window."""
-    period = free_period(p[STIFFNESS], p[CUBIC], free_amplitude(p[STIFFNESS], p[CUBIC], left))
-    if p[CUBIC] >= 0:
+    """Return the length of a window that begins with the energy `left`."""
+    stiffness, cubic = p[STIFFNESS], p[CUBIC]
+    period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
+    if cubic >= 0:
         return period
-    return min(period, LONGEST * 2 * np.pi / np.sqrt(p[STIFFNESS]))
+    return min(period, LONGEST * 2 * np.pi / np.sqrt(stiffness))
 
 
-def free_amplitude(stiffness, cubic, stored) -> float:
-    """Return the amplitude A of x'' + a x + b x^3 = 0: a A^2/2 + b A^4/4 is its energy.
+def unforced_amplitude(stiffness, cubic, stored) -> float:
+    """Return the amplitude A of x'' + a x + b x^3 = 0 with the energy a A^2/2 + b A^4/4.
 
     Parameters
     ----------
@@ -125,7 +134,7 @@ def free_amplitude(stiffness, cubic, stored) -> float:
     Returns
     -------
     float
-        Infinite if a softening spring cannot store the energy.
+        The amplitude, infinite if a softening spring cannot store the energy.
     """
     square = stiffness**2 + 4 * cubic * stored
     if square <= 0:
@@ -133,23 +142,24 @@ def free_amplitude(stiffness, cubic, stored) -> float:
     return 2 * math.sqrt(stored / (stiffness + math.sqrt(square)))
 
 
-def free_period(stiffness, cubic, amplitude) -> float:
+def unforced_period(stiffness, cubic, amplitude) -> float:
     """Return the period of x'' + a x + b x^3 = 0 at an amplitude A.
 
-    The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2), of the period 4 K(m)/w.
-    (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations, 1979, section 2.1.)
+    The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2). Its period is 4 K(m)/w,
+    with the complete elliptic integral K. (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations,
+    1979, section 2.1.)
 
     Parameters
     ----------
     stiffness, cubic : float
-        As of `free_amplitude`.
+        a and b, dimensionless.
     amplitude : float
-        Above 0 if a is 0.
+        A, above 0 if a is 0.
 
     Returns
     -------
     float
-        Infinite from the barrier A^2 = -a/b of a softening spring on.
+        The period, infinite if A reaches the barrier A^2 = -a/b of a softening spring.
     """
     square = stiffness + cubic * amplitude**2
     if square <= 0:

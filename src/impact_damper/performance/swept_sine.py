@@ -1,9 +1,9 @@
 """A swept sine, up and down, on a machine with its damper and without.
 
-The forcing frequency changes at a constant rate. The kernel takes a fixed frequency, so each
-forcing period has its mean frequency in the continuous sweep. Periods then begin and end when those
-of the sweep do; within a period the phase differs by at most pi/4 of the share by which the
-frequency changes in it.
+The forcing frequency changes at a constant rate. Kernels require a fixed frequency, so in the
+simulation each forcing cycle has a fixed frequency, its mean frequency in the continuous sweep. The
+cycles therefore begin and end at the same times as those of the continuous sweep. Within a cycle
+the phases differ by at most pi/4 times the relative change of the frequency in this cycle.
 """
 
 import json
@@ -21,13 +21,13 @@ from impact_damper.system.packed import FORCE, FREQUENCY, UNBALANCE, pack
 
 DIRECTIONS = ("up", "down")
 EQUIPMENT = ("bare", "damped")
-# Local error allowed.
+# Largest local error of an integration step.
 TOLERANCE = 1e-10
-# Largest share by which the frequency may change in a forcing period, and most forcing periods.
+# Largest relative change of the frequency in a forcing cycle, and largest number of forcing cycles.
 STEEPEST = 0.01
 MOST_PERIODS = 10**6
-# The first frequency is held until the machine's own transients, without the damper, have fallen to
-# the share SETTLED, and at most for HELD forcing periods.
+# The first frequency is held until the transients of the machine without the damper have decayed to
+# SETTLED times their first size, but at most for HELD forcing cycles.
 SETTLED = 0.01
 HELD = 10**5
 
@@ -35,29 +35,36 @@ HELD = 10**5
 def swept_sine(machine, damper, band, rate):
     """Sweep the forcing frequency of a machine up and down, with its damper and without.
 
-    A sweep starts from rest, with the loose mass in the middle of its gap, and the first frequency
-    is held until the machine's own transients have died away. The resonance peak of a lightly
-    damped linear machine is then lower than in steady state, by 1 % at the rate
-    (damping ratio x natural frequency)^2 and by 6 % at four times this rate.
+    A sweep begins at rest, with the loose mass in the middle of the gap. First the first frequency
+    is held until the transients of the machine without the damper have decayed. In the sweep, the
+    resonance peak of a lightly damped linear machine is lower than in steady state: by 1 % at the
+    rate (damping ratio x natural frequency)^2, and by 6 % at four times this rate.
 
     Parameters
     ----------
     machine : Machine
     damper : MachineDamper
-        With a contact stiffness.
+        It must have a contact stiffness.
     band : sequence of 2 floats
         Least and greatest frequency, Hz.
     rate : float
-        Change of the frequency per time, Hz/s, above 0; at most 1 % in a forcing period.
+        Change of the frequency per time, Hz/s, above 0. It must change the frequency by at most 1 %
+        in a forcing cycle.
 
     Returns
     -------
     xarray.Dataset
-        In SI units, one window for each forcing period. `time` from the end of the hold to the
-        middle of the window, and `frequency`, both (direction, window); `envelope` and
-        `window_contacts` (direction, equipment, window), from an escape on infinite, then NaN;
-        `transient_status` (direction, equipment): completed or escaped. The attribute `sweep` holds
-        band, rate and the forcing periods for which the first frequency was held.
+        In SI units, with one window for each forcing cycle.
+
+        - (direction, window): `time` from the end of the hold to the middle of the window, and
+          `frequency`.
+        - (direction, equipment, window): `envelope` and `window_contacts`. In the window of an
+          escape
+          the envelope is infinite, and after it both are NaN.
+        - (direction, equipment): `transient_status`, completed or escaped.
+
+        The attribute `sweep` (JSON) holds band, rate and the forcing cycles for which the first
+        frequency was held.
 
     Raises
     ------
@@ -68,8 +75,8 @@ def swept_sine(machine, damper, band, rate):
     least, most, rate = _check_sweep(machine, band, rate)
     count = int((most**2 - least**2) / (2 * rate))
     ends = ((least, rate), (most, -rate))
-    found = [_sweep(machine, damper, first, slope, count) for first, slope in ends]
-    times, frequencies, runs, held = zip(*found, strict=True)
+    sweeps = [_sweep(machine, damper, first, slope, count) for first, slope in ends]
+    times, frequencies, runs, held = zip(*sweeps, strict=True)
     largest, contacts, status = (
         np.array([[run[k] for run in both] for both in runs]) for k in range(3)
     )
@@ -82,40 +89,46 @@ def swept_sine(machine, damper, band, rate):
         "transient_status": (each[:2], status),
     }
     coordinates = {"direction": list(DIRECTIONS), "equipment": list(EQUIPMENT)}
-    found = in_si(
+    labelled = in_si(
         dataset(data, coordinates, {"tolerance": TOLERANCE}, "Swept sine"), machine, damper
     )
-    made = {"band": [least, most], "rate": rate, "held": held}
-    return found.assign_attrs(sweep=json.dumps(made, sort_keys=True))
+    settings = {"band": [least, most], "rate": rate, "held": held}
+    return labelled.assign_attrs(sweep=json.dumps(settings, sort_keys=True))
 
 
 def _check_sweep(machine, band, rate):
-    """Return least and greatest frequency, Hz, and rate, Hz/s, or raise."""
+    """Return least and greatest frequency (Hz) and rate (Hz/s).
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the band or the rate is not allowed.
+    """
     if np.ndim(band) != 1 or len(band) != 2:
         raise ValueError(f"band = {shown(band)}: must be least and greatest frequency")
     least, most = (machine.check_frequency(f"band[{i}]", band[i]) for i in range(2))
     if least >= most:
         raise ValueError(f"band = {shown(band)}: must be least and greatest frequency")
     check_si("rate", rate, "sweep_rate", above=0)
-    why = f"{100 * STEEPEST:g} % of band[0] in a forcing period"
+    why = f"{100 * STEEPEST:g} % of band[0] in a forcing cycle"
     check_si("rate", rate, "sweep_rate", most=STEEPEST * least**2, why=why)
     span = (most**2 - least**2) / 2
-    check_si("rate", rate, "sweep_rate", most=span, why="a sweep lasts a forcing period at least")
-    why = f"a sweep lasts {MOST_PERIODS} forcing periods at most"
+    check_si("rate", rate, "sweep_rate", most=span, why="a sweep lasts a forcing cycle at least")
+    why = f"a sweep lasts {MOST_PERIODS} forcing cycles at most"
     return least, most, check_si("rate", rate, "sweep_rate", least=span / MOST_PERIODS, why=why)
 
 
 def _sweep(machine, damper, first, slope, count):
-    """Sweep from a frequency on at a rate of change, Hz/s, through a number of forcing periods.
+    """Sweep from the frequency `first` at the rate `slope` (Hz/s) over `count` forcing cycles.
 
     Returns
     -------
     times, frequencies : numpy.ndarray, shape (count,)
         In the scales of the machine.
     runs : list of tuple
-        Without and with the damper: envelope, contacts, status.
+        Envelope, contacts and status, without and with the damper.
     held : int
-        Forcing periods for which the first frequency was held.
+        Forcing cycles for which the first frequency was held.
     """
     begins, frequencies = sweep_periods(first, slope, count)
     decay = machine.viscous_damping / (2 * machine.mass)
@@ -131,9 +144,9 @@ def _sweep(machine, damper, first, slope, count):
 
 
 def sweep_periods(first, slope, count):
-    """Return the times at which periods of a continuous sweep begin, and their mean frequencies.
+    """Return the times at which the cycles of a continuous sweep begin, and their mean frequencies.
 
-    The phase in periods, first t + slope t^2/2, is a whole number at these times.
+    At these times the phase in cycles, first t + slope t^2/2, is a whole number.
 
     Parameters
     ----------
@@ -142,12 +155,12 @@ def sweep_periods(first, slope, count):
     slope : float
         Hz/s.
     count : int
-        Periods.
+        Number of cycles.
 
     Returns
     -------
-    numpy.ndarray, numpy.ndarray, shape (count,)
-        s and Hz.
+    times, frequencies : numpy.ndarray, shape (count,)
+        In s and Hz.
     """
     phases = np.arange(count + 1)
     times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
@@ -168,7 +181,7 @@ def forced(machine, damper, frequencies):
     for end in (frequencies.max(), frequencies.min()):
         p = pack(machine.oscillator(end), scaled, scales.from_si(end, "frequency"))
     rows = np.tile(p, (len(frequencies), 1))
-    # the force at each frequency, not the form for a range of them: a base has no part V
+    # `machine.forcing` returns the force at one frequency, in which a moving base has no part V.
     forces, unbalances, _ = np.array([machine.forcing(each) for each in frequencies]).T
     rows[:, FREQUENCY] = scales.from_si(frequencies, "frequency")
     rows[:, FORCE] = scales.from_si(forces, "force")

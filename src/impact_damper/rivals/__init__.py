@@ -1,5 +1,6 @@
-"""Integrators and models that others use for this problem, to be compared with our integrator.
+"""Integrators and models from other sources, compared with the integrator of this package.
 
-Ours is the event-driven Taylor series. "Through the kink" means without locating contacts: the
-force has a kink where a contact begins or ends, and the steps of the integrator do not end there.
+The integrator of this package is the event-driven Taylor series. An integrator goes "through the
+kink" if it does not locate contacts. The force has a kink where a contact begins or ends, and the
+steps of such an integrator do not end there.
 """

@@ -1,7 +1,7 @@
-"""Averages of a chaotic motion with their standard errors, from batches of forcing periods.
+"""Averages of a chaotic motion with their standard errors, from batches of forcing cycles.
 
-The forcing periods of a run are grouped into batches of successive periods. The average is the mean
-of the batch means, and its standard error follows from their scatter.
+The forcing cycles of a run are grouped into batches of successive cycles. The average is the mean
+of the batch means, and its standard error follows from the scatter of the batch means.
 """
 
 import math
@@ -19,14 +19,14 @@ EXPONENT_TOLERANCE = 1e-9
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return for each batch the contacts per period, and the mean of the largest |Z1| of a period.
+    """Return for each batch the contacts per cycle, and the mean over cycles of the largest |Z1|.
 
-    `run` is a `runs.Run` from the time `begin`, `batch` the number of periods in a batch.
+    `run` is a `runs.Run` from the time `begin`, and `batch` is the number of cycles in a batch.
 
     Returns
     -------
     dict
-        Arrays (periods // batch,), keyed by the name of the statistic.
+        Arrays of shape (periods // batch,), keyed by the name of the statistic.
     """
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
@@ -54,7 +54,7 @@ def exponents(p, start, tolerance, periods, batch):
 
 
 def rigid_exponents(restitution, p, start, tolerance, periods, batch):
-    """Return the largest Lyapunov exponent per unit of time in each batch, of the rigid model."""
+    """Return the largest Lyapunov exponent per unit of time in each batch, by the rigid model."""
     p = p.copy()
     p[DASHPOT] = 0.0
     y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[FREQUENCY]
@@ -67,6 +67,7 @@ def rigid_exponents(restitution, p, start, tolerance, periods, batch):
 
 
 def _renormalised(tangent):
+    """Return a tangent scaled to length 1, and the logarithm of its length before."""
     size = np.linalg.norm(tangent)
     return tangent / size, math.log(size)
 
@@ -76,9 +77,9 @@ def estimates(batches):
 
     `batches` is a dictionary from the name of a statistic to its values in the batches.
     """
-    found = np.full((2, len(STATISTICS)), np.nan)
+    table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:
             values = batches[name]
-            found[:, k] = values.mean(), values.std(ddof=1) / math.sqrt(len(values))
-    return found
+            table[:, k] = values.mean(), values.std(ddof=1) / math.sqrt(len(values))
+    return table

@@ -26,15 +26,15 @@ class ComparisonScene(NamedTuple):
     state : sequence of float
         Z1, Z1', Z2, Z2' at W T = pi/2.
     periods : int
-        Forcing periods of a run.
+        Forcing cycles of a run.
     motion : str
-        "steady" (an orbit of the forcing's period, which models of orbits compute as well),
-        "transient" or "chaotic".
+        "steady" for an orbit of period 1, which models of orbits compute too; "transient"; or
+        "chaotic".
     accuracy : dict
-        Accuracy that a user wants: under the key "quantity" one of `ERRORS`, or of `STATISTICS` if
-        the motion is chaotic, and under "within" its largest error.
+        Accuracy that a user wants. The entry "quantity" is a name in `methods.ERRORS`, or in
+        `methods.STATISTICS` for a chaotic motion. The entry "within" is its largest error.
     tolerance : float or None
-        Tolerance with which other stages run such motions; None if none does.
+        Tolerance with which other stages run such motions; None if no other stage runs them.
     """
 
     name: str
@@ -49,7 +49,7 @@ class ComparisonScene(NamedTuple):
 
     @property
     def p(self):
-        """Packed parameters."""
+        """Packed parameters, shape (packed.COUNT,)."""
         return pack(self.oscillator, self.damper, self.frequency)
 
 
@@ -64,7 +64,7 @@ def check_accuracy(motion, accuracy):
 
 
 class Reference(NamedTuple):
-    """Values of a run that are taken as exact, with the names of attributes of `runs.Run`."""
+    """Values of a run that are taken as exact. The names are those of attributes of `runs.Run`."""
 
     state: np.ndarray
     contact_times: np.ndarray
@@ -81,14 +81,14 @@ def reference_of(scene, stored):
     """
     p, begin = scene.p, strobe_time(scene.p)
     end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
-    given = stored["parameters"]
-    damper = Damper(**pick(Damper, given)) if "mass_ratio" in given else None
-    system = pack(Oscillator(**pick(Oscillator, given)), damper, given["frequency"])
+    values = stored["parameters"]
+    damper = Damper(**pick(Damper, values)) if "mass_ratio" in values else None
+    system = pack(Oscillator(**pick(Oscillator, values)), damper, values["frequency"])
     same = np.array_equal(system, p) and stored["first"] == list(scene.state)
     if not same or abs(stored["end"] - end) > 1e-9:
         raise ValueError(
-            "reference: belongs to other parameters, another start or another number of periods "
-            "than the scene; it must be made anew (tests/references/extended/scenes.py)"
+            "reference: belongs to other parameters, another start or another number of cycles "
+            "than the scene; compute it again (tests/references/extended/scenes.py)"
         )
     times = np.array([contact[1] for contact in stored["contacts"]])
     return Reference(np.array(stored["state"]), times, stored["amplitude"])

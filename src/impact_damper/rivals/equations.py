@@ -1,8 +1,8 @@
 """The equations of motion for integrators that evaluate the rate (time derivative) of the state.
 
-Equations (3), (4) and (20) to (24); the state is a tuple (Z1, Z1', Z2, Z2'). A contact acts while
-|Z2| exceeds the clearance, so it ends at zero penetration, and the dashpot's force jumps both when
-it begins and when it ends.
+These are equations (3), (4) and (20) to (24). The state is a tuple (Z1, Z1', Z2, Z2'). The contact
+force acts while |Z2| exceeds the clearance. A contact therefore ends at zero penetration, and the
+dashpot's force jumps when the contact begins and when it ends.
 """
 
 from impact_damper.kernel.compiling import kernel, kernel_only
@@ -37,7 +37,7 @@ def rate(p, side, t, y):
 
 @kernel_only
 def rate_under(p, side, drive, y):
-    """Return the rate as `rate` does, given the forcing `drive` in place of the time."""
+    """Return the same as `rate`, from the forcing `drive` in place of the time."""
     x, v, z, w = y
     force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
     a = drive - p[DAMPING] * v - spring(p, x) - force
@@ -60,7 +60,7 @@ def moved(y, h, k):
 def largest_within(x, v, x_end, v_end, h):
     """Return the largest |Z1| over a step h if Z1' changes linearly.
 
-    x, v are Z1, Z1' at the beginning of the step, x_end, v_end at its end.
+    x and v are Z1 and Z1' at the beginning of the step, x_end and v_end at its end.
     """
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:

@@ -1,7 +1,7 @@
-"""Fixed-step methods through the kink: Heun, velocity Verlet, Runge-Kutta-4 and -Merson.
+"""Fixed-step methods: Heun, velocity Verlet, the classical Runge-Kutta method, Runge-Kutta-Merson.
 
-Contacts are not located ("through the kink" of the force): each evaluation of the rate adds the
-contact force if its position Z2 is beyond a wall.
+Contacts are not located; the methods go through the kink of the force. Each evaluation of the rate
+adds the contact force if its position Z2 is beyond a wall.
 """
 
 import math
@@ -26,16 +26,16 @@ STABILITY_LIMIT = {
     "runge_kutta_4": math.sqrt(8.0),
     "merson": math.sqrt(12.0),
 }
-# Sum |Z1| + |Z1'| + |Z2'| beyond which a run has diverged.
+# A run has diverged once |Z1| + |Z1'| + |Z2'| exceeds BEYOND.
 BEYOND = 1e3
-# Steps in one call of a compiled function, which runs at least one forcing period. Ctrl-C is heard
-# only after a call.
+# Number of steps in one call of a compiled function, which runs at least one forcing cycle. Ctrl-C
+# takes effect only after a call.
 STEPS_AT_ONCE = 10**6
 
 
 @kernel
 def forcing(p, t, h):
-    """Return the forcing at the beginning, a third, a half and the end of a step h from t on."""
+    """Return the forcing at t, t + h/3, t + h/2 and t + h."""
     return (
         external_force(p, t),
         external_force(p, t + h / 3.0),
@@ -90,9 +90,9 @@ def merson_step(p, drives, h, y):
 
 @kernel
 def one_step(method, p, drives, h, y):
-    """Return the state after a step of a method, given by its index in `NAMES`.
+    """Return the state after a step of the method with an index in `NAMES`.
 
-    `drives` is what `forcing` returns for the step.
+    `drives` is the result of `forcing` for the step.
     """
     if method == HEUN:
         return heun_step(p, drives, h, y)
@@ -105,7 +105,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, strobes, largest):
-    """Run with a whole number of equal steps in each forcing period, and return the periods run.
+    """Run with a whole number of equal steps in each forcing cycle, and return the cycles run.
 
     Parameters
     ----------
@@ -118,16 +118,16 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     t : float
         Time of the initial state.
     steps : int
-        Steps a forcing period.
+        Steps in a forcing cycle.
     strobes, largest : array, shapes (n, 4) and (n,)
-        Filled with the states after each of n periods and the largest |Z1| in each; NaN from
-        the period on in which the run diverges (`BEYOND`).
+        Receive the state after each of n cycles and the largest |Z1| in each cycle. If the run
+        diverges (`BEYOND`), the entries from this cycle on are NaN.
     """
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     strobes[:] = np.nan
     largest[:] = np.nan
-    # The forcing is the same in each period: computing it again would double the time of a run.
+    # The forcing is the same in each cycle. Computing it in each cycle would double the run time.
     drives = np.empty((steps, 4))
     for i in range(steps):
         drives[i, 0], drives[i, 1], drives[i, 2], drives[i, 3] = forcing(p, t + i * h, h)
@@ -193,7 +193,11 @@ class FixedStep(Integrator):
         return self._seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
     def _seen(self, p, ends, time):
-        """Return |Z2| at the ends of steps (n, 5), and at `time`, by a step that ends then."""
+        """Return |Z2| at the ends of the steps, and |Z2| at `time`.
+
+        `ends`, shape (n, 5), are the times and states at the ends of the steps. |Z2| at `time` is
+        computed by an extra step that ends at this time.
+        """
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)

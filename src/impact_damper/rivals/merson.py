@@ -1,8 +1,9 @@
 """Runge-Kutta-Merson with step control, the method of the paper, with or without locating contacts.
 
-Merson's estimate of the error, exact for linear equations, is kept below the tolerance times
-1 + |y| in each component y. Contacts are located as in common codes: if the gap has changed its
-sign at the end of a step, the step is shortened until the gap is zero at its end.
+Merson's estimate of the error is exact for linear equations. Step control keeps it below the
+tolerance times 1 + |y| in each component y. Contacts are located as in common codes: if the
+distance to the wall, or in contact the penetration, is negative at the end of a step, the step is
+shortened until the distance or penetration is zero at its end.
 """
 
 import math
@@ -21,20 +22,21 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # takes more than MOST_STEPS steps.
 SHORTEST = 1e-12
 MOST_STEPS = 10**6
-# Largest numbers of steps whose ends are stored, in a forcing period and in a flight.
+# Largest number of steps whose ends are stored, in a forcing cycle and in a flight.
 MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
-# Length of the first step, in forcing periods.
+# Length of the first step, in forcing cycles.
 FIRST = 1e-3
-# Forcing periods in one call of a compiled function. Ctrl-C is heard only after a call.
+# Forcing cycles in one call of a compiled function. Ctrl-C takes effect only after a call.
 PERIODS_AT_ONCE = 10
 
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state after one step, and the ratio of its estimated error to the error allowed.
+    """Return the state after one step, and the ratio of its estimated error to the largest error.
 
-    `side` is the wall in contact (-1, 1, or 0 for none). With `by_position` it is ignored, and each
-    evaluation of the rate determines the wall in contact from Z2.
+    The largest error follows from the tolerance. `side` is the wall in contact (-1, 1, or 0 for
+    none). With `by_position` the argument `side` is ignored, and each evaluation of the rate
+    determines the wall in contact from Z2.
     """
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
@@ -46,16 +48,19 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
     m = moved(moved(moved(y, 0.5 * h, k1), -1.5 * h, k3), 2.0 * h, k4)
     k5 = rate(p, wall_at(p, m[2]) if by_position else side, t + h, m)
     after = moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
-    share = 0.0
+    ratio = 0.0
     for i in range(4):
         error = h / 30.0 * abs(2.0 * k1[i] - 9.0 * k3[i] + 8.0 * k4[i] - k5[i])
-        share = max(share, error / (tolerance * (1.0 + max(abs(y[i]), abs(after[i])))))
-    return after, share
+        ratio = max(ratio, error / (tolerance * (1.0 + max(abs(y[i]), abs(after[i])))))
+    return after, ratio
 
 
 @kernel
 def ahead(p, side, y):
-    """Return the gap in flight or the penetration in contact, 0 when a contact begins or ends."""
+    """Return the distance to the nearest wall in flight, or the penetration in contact.
+
+    The value decreases through zero when a contact begins or ends.
+    """
     if side == 0:
         return p[CLEARANCE] - abs(y[2])
     return side * y[2] - p[CLEARANCE]
@@ -65,8 +70,8 @@ def ahead(p, side, y):
 def located(p, side, t, h, y, tolerance):
     """Return the step that ends at an event, the state at its end, and the number of steps tried.
 
-    The event, beginning or end of a contact, lies within the step h. The step is halved until it
-    ends before the event; then regula falsi (Illinois) finds its length.
+    The event is the beginning or end of a contact within the step h. The step is halved until it
+    ends before the event. Then the Illinois variant of regula falsi finds the length of the step.
     """
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
@@ -114,29 +119,38 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     locate : bool
         Whether contacts are located.
     ends : array, shape (m, 5)
-        Filled with time and state at the ends of the first m steps; m may be 0.
+        Receives time and state at the ends of the first m steps; m may be 0.
 
     Returns
     -------
-    side, h, steps, contacts, largest, tries
-        Wall in contact at the end; length of the next step; number of accepted steps, -1 if the
-        tolerance could not be met in `MOST_STEPS` steps or the run diverged (`BEYOND`); number of
-        contacts begun, as seen at the ends of steps; largest |Z1|; number of steps computed,
-        rejected ones included, of five evaluations of the rate each.
+    side : int
+        Wall in contact at the end.
+    h : float
+        Length of the next step.
+    steps : int
+        Number of accepted steps. It is -1 if the tolerance could not be met, if more than
+        MOST_STEPS steps were needed, or if the run diverged (`BEYOND`).
+    contacts : int
+        Number of contacts begun. Without `locate` only contacts that exist at the end of a step are
+        counted.
+    largest : float
+        Largest |Z1|.
+    tries : int
+        Number of computed steps, also rejected ones, of five evaluations of the rate each.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, contacts, largest, tries = 0, 0, 0.0, 0
     while t < end:
         length = min(h, end - t)
-        after, share = estimated_step(p, side, not locate, t, length, state, tolerance)
+        after, ratio = estimated_step(p, side, not locate, t, length, state, tolerance)
         tries += 1
-        factor = 0.9 * (share + 1e-10) ** -0.2
-        if not share <= 1.0:
-            h = length * max(factor, 0.1) if share < math.inf else 0.1 * length
+        factor = 0.9 * (ratio + 1e-10) ** -0.2
+        if not ratio <= 1.0:
+            h = length * max(factor, 0.1) if ratio < math.inf else 0.1 * length
             if h < SHORTEST:
                 return side, h, -1, contacts, math.nan, tries
             continue
-        # a step cut short at the end must not reduce the next one
+        # A step that is shortened to end at `end` must not reduce the length of the next step.
         h = max(h, length * min(factor, 5.0)) if length < h else length * min(factor, 5.0)
         if locate and ahead(p, side, after) < 0.0:
             length, after, repeated = located(p, side, t, length, state, tolerance)
@@ -165,10 +179,10 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
 
 @kernel
 def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
-    """Run over forcing periods; return the periods run, the wall in contact and the next step.
+    """Run over forcing cycles; return the cycles run, the wall in contact and the next step.
 
-    `side` is the wall in contact at the start, h the length of the first step. `tolerance` and
-    `locate` are as in `advance_merson`, the other arguments as in `fixed_step.run_fixed`.
+    `side` is the wall in contact at the beginning, and h the length of the first step. `tolerance`
+    and `locate` are those of `advance_merson`, the other arguments those of `fixed_step.run_fixed`.
     """
     y = start.copy()
     none = np.empty((0, 5))
@@ -176,14 +190,14 @@ def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
     strobes[:] = np.nan
     largest[:] = np.nan
     for k in range(len(strobes)):
-        # each period is integrated from the time t: in a long run a growing time would be rounded
-        # more
+        # Each cycle is integrated from the same time t. In a long run the rounding errors of a
+        # growing time would become larger.
         side, h, steps, _, most, _ = advance_merson(
             p, y, side, t, t + period, h, tolerance, locate, none
         )
         if steps < 0:
             return k, side, h
-        # one by one: an array assignment takes 2 s more to compile
+        # The assignment of a whole row would take 2 s longer to compile.
         for i in range(4):
             strobes[k, i] = y[i]
         largest[k] = most
@@ -191,13 +205,13 @@ def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
 
 
 class Merson(FixedStep):
-    """Runge-Kutta-Merson: with step control, and with equal steps as `FixedStep`."""
+    """Runge-Kutta-Merson with step control or, by the methods of `FixedStep`, with equal steps."""
 
     def __init__(self):
         super().__init__("merson")
 
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None):
-        """Return the run; its work counts all steps tried, also those to locate contacts."""
+        """Return the run. Its counted work includes rejected steps and steps to locate contacts."""
         y, period = start.copy(), 2 * math.pi / p[FREQUENCY]
         side, h, tries = side_of(p, y), FIRST * period, 0
         times, states = [np.array([begin])], [start[None]]

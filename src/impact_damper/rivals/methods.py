@@ -1,8 +1,9 @@
-"""The integrators that are compared: what they are called, and which stage compares which.
+"""The integrators that are compared: their names, and the stages that compare them.
 
-Figures, tables and the check of the configuration read this module, so its top imports no kernels;
-`integrators` does. To add an integrator, write it in a module of this room (a subclass of
-`runs.Integrator`), describe it in `METHODS`, make it in `integrators`, and name it in `COMPARED`.
+Figures, tables and the check of the configuration read this module. Therefore only the function
+`integrators` imports kernels. To add an integrator, write a subclass of `runs.Integrator` in a
+module of this room (subpackage), describe it in `METHODS`, create an instance in `integrators`, and
+name it in `COMPARED`.
 """
 
 from typing import NamedTuple
@@ -17,17 +18,18 @@ class Method(NamedTuple):
     ----------
     title : str
     colour : str
-        Colour of matplotlib's cycle, if the stage `accuracy` compares the integrator.
+        Colour of matplotlib's colour cycle, if the stage `accuracy` compares the integrator.
     tolerances : str
-        Key, in the section `comparison` of the configuration, of the tolerances with which the
-        stage `accuracy` runs the integrator.
+        Key in the section `comparison` of the configuration. Its value is the list of tolerances
+        with which the stage `accuracy` runs the integrator.
     fixed : bool
-        Whether the stages set the number of steps in a forcing period in place of a tolerance.
+        Whether the stages set the number of steps in a forcing cycle in place of a tolerance.
     slow : bool
-        Whether runs are given up after a number of evaluations of the rate, and fewer tolerances
-        and, for chaotic motions, fewer periods are run.
+        Whether runs stop after a number of evaluations of the rate. A slow integrator is run with
+        fewer tolerances and, for chaotic motions, over fewer cycles.
     implicit : bool
-        Whether the stage `missed_contacts` runs only the first `implicit_passages` passages.
+        Whether the integrator is an implicit one, for which the stage `missed_contacts` runs only
+        the first `implicit_passages` passages.
     """
 
     title: str
@@ -50,8 +52,8 @@ METHODS = {
     "Radau": Method("Radau", "C4", "scipy", slow=True, implicit=True),
 }
 
-# Labels of the datasets of each stage, in their order (see `name_and_mode`). All integrators in
-# `stable_steps` take fixed steps.
+# Labels of the integrators in the datasets of each stage, in their order. `name_and_mode` explains
+# the labels. All integrators of the stage `stable_steps` take fixed steps.
 COMPARED = {
     "accuracy": (
         "taylor",
@@ -78,14 +80,14 @@ COMPARED = {
     ),
 }
 
-# Stage `method_verdicts` looks for the period of a run. LAST: how many of the last states, one for
-# each forcing period, must repeat. LONGEST_PERIOD: longest period looked for.
-# VERDICT_PERIODS_RANGE: forcing periods of a run, enough for this.
+# The stage `method_verdicts` determines the period of a run. LAST: number of last states, one for
+# each forcing cycle, that must repeat. LONGEST_PERIOD: longest period that is tested.
+# VERDICT_PERIODS_RANGE: allowed numbers of forcing cycles of a run, which suffice for the test.
 LAST, LONGEST_PERIOD = 6, 6
 VERDICT_PERIODS_RANGE = PERIODS_RANGE | {"least": LAST + LONGEST_PERIOD}
 
-# Stage `accuracy`: quantities whose errors are compared for a motion that integrators can follow to
-# its end, and averages that are compared for a chaotic motion.
+# The stage `accuracy` compares the errors of the quantities ERRORS for a motion that is not
+# chaotic, and the averages STATISTICS for a chaotic motion.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
@@ -99,12 +101,13 @@ ORBIT_MODELS = (
     "shooting",
 )
 
-# Highest harmonic of the harmonic balance whose solution is the first guess of the models
-# "shooting", "rigid" and "rigid_mended".
+# The first guess of the models "shooting", "rigid" and "rigid_mended" is the solution of the
+# harmonic balance with this highest harmonic.
 START_HARMONICS = 15
 
-# Keys in the section `comparison` of the configuration. TOLERANCE_KEYS: of lists of tolerances.
-# LIMITED: of `evaluations`, the number of evaluations after which a run of each is given up.
+# Keys in the section `comparison` of the configuration. TOLERANCE_KEYS: keys of lists of
+# tolerances. LIMITED: keys of its entry `evaluations`, which holds the largest number of
+# evaluations of a run.
 TOLERANCE_KEYS = tuple(
     dict.fromkeys(each.tolerances for each in METHODS.values() if each.tolerances)
 )
@@ -115,15 +118,15 @@ def name_and_mode(label):
     """Return the name in `METHODS` that a label contains, and whether contacts are located.
 
     A label is a name followed by "_located" if the integrator locates the beginnings and ends of
-    contacts. If it does not, but integrates through the kinks of the force, the name is followed by
-    "_kink" or by nothing. The Taylor series always locates contacts.
+    contacts. It is a name alone or followed by "_kink" if the integrator goes through the kinks of
+    the force. The Taylor series always locates contacts.
     """
     name = label.removesuffix("_located").removesuffix("_kink")
     return name, label.endswith("_located") or name == "taylor"
 
 
 def title_with_mode(label):
-    """Return the title for a label, with its treatment of contacts: "Merson, located"."""
+    """Return the title for a label with the treatment of contacts, such as "Merson, located"."""
     name, located = name_and_mode(label)
     method = METHODS[name]
     if method.fixed or name == "taylor":

@@ -1,10 +1,11 @@
-"""Counted work: the number of floating-point operations of a function, counted in its source code.
+"""Count the floating-point operations of a function in its source code.
 
-Unlike computing time, this number is the same on every machine. An addition, subtraction, product,
-quotient or square root counts as one operation; sines, logarithms and other elementary functions as
-ELEMENTARY; signs, absolute values, comparisons and subscripts as none. An operation on a pair of
-numbers counts twice. Of two branches of an `if` the one with more operations counts, unless the
-arguments determine which is taken.
+Unlike computing time, this number is the same on every computer. It is called the counted work of
+the function. An addition, subtraction, product, quotient or square root counts as one operation. A
+sine, logarithm or other elementary function counts as ELEMENTARY operations. Signs, absolute
+values, comparisons and subscripts do not count. An operation on a pair of numbers counts twice. Of
+two branches of an `if`, the branch with more operations counts, unless the arguments determine
+which branch is taken.
 """
 
 import ast
@@ -18,7 +19,7 @@ FUNCTIONS = {"cos", "sin", "exp", "log", "atan2", "pow"}
 
 
 class _Returned(Exception):
-    """Raised at a `return` that is certainly reached: the statements after it do not count."""
+    """Raised at a `return` that is certainly reached. The statements after it do not count."""
 
 
 @cache
@@ -28,9 +29,10 @@ def operations(function, rounds=1, without=(), **arguments):
     Parameters
     ----------
     function : callable
-        A Python function, compiled or not. The compiled functions that it calls are included.
+        A Python function, compiled or not. Operations of the compiled functions that it calls are
+        included.
     rounds : int
-        How often the body of each `while` loop counts.
+        Number of times that the body of each `while` loop counts.
     without : tuple of callable
         Compiled functions whose calls do not count.
     **arguments
@@ -71,9 +73,10 @@ class _Counter(ast.NodeVisitor):
     Parameters
     ----------
     known : dict
-        Values keyed by name: of the globals of the function, and of its arguments if given.
+        Known values keyed by name: the globals of the function, and the arguments that were passed
+        to `operations`.
     rounds, without
-        As of `operations`.
+        Arguments of `operations`.
     pairs : iterable of str
         Names of variables that hold a pair of numbers (`kernel.straight_lines`).
     """
@@ -90,7 +93,7 @@ class _Counter(ast.NodeVisitor):
             return None
 
     def within(self, statements):
-        """Return the operations of a block."""
+        """Return the number of operations of a block of statements."""
         counter = _Counter(self.known, self.rounds, self.without, self.pairs)
         for statement in statements:
             counter.visit(statement)
@@ -160,7 +163,7 @@ class _Counter(ast.NodeVisitor):
         elif hasattr(called, "py_func") and called not in self.without:
             names = inspect.signature(called.py_func).parameters
             values = map(self.value, node.args)
-            given = {
+            known = {
                 name: each for name, each in zip(names, values, strict=False) if each is not None
             }
-            self.count += operations(called, self.rounds, self.without, **given)
+            self.count += operations(called, self.rounds, self.without, **known)

@@ -1,20 +1,22 @@
-"""Models of a steady motion, and the operations that each takes.
+"""Models that compute a steady motion, and the number of operations of each model.
 
 Most models solve for an orbit instead of integrating from a state. If a harmonic balance has
-several solutions, the one nearest to the initial state of the test case (scene) is taken, in the
-model's favour. The work is counted in floating-point operations:
+several solutions, the solution nearest to the initial state of the test case (scene) is taken,
+which favours the model. The counted work of a model is its number of floating-point operations:
 
-- rigid balance (14): eigenvalues of the companion matrices of a polynomial of degree 6 and of its
-  derivative, 10 n^3 for n eigenvalues, and a root by bracketing between extrema;
-- full balance (7): BALANCE_EVALUATIONS evaluations of the equation, of BALANCE_OPERATIONS each, and
-  eigenvalues of a companion matrix of degree BALANCE_DEGREE, as measured in the search for all
-  roots on the scenes; for the free oscillator, eigenvalues for two cubics;
-- many harmonics: for each Newton step with n unknowns and N harmonics, 2/3 n^3 + 4 n^2 for the
-  linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M values:
-  two of 16 N and three of 4 N. The balances with fewer harmonics, from which Newton's method
-  starts, are included;
-- rigid impacts and shooting: for each map over a period in Newton's method, the steps of the Taylor
-  series with four tangents. The balance with START_HARMONICS, from which Newton's method starts, is
+- Rigid balance (14): the eigenvalues of the companion matrices of a polynomial of degree 6 and of
+  its derivative, with 10 n^3 operations for n eigenvalues, and a root by bracketing between
+  extrema.
+- Full balance (7): BALANCE_EVALUATIONS evaluations of the equation with BALANCE_OPERATIONS each,
+  and
+  the eigenvalues of a companion matrix of degree BALANCE_DEGREE. These numbers were measured in the
+  search for all roots on the scenes. For the free oscillator, the eigenvalues for two cubics.
+- Many harmonics: for each Newton step with n unknowns and N harmonics, 2/3 n^3 + 4 n^2 operations
+  for the linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M
+  values (two with M = 16 N and three with M = 4 N). The balances with fewer harmonics, whose
+  solutions are first guesses, are included.
+- Rigid impacts and shooting: for each map over a cycle in Newton's method, the steps of the Taylor
+  series with four tangents. The balance with START_HARMONICS, whose solution is the first guess, is
   included.
 """
 
@@ -77,8 +79,8 @@ def rigid(p, restitution, start, t, periods, tolerance):
     """Return the run of the rigid-impact model from the state `start` at the time t.
 
     The phase W T is pi/2 at this time. Flights are integrated by the Taylor series. The peaks of
-    the run are the largest |Z1| in each forcing period, and the times of peaks are the middles of
-    the periods.
+    the run are the largest |Z1| in each forcing cycle. The times of the peaks are set to the
+    middles of the cycles.
     """
     p = p.copy()
     p[DASHPOT] = 0.0
@@ -105,12 +107,12 @@ def rigid(p, restitution, start, t, periods, tolerance):
 
 
 def without(status, work=0.0):
-    """Return a `Model` without a motion, with a status that says why."""
+    """Return a `Model` without a motion. The status is the reason."""
     return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
 
 
 def of_coefficients(balance, coefficients, work):
-    """Return the `Model` of a harmonic-balance solution, given by its Fourier coefficients."""
+    """Return the `Model` of the harmonic-balance solution with given Fourier coefficients."""
     state = state_of(Solution(balance, coefficients, "", 0, 0.0))
     rows = balance.contacts(coefficients)
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
@@ -119,18 +121,18 @@ def of_coefficients(balance, coefficients, work):
 
 
 def nearest(models, state):
-    """Return the model whose Z1 and Z1' are nearest to those in `state`; None without models."""
+    """Return the model whose Z1 and Z1' are nearest to those of `state`, or None without models."""
     return min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the model by (13) and (14): single-term balance with rigid walls."""
+    """Return the model by the single-term balance with rigid walls, equations (13) and (14)."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     work = 10 * (6**3 + 5**3) + 6 * 10 * 12
-    found = single_harmonic.rigid_solutions(oscillator, damper, frequency)
+    roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
     models = []
-    for a, phase, pulling in zip(found.amplitude, found.phase, found.pulling, strict=True):
+    for a, phase, pulling in zip(roots.amplitude, roots.phase, roots.pulling, strict=True):
         if not pulling:
             turn = np.exp(1j * (np.pi / 2 + phase)) * np.array([1, 1j * frequency])
             at = np.concatenate([a * turn.real, damper.clearance * turn.real])
@@ -140,25 +142,25 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def single_terms(oscillator, damper, frequency):
-    """Return coefficients (1 or 2, 1) of all single-term solutions.
+    """Return the coefficients, shape (1 or 2, 1), of all single-term solutions.
 
-    They solve (7) with e = 1, or the cubic of the free oscillator if `damper` is None.
+    They solve (7) with e = 1, or the cubic equation of the free oscillator if `damper` is None.
     """
     if damper is None:
-        found = free_solutions(oscillator, frequency)
-        sizes = found.amplitude[:, None]
+        solutions = free_solutions(oscillator, frequency)
+        sizes = solutions.amplitude[:, None]
     else:
         elastic = replace(damper, restitution=1.0)
-        found = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
-        sizes = np.stack([found.amplitude, found.relative_amplitude], axis=1)
+        solutions = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
+        sizes = np.stack([solutions.amplitude, solutions.relative_amplitude], axis=1)
     return [
         size[:, None] * np.exp(1j * phase) / 2
-        for size, phase in zip(sizes, found.phase, strict=True)
+        for size, phase in zip(sizes, solutions.phase, strict=True)
     ]
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the model by (7), or without a damper by the cubic equation: single-term balance."""
+    """Return the model by single-term balance: (7), or without a damper the cubic equation."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -171,7 +173,7 @@ def full_balance(oscillator, damper, frequency, state):
 def nearest_term(oscillator, damper, frequency, state):
     """Return the coefficients of the single-term solution nearest to `state`, and the work.
 
-    The coefficients are None if there is no solution. The work includes the search for all of them.
+    The coefficients are None if there is no solution. The work is that of finding all solutions.
     """
     work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
     if damper is None:
@@ -188,8 +190,8 @@ def nearest_term(oscillator, damper, frequency, state):
 def many_harmonics(oscillator, damper, frequency, state, highest):
     """Return a dictionary of models by harmonic balance, keyed by their highest harmonic.
 
-    The highest harmonics are 3, 7, 15, ... up to `highest`. Newton's method starts from the last
-    solution that converged, and at first from a single-term solution.
+    The highest harmonics are 3, 7, 15, ... up to `highest`. The first guess of Newton's method is
+    the last solution that converged, at first a single-term solution.
     """
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
@@ -198,10 +200,10 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
     count = 3
     while count <= highest:
         balance = Balance(oscillator, damper, frequency, count)
-        found = solve(balance, coefficients)
-        work += found.iterations * newton_work(balance)
-        if found.status == "converged":
-            coefficients = found.coefficients
+        solution = solve(balance, coefficients)
+        work += solution.iterations * newton_work(balance)
+        if solution.status == "converged":
+            coefficients = solution.coefficients
             models[count] = of_coefficients(balance, coefficients, work)
         else:
             models[count] = without("failed", work)
@@ -210,7 +212,7 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
 
 
 def newton_work(balance):
-    """Return the operations of one step of Newton's method with many harmonics."""
+    """Return the number of operations of one step of Newton's method with many harmonics."""
     n, top = int(np.sum(balance.kept)), balance.highest
     transforms = 2 * _transform(16 * top) + 3 * _transform(4 * top)
     return 2 / 3 * n**3 + 12 * n**2 + transforms
@@ -223,8 +225,8 @@ def _transform(samples):
 def rigid_impacts(oscillator, damper, frequency, start):
     """Return a dictionary of two models: "rigid" walls, and corrected walls ("rigid_mended").
 
-    The correction (`contact.rigid_orbits`) reduces the error to the order 1/r1. Newton's method
-    starts from the model `start`.
+    The correction (`contact.rigid_orbits`) reduces the error to the order 1/r1. The first guess of
+    Newton's method is the model `start`.
     """
     models = {"rigid": without("not_applicable"), "rigid_mended": without("not_applicable")}
     if damper is None:

@@ -1,8 +1,9 @@
-"""Passages: free flights whose largest |Z2| is known, so that a wall can be placed close to it.
+"""Passages: flights without walls, whose largest |Z2| is known.
 
-|Z2| is the distance of the loose mass from the middle of the gap. A wall a little nearer than the
-largest |Z2| is touched once, for a short time; a wall a little further away is not touched. A
-method that checks the gap only at the ends of its steps can hardly distinguish the two cases.
+|Z2| is the distance of the loose mass from the middle of the gap. A wall that is placed slightly
+nearer than the largest |Z2| is touched once, for a short time. A wall that is placed slightly
+further away is not touched. A method that computes the distance to the wall only at the ends of its
+steps can hardly distinguish the two cases.
 """
 
 import math
@@ -15,13 +16,14 @@ from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, polynomial, step, workspace
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Parts of a step in which extrema are looked for, and tolerance of the flights.
+# Number of parts of a step, each of which is searched for an extremum, and tolerance of the
+# flights.
 PIECES = 16
 TOLERANCE = 1e-15
 
 
 class Passage(NamedTuple):
-    """A free flight over one forcing period from T = 0.
+    """A flight without walls over one forcing cycle from T = 0.
 
     Attributes
     ----------
@@ -53,7 +55,7 @@ def largest_of_flight(p, y, t, end):
     while t < end:
         offset, drift = y[2] - y[0], y[3] - y[1]
         length, _ = step(p, y, none, flight, t, end - t, TOLERANCE, work)
-        # one by one: an array assignment takes 2 s more to compile
+        # The assignment of a whole array would take 2 s longer to compile.
         for k in range(FLIGHT_ORDER + 1):
             c[k] = work[X + k]
         c[0] += offset
@@ -80,26 +82,27 @@ def largest_of_flight(p, y, t, end):
     return at, largest, abs(bend)
 
 
-def free_flight(p):
+def without_walls(p):
     """Return a copy of the packed parameters with the walls infinitely far away."""
-    free = p.copy()
-    free[CLEARANCE] = math.inf
-    return free
+    flying = p.copy()
+    flying[CLEARANCE] = math.inf
+    return flying
 
 
 def draw_passages(p, count, radius, deepest, seed):
-    """Return random passages over one forcing period, and the number of flights drawn to find them.
+    """Return random passages over one forcing cycle, and the number of flights drawn to find them.
 
     The initial states are uniform in a ball of the given radius. A flight is kept as a passage if
-    |Z2| at its beginning and end is at least `deepest` below the largest |Z2|. The latter is then
-    an extremum, and a wall up to `deepest` nearer is not yet touched at both ends.
+    |Z2| at its beginning and at its end is at least `deepest` below the largest |Z2|. Then the
+    largest |Z2| is an extremum, and a wall that is nearer by up to `deepest` is not touched at the
+    beginning and at the end.
 
     Parameters
     ----------
     p : numpy.ndarray, shape (packed.COUNT,)
         Packed parameters; those of the damper have no effect.
     count : int
-        Number of passages wanted.
+        Number of passages.
     radius, deepest : float
         Radius of the ball, and largest depth of a passage beyond a wall.
     seed : int
@@ -109,7 +112,7 @@ def draw_passages(p, count, radius, deepest, seed):
     list of Passage, int
     """
     random = np.random.default_rng(seed)
-    free = free_flight(p)
+    flying = without_walls(p)
     passages, drawn = [], 0
     while len(passages) < count:
         drawn += 1
@@ -117,7 +120,7 @@ def draw_passages(p, count, radius, deepest, seed):
         size = radius * random.random() ** 0.25
         state = size * direction / np.linalg.norm(direction)
         y = state.copy()
-        found = largest_of_flight(free, y, 0.0, 2 * math.pi / p[FREQUENCY])
-        if found[1] - max(abs(state[2]), abs(y[2])) > deepest and found[1] > 2 * deepest:
-            passages.append(Passage(state, *found))
+        time, extremum, bend = largest_of_flight(flying, y, 0.0, 2 * math.pi / p[FREQUENCY])
+        if extremum - max(abs(state[2]), abs(y[2])) > deepest and extremum > 2 * deepest:
+            passages.append(Passage(state, time, extremum, bend))
     return passages, drawn

@@ -1,4 +1,4 @@
-"""The interface of integrators, and contacts and peaks found from the ends of their steps."""
+"""The interface of integrators, and the contacts and peaks of a run from the ends of its steps."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from impact_damper.system.bounds import METHOD_TOLERANCE_RANGE, STEPS_RANGE, che
 from impact_damper.system.checks import check_increasing, check_numbers
 from impact_damper.system.packed import CLEARANCE
 
-# Halvings of an interval with which a root is located.
+# Number of bisections that locate a root.
 HALVINGS = 54
 
 
@@ -51,15 +51,16 @@ def stopped(status, work):
 class Integrator:
     """The interface that the stages of the workflow use.
 
-    A subclass implements the methods for those stages that compare it (`methods.COMPARED`); each
-    method names its stage. Arguments: `p` packed parameters; `start` state (4,) at time `begin`;
-    `periods` number of forcing periods to run; `locate` whether contacts are located.
+    A subclass implements the methods for those stages that compare it (`methods.COMPARED`). The
+    docstring of each method names its stage. The methods have these arguments in common: `p`,
+    packed parameters; `start`, the state (4,) at the time `begin`; `periods`, the number of forcing
+    cycles; `locate`, whether contacts are located.
 
     Attributes
     ----------
     stability_limit : float
-        Largest h omega for which the method, at fixed steps h, does not let an undamped
-        oscillator of frequency omega grow; 0 if there is none.
+        Largest product h omega for which the computed motion of an undamped oscillator of frequency
+        omega does not grow with fixed steps h; 0 if it grows with every step.
     """
 
     stability_limit = 0.0
@@ -67,57 +68,57 @@ class Integrator:
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations) -> Run:
         """Return the run, for the stage `accuracy`.
 
-        Slow integrators give up after `most_evaluations` evaluations of the rate.
+        Slow integrators stop after `most_evaluations` evaluations of the rate.
         """
         raise NotImplementedError
 
     def strobes(self, p, start, begin, periods, resolution, locate) -> np.ndarray:
-        """Return states (periods, 4) after each forcing period, NaN from a failure on.
+        """Return the state after each forcing cycle, shape (periods, 4), for `method_verdicts`.
 
-        `resolution` is a tolerance, or a number of steps in a forcing period. For the stage
-        `method_verdicts` and, by `end`, for the benchmarks.
+        The states after a failure are NaN. `resolution` is a tolerance, or a number of steps in a
+        forcing cycle. The method `end` calls this method for the benchmarks.
         """
         raise NotImplementedError
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at the ends of steps of a flight over [0, end], and |Z2| at a time in it.
+        """Return |Z2| at the ends of the steps of a flight over [0, end], and |Z2| at `time`.
 
-        None if the run fails. For the stage `missed_contacts`.
+        Return None if the run fails. For the stage `missed_contacts`.
         """
         raise NotImplementedError
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return the largest |Z1| in each forcing period, shape (periods,), with fixed steps.
+        """Return the largest |Z1| in each forcing cycle, shape (periods,), with fixed steps.
 
-        NaN from the period on in which the run diverges. For the stage `stable_steps`.
+        If the run diverges, the entries from this cycle on are NaN. For the stage `stable_steps`.
         """
         raise NotImplementedError
 
     def end(self, p, start, begin, periods, tolerance, locate) -> np.ndarray:
-        """Return the state (4,) at the end, NaN if the run fails. For the benchmarks."""
+        """Return the state (4,) at the end, NaN if the run fails, for the benchmarks."""
         return self.strobes(p, start, begin, periods, tolerance, locate)[-1]
 
 
 def check_resolutions(tolerances, steps):
-    """Return tolerances, and the steps per forcing period that replace them for fixed steps.
+    """Return tolerances, and the numbers of steps in a forcing cycle that replace them.
 
     Parameters
     ----------
     tolerances : sequence of float
         Increasing.
     steps : sequence of int
-        Numbers of steps, as many as tolerances, increasing.
+        Increasing numbers of steps, one for each tolerance.
 
     Returns
     -------
     numpy.ndarray, list of int
-        The tolerances, and the numbers of steps in decreasing order: the fewest steps replace the
-        largest tolerance.
+        The tolerances, and the numbers of steps in decreasing order, because the smallest number of
+        steps corresponds to the largest tolerance.
 
     Raises
     ------
     TypeError, ValueError
-        If an argument is not of its kind or out of range.
+        If an argument has the wrong type or is out of range.
     """
     tolerances = check_numbers("tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
     check_increasing("tolerances", tolerances)
@@ -129,10 +130,10 @@ def check_resolutions(tolerances, steps):
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` given times (n,) and states `ends` (n, 4) at the ends of its steps.
+    """Return the `Run` with given times (n,) and states `ends` (n, 4) at the ends of its steps.
 
-    Beginnings of contacts and maxima of |Z1| within a step are found on the polynomial of degree 5
-    that has the states and rates at both ends of the step.
+    Beginnings of contacts and maxima of |Z1| within a step are located on the polynomial of degree
+    5 that agrees with the states and rates at both ends of the step.
     """
     if not np.isfinite(ends).all():
         return stopped("failed", work)
@@ -144,24 +145,24 @@ def read_off(p, work, times, ends):
 def beginnings(p, times, ends):
     """Return the times at which contacts begin.
 
-    A contact begins in each step from a state within the walls to one at or beyond a wall.
+    A contact begins in each step from a state between the walls to a state at or beyond a wall.
     """
-    place, gap = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
-    inside = (gap > 0) | ((gap == 0) & (place * ends[:, 3] < 0))
+    place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
+    inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
     penetration = quintics(p, times, ends, 2, steps) * np.sign(place[steps + 1])
     penetration[0] -= p[CLEARANCE]
     began = times[steps] + np.diff(times)[steps] * root(penetration, 0.0, 1.0)
-    return np.where(gap[steps + 1] == 0, times[steps + 1], began)
+    return np.where(distance[steps + 1] == 0, times[steps + 1], began)
 
 
 def turning_points(p, times, ends):
-    """Return the times at which Z1' is zero, and |Z1| then; first and last state are included."""
+    """Return the times at which Z1' is zero and |Z1| at these times; both ends are included."""
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = quintics(p, times, ends, 0, steps)
-    share = root(polyder(course), 0.0, 1.0)
-    at = times[steps] + np.diff(times)[steps] * share
-    peaks = np.abs(polyval(share, course, tensor=False))
+    fraction = root(polyder(course), 0.0, 1.0)
+    at = times[steps] + np.diff(times)[steps] * fraction
+    peaks = np.abs(polyval(fraction, course, tensor=False))
     return (
         np.concatenate([times[:1], at, times[-1:]]),
         np.concatenate([np.abs(ends[:1, 0]), peaks, np.abs(ends[-1:, 0])]),
@@ -171,8 +172,8 @@ def turning_points(p, times, ends):
 def quintics(p, times, ends, index, steps):
     """Return coefficients (6, m) of polynomials for a component of the state in m steps.
 
-    The variable of each polynomial goes from 0 to 1 over the step. Hermite's interpolation: value,
-    first and second derivative agree with the state and its rate at both ends.
+    The variable of each polynomial goes from 0 to 1 over the step. This is Hermite interpolation:
+    value, first and second derivative agree with the state and its rate at both ends of the step.
     """
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
@@ -189,9 +190,10 @@ def quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root between low and high of each polynomial (columns), by bisection.
+    """Return a root of each polynomial between low and high, by bisection.
 
-    The signs of a polynomial at low and high must differ.
+    The columns of `coefficients` are the polynomials. The signs of a polynomial at low and high
+    must differ.
     """
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):

@@ -1,4 +1,7 @@
-"""SciPy's integrators with a compiled rate, through the kink or with contacts located as events."""
+"""SciPy's integrators with a compiled rate of the state.
+
+The integrators go through the kinks of the force, or locate contacts as events of `solve_ivp`.
+"""
 
 import math
 
@@ -14,32 +17,33 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Components of the state.
 SIZE = 4
-# Operations for each evaluation of the rate, in addition to the rate itself. A stage of DOP853 adds
-# on average 6 products to each of the 4 components, and a twelfth of its 12 new values and 2
-# estimates 4 more. LSODA updates and predicts an array of about 6 derivatives, 21 additions per
-# component, and solves with the factors, 2 n^2. An iteration of Radau has 3 evaluations, 9 products
-# per component to transform them and 9 back, and solves a real and a complex system.
+# Operations for each evaluation of the rate, in addition to those of the rate. A stage of DOP853
+# adds on average 6 products to each of the 4 components. The final values and the two error
+# estimates add 4 products for each stage. LSODA updates and predicts an array of about 6
+# derivatives, with 21 additions per component, and solves with LU factors, 2 n^2. An iteration of
+# Radau has 3 evaluations. It takes 9 products per component to transform them and 9 to transform
+# back, and solves a real and a complex system.
 COMBINING = {
     "DOP853": SIZE * 2 * (6 + 4),
     "LSODA": SIZE * 2 * 21 + 2 * SIZE**2,
     "Radau": SIZE * 2 * 6 + (2 + 8) * SIZE**2 // 3,
 }
-# Operations of a factorisation, 2/3 n^3; for Radau the mean of a real and a complex one.
+# Operations of a factorisation, 2/3 n^3. For Radau the mean of a real and a complex factorisation.
 FACTORISING = {"DOP853": 0, "LSODA": 2 * SIZE**3 // 3, "Radau": (2 + 8) * SIZE**3 // 3 // 2}
-# Value of `side` in place of a wall: the position Z2 chooses the wall in contact.
+# Value of the argument `side` with which the position Z2 determines the wall in contact.
 BY_POSITION = 2
-# Evaluations of the rate after which a run is given up: EVALUATIONS times its forcing periods, or
-# MOST_TIMED in all for a run of the benchmarks.
+# Largest number of evaluations of the rate: EVALUATIONS in each forcing cycle of a run, or
+# MOST_TIMED in a whole run of the benchmarks.
 EVALUATIONS, MOST_TIMED = 2000, 200_000
 UNLIMITED = 2**62
 
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate of the state, and count `left` (1,) down by one.
+    """Return the rate of the state, and reduce `left[0]` by one.
 
-    `side` is the wall in contact (-1, 1, or 0 for none), or BY_POSITION. `left` holds the number of
-    evaluations that may follow; if it is 0, OverflowError is raised.
+    `side` is the wall in contact (-1, 1, or 0 for none), or BY_POSITION. `left`, shape (1,), holds
+    the number of evaluations that are still allowed. If it is 0, OverflowError is raised.
     """
     left[0] -= 1
     if left[0] < 0:
@@ -51,7 +55,10 @@ def derivative(t, y, p, side, left):
 
 @kernel
 def ahead(t, y, p, side, left):
-    """Return the gap in flight or the penetration in contact, 0 when a contact begins or ends."""
+    """Return the distance to the nearest wall in flight, or the penetration in contact.
+
+    The value decreases through zero when a contact begins or ends.
+    """
     return p[CLEARANCE] - abs(y[2]) if side == 0 else side * y[2] - p[CLEARANCE]
 
 
@@ -65,9 +72,9 @@ _event.terminal, _event.direction = True, -1
 def pieces(method, p, start, t, end, tolerance, locate, left, times=None):
     """Yield the results of `solve_ivp` for successive parts of a run.
 
-    With `locate` the beginning or end of a contact is an event, which ends a result; the next
-    result begins at the event, and its wall in contact is fixed. Without `locate` there is one
-    result only, and each evaluation of the rate chooses the wall by the position Z2.
+    With `locate` the beginning or end of a contact is an event, which ends a part. The next part
+    begins at the event, with a fixed wall in contact. Without `locate` the run is one part, and
+    each evaluation of the rate determines the wall from the position Z2.
 
     Parameters
     ----------
@@ -76,24 +83,24 @@ def pieces(method, p, start, t, end, tolerance, locate, left, times=None):
     p, start : array
         Packed parameters and a state.
     t, end, tolerance : float
-        Times of start and end; tolerance, both relative and absolute.
+        Time of the first state, time of the end, and tolerance, both relative and absolute.
     locate : bool
     left : array of int, shape (1,)
-        Evaluations of the rate that may follow; counted down.
+        Number of evaluations of the rate that are still allowed; it is reduced by each evaluation.
     times : array or None
         Times at which states are returned; None for the ends of steps.
 
     Raises
     ------
     OverflowError
-        If more than `left` evaluations are needed. This happens since a method, started at a wall
-        with a loose tolerance, can step over the end of a contact.
+        If more than `left` evaluations are needed. This can happen when a method with a large
+        tolerance begins at a wall and steps over the end of the contact.
     """
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
         with np.errstate(all="ignore"):
-            found = solve_ivp(
+            result = solve_ivp(
                 derivative,
                 (t, end),
                 y,
@@ -104,10 +111,10 @@ def pieces(method, p, start, t, end, tolerance, locate, left, times=None):
                 rtol=tolerance,
                 atol=tolerance,
             )
-        status = found.status
-        yield found
+        status = result.status
+        yield result
         if status == 1:
-            t, y = found.t_events[0][0], found.y_events[0][0].copy()
+            t, y = result.t_events[0][0], result.y_events[0][0].copy()
             contact = 1 if y[2] > 0 else -1
             y[2] = contact * p[CLEARANCE]
             side = contact if side == 0 else 0
@@ -128,18 +135,19 @@ class SciPy(Integrator):
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations):
         """Return the run.
 
-        Its work counts all evaluations of the rate, also those for Jacobians by differences; for
-        each evaluation the combination of rates (`COMBINING`); and factorisations (`FACTORISING`).
+        Its counted work includes all evaluations of the rate, also those for Jacobians by
+        differences, the combination of rates in each evaluation (`COMBINING`), and factorisations
+        (`FACTORISING`).
         """
         left, factorisations = np.array([most_evaluations]), 0
         times, ends, status = [np.array([begin])], [start[None]], "failed"
         end = begin + periods * 2 * math.pi / p[FREQUENCY]
         try:
-            for found in pieces(self.method, p, start, begin, end, tolerance, locate, left):
-                factorisations += found.nlu
-                status = "failed" if found.status < 0 else "ended"
-                later, states = found.t[1:].copy(), found.y.T[1:].copy()
-                if found.status == 1:
+            for part in pieces(self.method, p, start, begin, end, tolerance, locate, left):
+                factorisations += part.nlu
+                status = "failed" if part.status < 0 else "ended"
+                later, states = part.t[1:].copy(), part.y.T[1:].copy()
+                if part.status == 1:
                     states[-1, 2] = math.copysign(p[CLEARANCE], states[-1, 2])
                 times.append(later)
                 ends.append(states)
@@ -153,24 +161,27 @@ class SciPy(Integrator):
         return read_off(p, work, np.concatenate(times), np.concatenate(ends))
 
     def strobes(self, p, start, begin, periods, resolution, locate, most_evaluations=None):
-        """Do as the base class; by default `most_evaluations` is EVALUATIONS times `periods`."""
+        """Return the states after each forcing cycle (see `Integrator.strobes`).
+
+        By default `most_evaluations` is EVALUATIONS times `periods`.
+        """
         times = begin + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
         strobes, done = np.full((periods, 4), np.nan), 0
         left = np.array([most_evaluations or EVALUATIONS * periods])
-        given = self.method, p, start, begin, times[-1], resolution, locate, left, times
+        arguments = self.method, p, start, begin, times[-1], resolution, locate, left, times
         try:
-            for found in pieces(*given):
-                if len(found.t) > 0:
-                    strobes[done : done + len(found.t)] = found.y.T
-                    done += len(found.t)
+            for part in pieces(*arguments):
+                if len(part.t) > 0:
+                    strobes[done : done + len(part.t)] = part.y.T
+                    done += len(part.t)
         except OverflowError:
             pass
         return strobes
 
     def flight(self, p, state, end, resolution, time):
-        """Do as the base class; |Z2| at `time` comes from SciPy's interpolant."""
+        """Return |Z2| of a flight (see `Integrator.flight`), at `time` by SciPy's interpolant."""
         with np.errstate(all="ignore"):
-            found = solve_ivp(
+            result = solve_ivp(
                 derivative,
                 (0.0, end),
                 state,
@@ -180,10 +191,10 @@ class SciPy(Integrator):
                 atol=resolution,
                 dense_output=True,
             )
-        return (np.abs(found.y[2]), abs(found.sol(time)[2])) if found.success else None
+        return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
     def end(self, p, start, begin, periods, tolerance, locate):
-        """Do as the base class, but save the time to store the states after each period."""
+        """Return the state at the end, without the states after each cycle to save time."""
         left, end = np.array([MOST_TIMED]), begin + periods * 2 * math.pi / p[FREQUENCY]
         locate = locate and p[CLEARANCE] < math.inf
         try:

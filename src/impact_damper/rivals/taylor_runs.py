@@ -1,10 +1,10 @@
 """Runs by the event-driven Taylor series, with series of any orders, and their counted work.
 
 There are three kinds of steps: in flight, in flight until a contact begins, and in contact. The
-work of a run is the number of steps of each kind times the operations of such a step
-(`operations.operations`), summed over the kinds. The operations include the generated code of the
-series. They leave out the search for an unexpected contact and the repetitions in searches, since
-few steps need these.
+counted work of a run is the sum over the kinds of the number of steps times the operations of such
+a step (`operations.operations`). The operations include the generated code of the series. They do
+not include the search for an unexpected contact and the repetitions in searches, because few steps
+need these.
 """
 
 import math
@@ -37,30 +37,30 @@ from impact_damper.system.packed import FREQUENCY
 # Kinds of steps: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# ROWS: most steps computed by one call of `take_steps`, which writes a row for each: time at its
-# beginning, its length, wall in contact before and after it, and from column SERIES on the
+# ROWS: largest number of steps in one call of `take_steps`. A row for a step holds the time at its
+# beginning, its length, the wall in contact before it and after it, and from column SERIES on the
 # coefficients of the Taylor series of Z1.
 ROWS, SERIES = 4096, 4
-# Parts of a step. In each of them Z1' is assumed to be zero at most once.
+# Number of parts of a step. In each part Z1' is assumed to vanish at most once.
 PARTS = 8
 
 
 @kernel
-def take_steps(made, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
+def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
     """Fill `rows` with steps from t to `end`; return their number, and time and wall after them.
 
-    `made` is the array that `steps_of` returns. y, the state at t, is replaced by the state after
-    the steps. Coefficients for which the rows are too short are left out.
+    `steps` is the array that `steps_of` returns. y, the state at t, is replaced by the state after
+    the steps. Coefficients that do not fit into the rows are omitted.
     """
-    work = aligned(made[3])
+    work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
-    call_at(made[2], a)
+    call_at(steps[2], a)
     while t < end and count < len(rows):
         before = a[SIDE]
         a[TIME] = t
         a[LONGEST] = end - t
-        call_at(made[0] if before == 0.0 else made[1], a)
+        call_at(steps[0] if before == 0.0 else steps[1], a)
         length = a[LENGTH]
         row = rows[count]
         row[0], row[1], row[2], row[3] = t, length, before, a[SIDE]
@@ -78,7 +78,7 @@ def steps_of(orders):
     """Return the first argument of `take_steps` for series of these orders.
 
     It is an array with the addresses of three compiled functions and the size of a workspace. The
-    functions take a step in flight, take a step in contact, and fill the stored series.
+    functions take a step in flight, take a step in contact, and fill the constant series.
     """
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
@@ -86,14 +86,14 @@ def steps_of(orders):
 
 
 def name_of(orders):
-    """Return the label of the Taylor series with other `orders`, in flight and in contact."""
+    """Return the label of the Taylor series with given orders in flight and in contact."""
     return "taylor_{}_{}".format(*orders)
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
     """Return the steps of a run from a state at t, as rows (see ROWS), and the state at its end.
 
-    The state is NaN if steps become too short for the time to advance.
+    The state is NaN if the steps become so short that the time does not change.
     """
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * math.pi / p[FREQUENCY], []
@@ -107,7 +107,7 @@ def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def taylor(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return the run from a state at t, with series of these orders in flight and in contact."""
+    """Return the run from a state at t, with given orders of the series in flight and contact."""
     rows, end = all_steps(p, start, t, periods, tolerance, orders)
     work = steps_work(counted(rows), orders=orders)
     if not np.isfinite(end).all():
@@ -143,20 +143,20 @@ def counted(rows):
 
 
 def steps_work(counts, tangents=0, orders=ORDERS):
-    """Return the operations of a number of steps of each kind, `counts`."""
+    """Return the number of operations of steps, whose numbers of each kind are `counts`."""
     return sum(count * step_work(kind, tangents, orders) for kind, count in enumerate(counts))
 
 
 @cache
 def step_work(kind, tangents=0, orders=ORDERS):
-    """Return the operations of one step of a kind, with a number of variational `tangents`."""
-    made = instance(1, *orders)
-    unexpected = made.search_contact, made.guess_contact, made.meet_expected
+    """Return the number of operations of one step of a kind with a number of tangents."""
+    module = instance(1, *orders)
+    unexpected = module.search_contact, module.guess_contact, module.meet_expected
     if kind == CONTACT:
-        state, each = operations(made.contact_step, 0), made.contact_tangents
+        state, each = operations(module.contact_step, 0), module.contact_tangents
     else:
         without = unexpected if kind == FLIGHT else unexpected[:1]
-        state, each = operations(made.flight_step, 0, without), made.flight_tangents
+        state, each = operations(module.flight_step, 0, without), module.flight_tangents
     return state + tangents * operations(each) // COLUMNS
 
 

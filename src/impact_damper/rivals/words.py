@@ -2,7 +2,7 @@
 
 from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 
-# Test cases of the verdicts on motions; a case of one's own keeps its name.
+# Test cases of the stage `method_verdicts`. A case that the user adds keeps its name.
 CASES = {
     "quiet": "quiet motion, elastic",
     "quiet_inelastic": "quiet motion, inelastic",
@@ -28,7 +28,11 @@ MODELS = {
 
 
 def method_in_words(label) -> str:
-    """Title of a model or of an integrator, with its treatment of contacts or orders, if named."""
+    """Return the title of a model or of an integrator.
+
+    The title of an integrator includes the treatment of contacts or the orders of the series if
+    these are part of the label.
+    """
     if label in MODELS:
         return MODELS[label]
     name, *orders = label.split("_") if label.startswith("taylor_") else (label,)

@@ -16,7 +16,7 @@ from impact_damper.data.datasets import dataset
 from impact_damper.motions.ensemble import collide
 from impact_damper.motions.records import trace
 from impact_damper.rivals.methods import COMPARED, METHODS, integrators
-from impact_damper.rivals.passages import TOLERANCE, draw_passages, free_flight
+from impact_damper.rivals.passages import TOLERANCE, draw_passages, without_walls
 from impact_damper.rivals.runs import check_resolutions
 from impact_damper.system.bounds import RADIUS_RANGE, RUNS_RANGE, check_count, check_number
 from impact_damper.system.checks import check_increasing, check_numbers
@@ -93,7 +93,7 @@ def _taylor_largest(p, passage, tolerance):
     """Return |Z2| by the Taylor series without walls, at the time of the true largest |Z2|."""
     times = np.array([passage.time, 2 * math.pi / p[FREQUENCY]])
     states = np.empty((2, 4))
-    trace(free_flight(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
+    trace(without_walls(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
     return abs(states[0, 2])
 
 
@@ -185,7 +185,7 @@ def _count_table(p, passages, totals, depths, tolerances, steps):
 
     `totals` holds for each integrator the number of passages that it runs, the first ones.
     """
-    free, methods, found = free_flight(p), integrators(), []
+    free, methods, found = without_walls(p), integrators(), []
     for name, total in zip(LABELS, totals, strict=True):
         for resolution in steps if METHODS[name].fixed else tolerances:
             given = passages[:total], depths, resolution

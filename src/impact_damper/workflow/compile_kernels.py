@@ -118,7 +118,7 @@ def warm_up_rivals(orders=()) -> None:
     from impact_damper.motions.strobe_map import strobe_time
     from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode
     from impact_damper.rivals.orbit_models import rigid
-    from impact_damper.rivals.passages import draw_passages, free_flight
+    from impact_damper.rivals.passages import draw_passages, without_walls
     from impact_damper.rivals.taylor_runs import ORDERS, taylor
 
     p = pack(OSCILLATOR, DAMPER, 2.0)
@@ -135,7 +135,7 @@ def warm_up_rivals(orders=()) -> None:
         name, locate = name_and_mode(label)
         rivals[name].strobes(p, start, begin, 1, resolution[name], locate)
     for name in COMPARED["missed_contacts"][1:]:
-        rivals[name].flight(free_flight(p), start, 1.0, resolution[name], 0.5)
+        rivals[name].flight(without_walls(p), start, 1.0, resolution[name], 0.5)
     for name in COMPARED["stable_steps"]:
         rivals[name].largest_displacements(p, start, begin, 1, 100)
     draw_passages(p, 1, 2.0, 0.1, 1995)

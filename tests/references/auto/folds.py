@@ -1,10 +1,10 @@
 """Folds and symmetry breakings of the free oscillator by AUTO-07p.
 
-The equations are in forced_cubic.f90, AUTO's constants in constants.txt. Run by hand,
+The equations are in forced_cubic.f90, and AUTO's constants in constants.txt. The command
 
     python tests/references/auto/folds.py > tests/references/auto/folds.json
 
-it writes the stored numbers anew. Nothing here uses the package under test.
+computes the stored numbers again. This module does not import the package under test.
 """
 
 import datetime
@@ -26,12 +26,13 @@ AUTO = Path(os.environ.get("AUTO_DIR", "/usr/lib/auto-07p"))
 COMPILER = "gfortran"
 DAMPINGS = (0.215, 0.15, 0.107)
 
-# First orbits by direct integration: forcing periods of an orbit, W, and Z1, Z1' at T = 0.
+# First orbits, found by direct integration: period in forcing cycles, W, and Z1, Z1' at T = 0 for
+# each damping.
 RESPONSE = 1, 4.0, dict.fromkeys(DAMPINGS, (0.0, 0.0))
 SUBHARMONIC = 3, 1.8, {0.215: (-0.516, -0.232), 0.15: (0.262, 0.122), 0.107: (-0.745, 0.426)}
 
-# Refinements; the last one's numbers are kept. A symmetry breaking is a singular point of the
-# equations: AUTO gets there only with a looser tolerance.
+# Settings of increasing accuracy. The numbers of the last setting are stored. A symmetry breaking
+# is a singular point of the equations, which AUTO reaches only with a larger tolerance (LOOSE).
 SHARP = [
     {"NTST": 100, "NCOL": 4, "EPSU": 1e-11, "EPSS": 1e-9, "DSMAX": 0.02},
     {"NTST": 100, "NCOL": 5, "EPSU": 1e-12, "EPSS": 1e-10, "DSMAX": 0.02},
@@ -44,14 +45,15 @@ LOOSE = [
     {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.03},
     {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.02},
 ]
-# Of each run the branch, its first orbit, where AUTO stops, which points are kept (None: all).
+# For each run: the branch, its first orbit, AUTO's stopping condition, the kinds of points that are
+# stored (None for all), and the settings.
 RUNS = {
     "response_folds": ("response", RESPONSE, "STOP = ['LP2']", {"fold"}, SHARP),
     "response": ("response", RESPONSE, "UZSTOP = {'W': 0.6}", {"symmetry_breaking"}, LOOSE),
     "subharmonic": ("subharmonic", SUBHARMONIC, "STOP = ['LP3']", None, SHARP),
 }
-# AUTO's types of points. It calls 6 a branch point: of symmetric orbits it is where one parts
-# into two that are each other's mirror images.
+# AUTO's types of points. AUTO calls type 6 a branch point. For symmetric orbits it is the loss of
+# symmetry, at which two orbits branch off that are mirror images of each other.
 KINDS = {5: "fold", 6: "symmetry_breaking", 7: "period_doubling", 8: "neimark_sacker"}
 OUT_OF_STEPS = 9
 LAST_DIGIT = 1e-10
@@ -59,7 +61,7 @@ FAILURES = re.compile("NOTE:(?:No convergence|Possible special point|Error)")
 
 
 def missing():
-    """Why AUTO cannot be run here, or None."""
+    """Return the reason why AUTO cannot be run on this computer, or None."""
     if not (AUTO / "lib" / "main.o").exists():
         return f"AUTO-07p is not installed in {AUTO} (Debian: auto-07p; else set AUTO_DIR)"
     if shutil.which(COMPILER) is None:
@@ -68,7 +70,7 @@ def missing():
 
 
 def versions():
-    """Versions of AUTO, of its Debian package and of the compiler."""
+    """Return the versions of AUTO, of its Debian package and of the compiler."""
     asked = (
         ["dpkg-query", "--show", "--showformat", "${Version}", "auto-07p"],
         [COMPILER, "--version"],
@@ -92,12 +94,12 @@ def build(folder):
 
 
 def points(folder, damping, run, setting):
-    """Special points of one run of AUTO, in order along the branch.
+    """Return the special points of one run of AUTO, in order along the branch.
 
     Raises
     ------
     RuntimeError
-        If AUTO lost the branch, ran out of steps, or could not locate a point that it saw.
+        If AUTO lost the branch, ran out of steps, or could not locate a point that it detected.
     """
     branch, (periods, frequency, starts), stop, kinds, _ = RUNS[run]
     orbit = first_orbit(damping, frequency, starts[damping], periods)
@@ -124,7 +126,7 @@ def points(folder, damping, run, setting):
 
 
 def first_orbit(damping, frequency, start, periods):
-    """T, Z1, Z1', sin W T, cos W T over one orbit that the start leads to."""
+    """Return T, Z1, Z1', sin W T, cos W T over one period of the orbit that a start leads to."""
 
     def rate(time, z):
         return z[1], math.cos(frequency * time) - damping * z[1] - z[0] ** 3
@@ -138,10 +140,10 @@ def first_orbit(damping, frequency, start, periods):
 
 
 def solutions(path):
-    """Type and (parameters, profile) of each solution that AUTO stored.
+    """Yield the type and (parameters, profile) of each solution that AUTO stored.
 
-    A header says how many values follow: rows of t, U, then direction and parameters. The
-    profile has columns t over the period, Z1, Z1', sin W T, cos W T.
+    A header states the number of values that follow: rows of t and U, then direction and
+    parameters. The profile has the columns t over the period, Z1, Z1', sin W T, cos W T.
     """
     lines = path.read_text().splitlines()
     while lines:
@@ -153,7 +155,7 @@ def solutions(path):
 
 
 def measured(solution, periods):
-    """Frequency and largest |Z1| of a solution; its period must be that of the forcing."""
+    """Return frequency and largest |Z1| of a solution, whose period must be `periods` cycles."""
     parameters, profile = solution
     frequency, period = parameters[[0, 10]]
     if not math.isclose(period * frequency, 2 * math.pi * periods, rel_tol=1e-6):
@@ -168,11 +170,11 @@ def measured(solution, periods):
 
 
 def found_in(folder, damping, run, settings):
-    """The points by the last of some settings, each with the error that the others suggest.
+    """Return the points found with the last of several settings, each with an estimated error.
 
-    It is the largest difference of two runs, but no less than AUTO's tolerance of a solution
-    and the last digit that it writes. Folds met again further round a closed branch are left
-    out.
+    The error is the largest difference between the settings, but at least AUTO's tolerance of a
+    solution and at least the last digit that AUTO writes. Folds that AUTO meets a second time on a
+    closed branch are omitted.
     """
     runs = [points(folder, damping, run, setting) for setting in settings]
     if len({tuple(point["kind"] for point in run) for run in runs}) != 1:

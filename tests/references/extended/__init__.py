@@ -1,9 +1,9 @@
 """Motions in 80-bit arithmetic by a C program that shares no code with the package.
 
-State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `packed.pack`, whose
-doubles are taken as they are. Taylor series of order 32 with a local error of 1e-20; events are
-isolated by the signs of Bernstein coefficients (see motion.c). The compiler `cc` makes the
-program on first use, in about half a second.
+State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and the doubles of `packed.pack`.
+The program uses Taylor series of order 32 with a local error of 1e-20, and isolates events by the
+signs of Bernstein coefficients (see motion.c). The compiler `cc` compiles the program on first use,
+in about half a second.
 """
 
 import ctypes
@@ -26,7 +26,7 @@ Real = np.longdouble
 
 
 def obstacle():
-    """Why the program cannot run here, or an empty string."""
+    """Return the reason why the program cannot run on this computer, or an empty string."""
     if np.finfo(Real).nmant < 63:
         return "long double has no more digits than double here"
     if shutil.which("cc") is None:
@@ -36,7 +36,7 @@ def obstacle():
 
 @functools.cache
 def _library():
-    """The program, compiled; raises RuntimeError where `obstacle` tells why it cannot be."""
+    """Return the compiled program, or raise RuntimeError with the text of `obstacle`."""
     if obstacle():
         raise RuntimeError(obstacle())
     with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
@@ -65,27 +65,29 @@ class Run(NamedTuple):
     Attributes
     ----------
     states : array, shape (n, 4)
-        State at each time asked for.
+        State at each requested time.
     extremes : array, shape (n, 2)
-        Least and largest Z1 since the time before (or the start).
+        Smallest and largest Z1 since the requested time before, or since the first state.
     contacts : array, shape (k, 5)
-        Wall, beginning, end, Z2' at both; NaN where a contact has not ended. A contact of
-        the start is the first row and begins at the start.
+        Wall, beginning, end, and Z2' at both; NaN for a contact that has not ended. If the first
+        state is in contact, this contact is the first row and begins at the first state.
     begun : int
-        Contacts begun; a contact of the start is not among them.
+        Number of contacts begun, without a contact of the first state.
     turnings : array, shape (m, 4)
-        Extrema of Z2, touching or not, and Z2 at the end: time, nearest wall, height beyond it
-        (negative inside), largest growth of an error to one of Z2 there. None without walls.
+        Extrema of Z2, in contact or in flight, and the last Z2. A row holds the time, the nearest
+        wall, the height beyond this wall (negative inside), and the largest factor by which an
+        error of the state at an earlier instant grows to an error of Z2. Empty without walls.
     flow : array, shape (4, 4)
-        Derivative of the last state by the first.
+        Derivative of the last state by the first state.
     growth : long double
-        Largest norm of the flow's derivative from an instant of the run to its end, at least 1;
-        instants are the start, the times and the events (after their jump). The norm belongs to
-        the largest component: the largest sum of moduli in a row.
+        Largest norm of the flow's derivative from an instant of the run to the end, at least 1.
+        Instants are the first time, the requested times and the events (after their jump). The norm
+        is the largest sum of moduli in a row.
     margin : long double
-        Least |height| of the turnings over the growth until there: an error of this size could
-        change the number of contacts.
+        Smallest |height| / growth of the turnings. An error of this size could change the number of
+        contacts.
     steps : int
+        Number of steps.
     """
 
     states: np.ndarray
@@ -100,7 +102,7 @@ class Run(NamedTuple):
 
 
 class Runs(NamedTuple):
-    """Many motions: last states (m, 4) and, for each, what `Run` has under the same names."""
+    """Many motions: last states (m, 4), and the attributes of `Run` with the same names, (m,)."""
 
     states: np.ndarray
     begun: np.ndarray
@@ -114,20 +116,20 @@ def _fail(status, what):
 
 
 def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=100_000):
-    """One motion from `start` through increasing `times`.
+    """Return one motion from the time `start` through increasing `times`.
 
     Parameters
     ----------
     p : array, shape (COUNT,)
         Packed parameters.
     state : array, shape (4,)
-        On a wall and moving outward, or beyond it, the start is in contact.
+        First state. It is in contact if it lies beyond a wall, or on a wall with outward velocity.
     start : float or long double
     times : array, shape (n,)
     tolerance, longest : float
-        Local error of a step, relative to the state where that is above 1, and longest step.
+        Local error of a step, relative to the state if the state is above 1, and longest step.
     room : int
-        Most contacts and most turnings logged.
+        Largest number of contacts, and of turnings, that are logged.
 
     Returns
     -------
@@ -136,7 +138,7 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=1
     Raises
     ------
     RuntimeError
-        If the program cannot be made here, or the logs are too small.
+        If the program cannot be compiled on this computer, or if the logs are too small.
     """
     times = np.atleast_1d(np.asarray(times, Real))
     states, extremes = np.empty((len(times), 4), Real), np.empty((len(times), 2), Real)
@@ -156,7 +158,7 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=1
 
 
 def run_many(parameters, states, starts, times, *, tolerance=TOLERANCE, longest=math.inf):
-    """Motions with parameters (m, COUNT), states (m, 4), starts (m,), each through times (m, n).
+    """Return motions with parameters (m, COUNT), states (m, 4), starts (m,) and times (m, n).
 
     Raises
     ------

@@ -1,9 +1,10 @@
-"""How far the kernels' last states and contact counts are from the 80-bit reference.
+"""Errors of the kernels' last states and contact counts against the 80-bit reference.
 
     PYTHONPATH=src:tests python -m references.extended.agreement
 
-prints a table: starts, those counted apart, those among them whose count differs, and of the
-others median, 99 % and largest error, divided by growth and tolerance.
+prints a table. Its columns are the number of starts, the number of starts that are counted apart
+(`Agreement.apart`), the number of these whose contact count differs, and, for the other starts, the
+median, the 99 % quantile and the maximum of the error divided by growth and tolerance.
 """
 
 import functools
@@ -22,7 +23,7 @@ TOLERANCES = (1e-6, 1e-9, 1e-12)
 
 
 def scalar(starts, tolerance):
-    """Last states (m, 4) and contacts begun (m,), one motion at a time."""
+    """Return last states (m, 4) and contacts begun (m,), computed one motion at a time."""
     states, contacts = starts.states.copy(), np.empty(len(starts.states), int)
     none, work = np.empty((0, 4)), workspace()
     for i, (p, y) in enumerate(zip(starts.parameters, states, strict=True)):
@@ -32,7 +33,7 @@ def scalar(starts, tolerance):
 
 
 def side_by_side(starts, tolerance):
-    """The same, sixteen motions at a time."""
+    """Return the same as `scalar`, computed sixteen motions at a time."""
     states, contacts = starts.states.copy(), np.empty(len(starts.states), int)
     sides = np.array([side_of(p, y) for p, y in zip(starts.parameters, states, strict=True)])
     ends = starts.times[:, -1].copy()
@@ -40,7 +41,7 @@ def side_by_side(starts, tolerance):
     return states, contacts
 
 
-# What runs all starts of a kind: a function of `Starts` and the tolerance, as `scalar`.
+# The kernels under test, as functions of `Starts` and the tolerance.
 KERNELS = {"scalar": scalar, "lanes": side_by_side}
 
 
@@ -50,19 +51,17 @@ class Agreement(NamedTuple):
     Attributes
     ----------
     error : array
-        Largest error of a component of the last state, over growth and tolerance. The growth is
-        the largest norm of the flow's derivative from an instant of the run (start, strobe or
-        event) to its end, at least 1, in the norm that belongs to the largest component: what an
-        error in the worst direction at the worst instant becomes. No component is weighted and
-        nothing is divided by the size of the state, though the kernels' tolerance is relative
-        to it where it is above 1.
+        Largest error of a component of the last state, divided by growth and tolerance. The growth
+        (`Run.growth`) is the factor by which an error in the worst direction at the worst instant
+        grows until the end. The components are not weighted, and the error is not divided by the
+        size of the state, although the kernels' tolerance is relative to a state above 1.
     differs : array of bool
         Whether the number of contacts differs.
     apart : array of bool
-        Whether an extremum of Z2, touching or not, or the last Z2 lies closer to a wall than the
-        tolerance times the growth of an error until there. Whether it touches is then not for
-        the kernel to tell; and as a stiff wall turns the mass back or does not, the flow's
-        derivative on one side says nothing of the other.
+        Whether an extremum of Z2, or the last Z2, lies closer to a wall than the tolerance times
+        the growth of an error until then. The kernel cannot decide then whether the loose mass
+        touches the wall. Because a stiff wall may or may not turn the loose mass back, the flow's
+        derivative in one case does not hold in the other.
     """
 
     error: np.ndarray
@@ -72,12 +71,13 @@ class Agreement(NamedTuple):
 
 @functools.cache
 def starts_and_reference(kind):
+    """Return the starts of a kind and their reference motions."""
     starts = draw(kind, COUNT, SEED)
     return starts, extended.run_many(*starts)
 
 
 def agreement(kernel, kind, tolerance):
-    """`Agreement` of a kernel of `KERNELS` over all starts of a kind."""
+    """Return the `Agreement` of a kernel of `KERNELS` over all starts of a kind."""
     starts, reference = starts_and_reference(kind)
     states, contacts = KERNELS[kernel](starts, tolerance)
     error = np.max(np.abs(states - reference.states), axis=1) / (reference.growth * tolerance)
@@ -85,7 +85,7 @@ def agreement(kernel, kind, tolerance):
 
 
 def describe(kind, index):
-    """A start to the last bit."""
+    """Return a start as text, exact to the last bit."""
     starts, reference = starts_and_reference(kind)
     p, y = (", ".join(float(x).hex() for x in part[index]) for part in starts[:2])
     start, end = float(starts.starts[index]).hex(), float(starts.times[index, -1]).hex()

@@ -1,8 +1,8 @@
 """Bifurcations and grazings of symmetric orbits of period 1, located in 80-bit arithmetic.
 
-Unknowns are the state and the parameter, equations the map over half a period with a change of
-sign, and a test function that is zero at the event. They are solved by Newton's method with
-differences in 80 bits; only the linear systems are solved in double.
+The unknowns are the state and the parameter. The equations are the map over half a cycle followed
+by a change of sign, and a test function that is zero at the event. Newton's method solves them with
+difference quotients in 80 bits. Only the linear systems are solved in double precision.
 """
 
 import itertools
@@ -13,13 +13,14 @@ import numpy as np
 from impact_damper.system.packed import FREQUENCY
 from references import extended
 
-# Steps of the differences: far below the 1e-10 by which heights differ beside a grazing.
+# Step of the difference quotients, far below the differences of 1e-10 of the heights near a
+# grazing.
 STEP = 1e-13
 ITERATIONS = 8
 
 
 def _half(p, state, phase):
-    """Return the 80-bit motion over half a period from a phase W T."""
+    """Return the 80-bit motion over half a cycle from a phase W T."""
     frequency = extended.Real(p[FREQUENCY])
     begin = extended.Real(phase) / frequency
     return extended.run(p, state, begin, [begin + np.arccos(extended.Real(-1)) / frequency])
@@ -35,9 +36,9 @@ def _determinant(matrix):
 
 
 def _pairs(root):
-    """Return the product of r_i r_j - 1 of all pairs of eigenvalues of a 4 x 4 matrix.
+    """Return the product of r_i r_j - 1 over all pairs of eigenvalues of a 4 x 4 matrix.
 
-    This is the determinant of the second compound matrix less 1, here from its eigenvalues.
+    The product equals det(C - 1) with the second compound matrix C.
     """
     values = np.linalg.eigvals(root.astype(float))
     first, second = np.triu_indices(4, 1)
@@ -58,22 +59,22 @@ def _test(kind, run, wall_phase, p):
 
 
 def located(kind, family, value, state, phase):
-    """Return the parameter at which an event lies, and the error of the orbit there.
+    """Return the parameter of an event, and the error of the orbit there.
 
     Parameters
     ----------
     kind : str
-        As `Event.kind`.
+        The attribute `Event.kind`.
     family : callable
         Maps the parameter to packed parameters.
     value, state, phase
-        Of the orbit close to the event: parameter, state (4,), phase W T.
+        Parameter, state (4,) and phase W T of an orbit close to the event.
 
     Returns
     -------
     value : float
     residual : float
-        Of the map, in 80 bits.
+        Residual of the map, in 80 bits.
     """
     first = _half(family(value), state, phase)
     wall_phase = None
@@ -92,7 +93,7 @@ def located(kind, family, value, state, phase):
         slopes = np.empty((5, 5))
         for k in range(5):
             nudged = x.copy()
-            # the parameter is a double: the step is what its rounding leaves
+            # The parameter is rounded to a double, so its step is computed after rounding.
             nudged[k] = float(x[k]) + STEP * (1 + abs(float(x[k]))) if k == 4 else x[k] + STEP
             slopes[:, k] = ((equations(nudged) - here) / (nudged[k] - x[k])).astype(float)
         change = np.linalg.solve(slopes, -here.astype(float))

@@ -2,31 +2,32 @@
 
     PYTHONPATH=src:tests python -m references.extended.scenes > workflow/resources/references.json
 
-makes the file anew from the section `scenes` of `config/config.yaml`. It is JSON with 21
-significant digits, more than a double holds: `json.loads(text, parse_float=numpy.longdouble)`
-keeps them, plain `json.loads` rounds to doubles. For each scene, a chaotic one excepted, which
-no method can follow to its end:
+writes the file again from the section `scenes` of `config/config.yaml`. The file is JSON with 21
+significant digits, more than a double has. `json.loads(text, parse_float=numpy.longdouble)` keeps
+all digits, and plain `json.loads` rounds to doubles. Chaotic scenes are omitted, because no method
+can follow them to the end. Each other scene has the entries
 
 parameters
     Parameters of oscillator and damper, and the frequency, so that a changed scene is noticed.
 start, end
     Times of the run, doubles: W T = pi/2, and `start + periods * (2 pi/W)` in double arithmetic.
 first, state
-    Z1, Z1', Z2, Z2' at both.
+    Z1, Z1', Z2, Z2' at `start` and at `end`.
 amplitude
     max |Z1| over the whole run.
 last_amplitude
-    max |Z1| over the last forcing period.
+    max |Z1| over the last forcing cycle.
 contacts
-    Rows of wall, beginning, end, Z2' at both; null where a contact has not ended.
+    Rows of wall, beginning, end, Z2' at both; null for a contact that has not ended.
 error, contact_error
     Largest difference of state and extremes, and of the contacts, from a run with another
-    tolerance and shorter steps. The time of a grazing contact is known as well as the gap is, over
-    the speed.
+    tolerance and shorter steps. The error of the time of a contact is the error of Z2 divided by
+    the speed, so it is large for a grazing contact.
 growth
     Largest norm of the flow's derivative from an instant of the run to its end (see `Run`).
 margin
-    Least distance of an extremum of Z2 from a wall, per growth: how near the count is to another.
+    Smallest distance of an extremum of Z2 to a wall divided by the growth (see `Run`). An error of
+    this size could change the number of contacts.
 """
 
 import json
@@ -59,13 +60,13 @@ def configured_scenes():
 
 
 def packed(parameters):
-    """Parameters by name, as `configured_scenes` yields them, in the array that kernels read."""
+    """Return the packed parameters of parameters by name, as from `configured_scenes`."""
     damper = Damper(**pick(Damper, parameters)) if "mass_ratio" in parameters else None
     return pack(Oscillator(**pick(Oscillator, parameters)), damper, parameters["frequency"])
 
 
 def reference(parameters, state, periods):
-    """Entry of the file for one scene, by name of the quantity."""
+    """Return the entry of the file for one scene, keyed by the name of the quantity."""
     p = packed(parameters)
     period, start = 2 * math.pi / p[FREQUENCY], 0.5 * math.pi / p[FREQUENCY]
     times = start + period * np.arange(1, periods + 1)
@@ -94,7 +95,7 @@ def reference(parameters, state, periods):
 
 
 def _text(value):
-    """JSON of a number, or of an array or a dictionary of numbers."""
+    """Return the JSON text of a number, or of an array or a dictionary of numbers."""
     if isinstance(value, dict):
         return (
             f"{{{', '.join(f'{json.dumps(key)}: {_text(part)}' for key, part in value.items())}}}"
@@ -107,7 +108,7 @@ def _text(value):
 
 
 def as_text(references):
-    """The file's text: a line for each quantity, and for each contact."""
+    """Return the text of the file, with a line for each quantity and for each contact."""
     scenes = []
     for name, quantities in references.items():
         lines = [f"    {json.dumps(key)}: {_text(value)}" for key, value in quantities.items()]

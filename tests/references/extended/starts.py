@@ -1,4 +1,4 @@
-"""Random starts and parameters on which the kernels are held to the 80-bit reference."""
+"""Random starts and parameters for the comparison of the kernels with the 80-bit reference."""
 
 import math
 from typing import NamedTuple
@@ -17,10 +17,10 @@ from impact_damper.system.parameters import Damper, Oscillator, pick
 from references import extended
 
 PERIODS = 3
-FAR = 1e3  # a clearance that is never used up
+FAR = 1e3  # a clearance that no motion reaches
 
-# Ranges that a kind of start has instead of the usual ones; those with a factor above 3 between
-# their ends are drawn by the logarithm.
+# USUAL: ranges of the parameters. KINDS: ranges that replace the usual ones for each kind of start.
+# A range whose ends have a ratio above 3 is drawn uniformly in the logarithm.
 USUAL = {
     "damping": (0.02, 0.4),
     "linear_frequency": (0.0, 0.0),
@@ -44,7 +44,8 @@ KINDS = {
     "in contact": {"contact_stiffness": (10.0, 1e5)},
     "on a wall": {"contact_stiffness": (10.0, 1e5)},
     "linear spring": {"linear_frequency": (0.3, 5.0), "cubic": (0.0, 0.0)},
-    # Barriers at energies that no start reaches, because an escape takes ever shorter steps.
+    # The barriers of these springs are higher than the energy of any start, because an escape would
+    # take ever shorter steps.
     "softening spring": {"linear_frequency": (2.0, 4.0), "cubic": (-0.05, 0.0)},
     "other forces": {"cubic": (0.1, 10.0), "force": (0.1, 10.0), "unbalance": (0.1, 3.0)},
     "no force": {"linear_frequency": (0.0, 2.0), "force": (0.0, 0.0)},
@@ -77,7 +78,7 @@ def _parameters(random, ranges, elastic):
 
 
 def _graze(random, p, state, start, end):
-    """Shift Z2 until one of its extrema in free flight lies by 1e-13 to 1e-2 about a wall."""
+    """Shift Z2 such that one of its extrema, without walls, lies 1e-13 to 1e-2 from a wall."""
     unbounded = p.copy()
     unbounded[CLEARANCE] = FAR
     turnings = extended.run(unbounded, state, start, [end]).turnings[:-1]
@@ -92,12 +93,15 @@ def _graze(random, p, state, start, end):
 
 
 def draw(kind, count, seed):
-    """Starts of one kind, elastic and inelastic by turns.
+    """Return starts of one kind, alternately with elastic and inelastic contact.
 
-    Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), Z2 over the gap; the start time is
-    uniform over the forcing period. "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or
-    beyond a wall; "in contact": beyond a wall by what stops a speed of 0.01 to 30; "on a wall":
-    to the last bit, at rest relative to it or at a speed of 1e-8 to 4, outward or inward.
+    Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), and Z2 is uniform over the gap. The first
+    time is uniform over a forcing cycle. Three kinds have other states:
+
+    - "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or beyond a wall;
+    - "in contact": Z2 lies beyond a wall, by the penetration that stops a speed of 0.01 to 30;
+    - "on a wall": Z2 is exactly the clearance, with Z2' = 0 or a speed of 1e-8 to 4, outward or
+      inward.
     """
     random = np.random.default_rng([seed, list(KINDS).index(kind)])
     parameters, states = np.empty((count, COUNT)), np.empty((count, 4))
