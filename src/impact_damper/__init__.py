@@ -1,24 +1,24 @@
-"""Impact dampers for a harmonically forced hard Duffing oscillator.
+"""Impact dampers for a harmonically forced Duffing oscillator.
 
 After S. Chatterjee, A. K. Mallik and A. Ghosh, "On impact dampers for non-linear vibrating
 systems", Journal of Sound and Vibration 187(3), 403-420, 1995. Results are labelled datasets of
 xarray. The public names are loaded when they are first used:
 
-What is studied, dimensionless
+The system without units
     Oscillator, Damper
-    Settling                    how long and how accurately motions are run
+    Settling                    length and accuracy of runs
 
-What is studied, in SI units: all functions below take a machine in place of the oscillator
-    Machine                     its method `damper` makes a damper for it
+The system in SI units: all functions below take a machine in place of the oscillator
+    Machine                     its method `damper` returns a damper for the machine
     HertzContact, Material, hertz_stiffness
     TunedAbsorber
 
 Motions
     simulate                    one motion from a given state
-    steady_motion               the motion that a state settles to
+    steady_motion               the motion to which a state leads
     frequency_response          all motions at each frequency
     subharmonic_suppression     the one-third subharmonic without and with a damper
-    basins                      the motion that each state of a plane leads to
+    basins                      the motion to which each state of a plane leads
     migrate                     from the resonance to the small motion, by switching the damper
 
 Periodic orbits, stable or not
@@ -33,7 +33,7 @@ Design
     absorber_responses          tuned absorbers of the same mass, for comparison
 
 Reading results
-    decode                      words for the numbers of a flag, such as an outcome
+    decode                      names of the numbers of a flag, such as an outcome
     plot                        plot.response, plot.orbit and others
 """
 

@@ -198,7 +198,7 @@ def load(path) -> xr.Dataset:
     FileNotFoundError
         If the file does not exist.
     BrokenFileError
-        If the file is not the one that `save` wrote under this path.
+        If `save` did not write this file under this path.
     """
     check_length(path)
     try:

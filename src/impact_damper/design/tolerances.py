@@ -11,7 +11,7 @@ TOLERANCES = {"gap": 0.2}
 
 
 def checked_tolerances(tolerances) -> dict:
-    """Return the largest relative deviations, keyed by names of VARIED, as numbers.
+    """Return the largest relative deviations as numbers, keyed by names of VARIED.
 
     Raises
     ------

@@ -277,7 +277,7 @@ class Machine:
 
 
 def check_fit(machine, damper):
-    """Raise TypeError or ValueError unless the damper is one that fits the machine."""
+    """Raise TypeError or ValueError unless the damper fits the machine."""
     if not isinstance(machine, Machine):
         raise TypeError(f"machine = {shown(machine)}: must be a Machine")
     if not isinstance(damper, MachineDamper):

@@ -136,7 +136,7 @@ def _size_label(given):
 def branch(data, *, ax=None):
     """Draw the largest displacement in periodic orbits against the parameter that varies.
 
-    Lines of stable orbits are solid, those of unstable ones dotted. Colours distinguish periods;
+    Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods;
     markers are bifurcations and changes of contact.
 
     Parameters

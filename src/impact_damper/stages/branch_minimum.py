@@ -37,7 +37,7 @@ class Branch(NamedTuple):
     def follow(self, start, clearance):
         """Follow the motion from the known point nearest to `start` to a clearance.
 
-        The result is that of `follow_stable`.
+        The result is as from `follow_stable`.
         """
         away = np.abs(self.parameters[:, CLEARANCE] - start)
         k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))

@@ -191,7 +191,7 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
         damper for each Neimark-Sacker point what splits off there, `torus_kind`, and the rotation
         number of a stable torus. Mirror
         images count as one branch. Motions without contacts are left out if there is a damper,
-        because they are those of the free oscillator.
+        because they are motions of the free oscillator.
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The optimum is that of the quiet orbit, which is symmetric and has period 1 and two contacts per
+The optimum belongs to the quiet orbit, which is symmetric and has period 1 and two contacts per
 cycle. Newton's method finds the orbit, stable or unstable, from the state that
 `theory.straight_flight` predicts. Clearances are given as the ratio rm W^2 d0/f, which is 1 by rule
 (18), and displacements as W^2 Z1/f, where f is the forcing amplitude.

@@ -182,7 +182,7 @@ def response(
 def report(
     data: Annotated[Path, typer.Argument(exists=True, help="design.nc of `impact-damper design`.")],
     output: Annotated[
-        Path, typer.Option(help="Folder for the page; without it that of the design.")
+        Path, typer.Option(help="Folder for the page; by default the folder of the design.")
     ] = None,
     as_json: AsJson = False,
 ):

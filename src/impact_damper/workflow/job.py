@@ -52,7 +52,7 @@ class Entry:
 
     @property
     def damper(self):
-        """The damper, or None without one; the clearance `rule` becomes that of equation (19)."""
+        """The damper, or None; the clearance `rule` is replaced by the value of equation (19)."""
         from impact_damper.system.parameters import Damper
         from impact_damper.theory.design_rule import rule_clearance
 

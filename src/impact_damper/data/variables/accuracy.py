@@ -15,8 +15,8 @@ VARIABLES = {
     ),
     "run_status": Variable(
         RUN,
-        "how the run ended: missed_contacts if it has fewer contacts than the reference, "
-        "invented_contacts if more",
+        "end of the run; missed_contacts: fewer contacts than the reference, invented_contacts: "
+        "more contacts",
         flags={
             "ok": 0,
             "missed_contacts": 1,
@@ -28,13 +28,14 @@ VARIABLES = {
     ),
     "operations": Variable(
         RUN,
-        "floating-point operations, where an elementary function counts as 20: of the whole run of "
-        "an integrator, or of the search of a model for the orbit",
+        "floating-point operations of an integrator's run, or of a model's search for the orbit; "
+        "an elementary function counts as 20",
     ),
     "state_error": Variable(RUN, "largest error of a component of the state at the end of the run"),
     "contact_time_error": Variable(
         RUN,
-        "largest error of the time at which a contact begins, NaN if their number is wrong",
+        "largest error of the time at which a contact begins; NaN if the number of contacts is "
+        "wrong",
         "T",
     ),
     "contact_excess": Variable(RUN, "number of contacts minus the number in the reference"),
@@ -42,7 +43,7 @@ VARIABLES = {
     "statistic": Variable(("statistic",), "name of an average over a chaotic motion"),
     "average": Variable(
         (*RUN, "statistic"),
-        "average: contacts per period, max |Z1| in a period, or largest Lyapunov exponent",
+        "average: contacts per cycle, max |Z1| in a cycle, or largest Lyapunov exponent",
     ),
     "average_error": Variable(
         (*RUN, "statistic"),

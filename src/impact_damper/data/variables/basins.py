@@ -40,7 +40,7 @@ VARIABLES = {
     ),
     "basin_share": Variable(
         ("attractor", "basin_velocity", "basin_displacement"),
-        "share of the places of the loose mass from which a state leads to an attractor",
+        "fraction of the places of the loose mass from which a state leads to an attractor",
     ),
     "attractor": Variable(("attractor",), "index of an attractor, by rising max |Z1|"),
     "attractor_period": Variable(("attractor",), "period in cycles", "n"),

@@ -22,7 +22,7 @@ VARIABLES = {
     "exit_rule": Variable(("exit_rule",), "rule for the end of a contact"),
     "load": Variable(("load",), "load in contact", "g/(omega_n v0)"),
     "realised_restitution": Variable(CELL, "departure speed divided by approach speed"),
-    "contact_duration": Variable(CELL, "time in contact over that of an elastic contact"),
+    "contact_duration": Variable(CELL, "time in contact / time in an elastic contact"),
     "contact_verdict": Variable(
         CELL,
         "realised restitution: within 1 % of e, within 5 %, or farther; or none, because the loose "
@@ -38,9 +38,11 @@ VARIABLES = {
     "unloaded_damping": Variable(("used",), "damping ratio of the relative motion", "z"),
     "unloaded_restitution": Variable(UNLOADED, "realised restitution without load"),
     "unloaded_duration": Variable(
-        UNLOADED, "time in contact divided by that of an elastic contact"
+        UNLOADED, "time in contact / time in an elastic contact, without load"
     ),
-    "unloaded_pull_time": Variable(("used",), "share of the time in contact with a tensile force"),
+    "unloaded_pull_time": Variable(
+        ("used",), "fraction of the time in contact in which the force is tensile"
+    ),
     "unloaded_pull_impulse": Variable(
         ("used",), "ratio of tensile to compressive impulse without load"
     ),
@@ -69,8 +71,8 @@ VARIABLES = {
     ),
     "scene_contacts": Variable(SCENE, "number of contacts logged"),
     "scene_load": Variable(SCENE, "99 % quantile of |load| over the contacts"),
-    "scene_close": Variable(SCENE, "share of contacts with a restitution within 1 % of e"),
-    "scene_fair": Variable(SCENE, "share of contacts with a restitution within 5 % of e"),
+    "scene_close": Variable(SCENE, "fraction of contacts with a restitution within 1 % of e"),
+    "scene_fair": Variable(SCENE, "fraction of contacts with a restitution within 5 % of e"),
     "scene_restitution_low": Variable(SCENE, "smallest restitution of a contact"),
     "scene_restitution_high": Variable(SCENE, "largest restitution of a contact"),
     "scene_unreleased": Variable(
@@ -87,7 +89,7 @@ VARIABLES = {
     "contact_size": Variable(("contact",), "index along the dimension `size` of a contact"),
     "contact_load": Variable(("contact",), "load at the beginning of a contact"),
     "contact_restitution": Variable(("contact",), "departure speed divided by approach speed"),
-    "contact_time": Variable(("contact",), "time in contact divided by that of an elastic contact"),
+    "contact_time": Variable(("contact",), "time in contact / time in an elastic contact"),
     # rigid limit
     "stiffness": Variable(("stiffness",), "contact stiffness", "r1"),
     "compliant_status": Variable(

@@ -1,4 +1,4 @@
-"""What a motion with a damper costs: impacts, forces, losses and noise."""
+"""Costs of a motion with a damper: impacts, forces, losses and noise."""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -25,7 +25,7 @@ VARIABLES = {
         (), "largest acceleration of the primary mass", quantity="acceleration"
     ),
     "impulse_noise": Variable(
-        (), "sum of the squares of the impulses per time", quantity="impulse_noise"
+        (), "sum of the squared impulses, per time", quantity="impulse_noise"
     ),
     # powers
     "force_power": Variable((), "mean power of the external force", quantity="power"),
@@ -35,7 +35,7 @@ VARIABLES = {
     "impact_power": Variable((), "mean power lost in contacts", quantity="power"),
     "stored_power": Variable((), "growth of the energy of the motion per time", quantity="power"),
     "power_error": Variable(
-        (), "power of the force less all losses and growth, divided by the losses"
+        (), "power of the force minus all losses and the growth of energy, divided by the losses"
     ),
     # contact of curved bodies after Hertz
     "hertz_force": Variable(
@@ -46,7 +46,7 @@ VARIABLES = {
     ),
     "contact_yields": Variable(
         (),
-        "whether the contact yields at this pressure",
+        "whether the material yields at this pressure",
         flags={"no": 0, "yes": 1, "unknown": 2},
     ),
 }

@@ -8,7 +8,7 @@ SEARCH = {"converged": 0, "stalled": 1, "iteration_limit": 2}
 
 VARIABLES = {
     "highest_harmonic": Variable(COUNTED, "highest harmonic", "N"),
-    "error_measure": Variable(ERRORS, "quantity that an error refers to"),
+    "error_measure": Variable(ERRORS, "quantity whose error is listed"),
     "series_status": Variable(
         COUNTED,
         "how Newton's method ended when started from the solution with fewer harmonics",
@@ -24,8 +24,8 @@ VARIABLES = {
     ),
     "series_error": Variable(
         (*ERRORS, *COUNTED),
-        "difference from the exact orbit: of max |Z1|, of Z1 in the harmonics up to N and beyond N "
-        "(root mean square), all relative to max |Z1|; and of a Floquet multiplier",
+        "difference from the exact orbit: of max |Z1|, and of Z1 in the harmonics up to N and "
+        "beyond N (root mean square), divided by max |Z1|; and of a Floquet multiplier",
     ),
     "cold_status": Variable(
         COUNTED,

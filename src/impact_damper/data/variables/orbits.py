@@ -160,8 +160,8 @@ VARIABLES = {
     # tori behind Neimark-Sacker points
     "torus_kind": Variable(
         ("event",),
-        "torus that splits off at a Neimark-Sacker point: a stable one, one that is not, one of an "
-        "orbit with another multiplier outside the unit circle, or not found out",
+        "torus that begins at a Neimark-Sacker point: stable, unstable, around an orbit with "
+        "another multiplier outside the unit circle, or undecided",
         flags=TORUS,
     ),
     "torus_angle": Variable(
@@ -169,8 +169,8 @@ VARIABLES = {
     ),
     "torus_growth": Variable(
         ("event",),
-        "change of the logarithm of the amplitude in a period of the orbit at the point, over the "
-        "square of the amplitude: negative if the torus is stable",
+        "change of the logarithm of the amplitude in a period of the orbit at the point, divided "
+        "by the square of the amplitude; negative if the torus is stable",
         quantity="mixed",
     ),
     "torus_value": Variable(

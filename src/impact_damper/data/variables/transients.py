@@ -1,4 +1,4 @@
-"""Transients of a machine with a damper and without: swept sine and ring-down."""
+"""Transients of a machine with and without damper: swept sine and unforced decay."""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -8,11 +8,13 @@ VARIABLES = {
     "equipment": Variable(("equipment",), "whether the machine has its damper"),
     "envelope": Variable(
         ("equipment", "window"),
-        "largest displacement in a cycle, or in a free period",
+        "largest displacement in a cycle or, without forcing, in a period of the unforced "
+        "vibration",
         quantity="displacement",
     ),
     "window_contacts": Variable(
-        ("equipment", "window"), "contacts begun in a cycle, or in a free period"
+        ("equipment", "window"),
+        "contacts begun in a cycle or, without forcing, in a period of the unforced vibration",
     ),
     "transient_status": Variable(("equipment",), "how the transient ended", flags=ENDS),
 }

@@ -1,4 +1,4 @@
-"""Entry of the registry, and the flags that several variables share."""
+"""Entry of the registry, and flags used by several variables."""
 
 from typing import NamedTuple
 
@@ -48,8 +48,8 @@ OUTCOME = {
 }
 MINIMUM = {"not_found": 0, "smooth": 1, "kink": 2, "jump": 3, "edge": 4}
 # Kinds of motions with the damper. A motion of period 1 is quiet if its largest displacement is
-# below the quiet limit, half of that of the free resonance motion, and violent otherwise. A motion
-# of another period is a subharmonic, whatever its size.
+# below the quiet limit, half the displacement of the free resonance, and violent otherwise. A
+# motion of another period is a subharmonic, whatever its size.
 DAMPED_MOTION = {"none": -1, "unsettled": 0, "quiet": 1, "violent": 2, "subharmonic": 3}
 FREE_MOTION = {
     "none": -1,
