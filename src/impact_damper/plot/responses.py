@@ -11,7 +11,7 @@ from impact_damper.figures.style import BLUE, ROLES, axis_label, tex
 from impact_damper.plot.drawing import axes_for, dataset_in, datasets_in, key, looks
 from impact_damper.system.parameters import SYMBOLS
 
-# A sweep of steady motions.
+# Look of the settled motions in a sweep of steady motions.
 SETTLED = {
     "label": "settled",
     "color": BLUE,

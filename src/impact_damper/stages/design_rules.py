@@ -32,7 +32,7 @@ MOST_STEPS = 40
 PRECISION = 1e-8
 # A minimum is smooth or a kink. A small step (CLOSE) away from the minimum decides: as the step is
 # halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at a kink.
-# KINK lies in between.
+# KINK is the limit between these two fractions.
 CLOSE, KINK = 1e-3, 0.36
 # Displacement assigned where the motion does not exist, because the search needs a number.
 ABSENT = 1e3
@@ -63,9 +63,10 @@ def design_rules(
 
         - balance, equation (18): 1;
         - gap_harmonic, pi^2/8: (18) for a loose mass that crosses the gap in straight flight;
-        - straight_flight: rigid walls, neither damping nor stiffness;
-        - elastic: `straight_flight.elastic_ratios`, explicit, absent for e < 1;
-        - flight: `straight_flight.Flight` with all corrections.
+        - straight_flight: straight flight between rigid walls, for a machine without damping and
+          stiffness;
+        - elastic: the explicit formula of `straight_flight.elastic_ratios`, NaN for e < 1;
+        - flight: straight flight with all corrections, `straight_flight.Flight`.
 
     Raises
     ------
@@ -220,8 +221,8 @@ class QuietMotion:
 def first_harmonic(p, y) -> complex:
     """Return the complex amplitude c of Re(c exp(i W T)) in Z1.
 
-    The integral over one period is computed by the trapezoidal rule. Where Z1 has a kink the error
-    is of second order in the step, below 1e-5 of the contribution of an impact.
+    The integral over one period is computed by the trapezoidal rule. At an impact Z1 has a kink,
+    and the error is of second order in the step: below 1e-5 of the part of c that the impact adds.
 
     Parameters
     ----------

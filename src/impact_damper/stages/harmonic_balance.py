@@ -36,7 +36,7 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     Returns
     -------
     float
-        Clearance on each side, half the free space.
+        Clearance on each side, half the gap.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
 
 
 def harmonic_balance(oscillator, damper, frequencies):
-    """Return `harmonic_balance_response`, with a damper joined with its `suppression_band`."""
+    """Return `harmonic_balance_response` and, with a damper, `suppression_band` in one dataset."""
     response = harmonic_balance_response(oscillator, damper, frequencies)
     if damper is None:
         return response
@@ -79,8 +79,8 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     xarray.Dataset
         For each (frequency, free_solution) a motion without the damper. With a damper also, for
         each (frequency, solution), a solution of (7) or a motion in which the loose mass rests. The
-        stability of the latter follows from the free slow flow, because any place of the loose mass
-        is an equilibrium. For each (frequency, root) a root of (14). Each index of these dimensions
+        stability of such a motion follows from the free slow flow, because the loose mass may rest
+        at any place. For each (frequency, root) a root of (14). Each index of these dimensions
         is a branch, continuous over frequency from fold to fold, so that
         `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not exist,
         entries are NaN or flagged absent. The number of solutions is given for each frequency.

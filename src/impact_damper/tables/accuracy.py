@@ -50,7 +50,8 @@ SHOWN = {
         "relative error": "relative error",
     },
 }
-# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
+# For each column a function from the text of a cell to the text shown. In the cells of other
+# columns underscores become spaces.
 CELLS = {"method": method_in_words}
 
 

@@ -35,7 +35,8 @@ SHOWN = {
         "upper": "upper end of its 95 % interval",
     },
 }
-# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
+# For each column a function from the text of a cell to the text shown. In the cells of other
+# columns underscores become spaces.
 TRUTHS = {
     "high": "violent",
     "high chaotic": "violent and chaotic",

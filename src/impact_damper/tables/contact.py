@@ -55,7 +55,8 @@ def _counts(name, values):
     return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
 
 
-# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
+# For each column a function from the text of a cell to the text shown. In the cells of other
+# columns underscores become spaces.
 EXITS = {
     "zero_penetration": "at zero penetration, as in appendix B",
     "no_tension": "at zero force, without pull",

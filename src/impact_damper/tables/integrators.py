@@ -46,7 +46,8 @@ SHOWN = {
         for label in COMPARED["method_verdicts"]
     },
 }
-# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
+# For each column a function from the text of a cell to the text shown. In the cells of other
+# columns underscores become spaces.
 CELLS = {"method": method_in_words, "scene": lambda cell: CASES.get(cell, in_words(cell))}
 
 

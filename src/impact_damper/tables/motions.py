@@ -87,7 +87,8 @@ SHOWN = {
         "not seen, at most": "bound on the share of a motion not seen",
     },
 }
-# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
+# For each column a function from the text of a cell to the text shown. In the cells of other
+# columns underscores become spaces.
 STAGES = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",

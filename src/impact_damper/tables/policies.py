@@ -67,7 +67,8 @@ POLICIES = {
     "state": "state in the goal's basin",
     "clairvoyant": "future known",
 }
-# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
+# For each column a function from the text of a cell to the text shown. In the cells of other
+# columns underscores become spaces.
 CELLS = {"policy": lambda cell: POLICIES.get(cell, cell)}
 SYMBOLS = {"rm": "mass_ratio", "d0": "clearance", "e": "restitution"}
 

@@ -26,8 +26,8 @@ SHOWN = {
         "e": "restitution e",
         "lower edge, balance": "lower edge Ω by harmonic balance",
         "upper edge, balance": "upper edge Ω by harmonic balance",
-        "lower edge, motions": "lower edge Ω by the motions",
-        "upper edge, motions": "upper edge Ω by the motions",
+        "lower edge, motions": "lower edge Ω by the motions found",
+        "upper edge, motions": "upper edge Ω by the motions found",
     },
     "subharmonic": {
         "data": "curve",
@@ -58,12 +58,13 @@ SHOWN = {
         "W": "forcing frequency Ω",
         "event": "event",
         "max |Z1|": "displacement max |Z1|",
-        "walls before": "walls touched before",
-        "walls after": "walls touched after",
+        "walls before": "order of the walls touched, before it",
+        "walls after": "order of the walls touched, after it",
         "least speed of contact": "least speed at which a contact begins",
     },
 }
-# Maps the text of a cell to the words shown, by column; other cells lose their underscores.
+# For each column a function from the text of a cell to the text shown. In the cells of other
+# columns underscores become spaces.
 CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
 
 
