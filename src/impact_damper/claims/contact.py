@@ -18,9 +18,10 @@ def duration(restitution):
 def pull_free_error(restitution):
     """Relative excess of the realised restitution over e if the contact ends at zero force.
 
-    With the damping ratio z and the damped frequency wd, the force -y'' vanishes at wd t =
-    pi - 2 asin(z), when the penetration y is still positive. In the paper's model the contact lasts
-    until y = 0, and in between the wall pulls.
+    Let y be the penetration, z the damping ratio and wd the damped frequency of an isolated
+    contact. The force of the wall, which is -y'', vanishes at wd t = pi - 2 asin(z), when y is
+    still positive. In the paper's model the contact lasts until y = 0. Between these two times the
+    wall pulls.
     """
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * duration(restitution)) - 1

@@ -5,7 +5,7 @@ import numpy as np
 from impact_damper.claims import extract
 from impact_damper.data.datasets import damper_of, flag, oscillator_of
 
-# Least share of releases or runs that shows that something can happen.
+# An outcome counts as possible if at least this share of the releases or runs leads to it.
 LEAST = 0.01
 
 SHARES = ("state", "hold", "phase", "settled", "clairvoyant")

@@ -1,7 +1,7 @@
 """Generate LLVM code for arithmetic on numbers and on pairs of numbers.
 
-The code works on several lanes at once; a lane holds one trajectory. Its caller is the compiler in
-`straight_lines`.
+The code works on several lanes at once. A lane holds one of several trajectories that are
+integrated side by side. `straight_lines` calls this module.
 """
 
 from functools import partial

@@ -1,8 +1,10 @@
 """Compile lines of arithmetic without branches ("straight lines") without numba's type inference.
 
 All values are floats or pairs of floats, so the LLVM code can be written directly. The type
-inference of numba would take a millisecond for each operation, and the series of a step have
-thousands of operations. `lane_values` writes the LLVM code of each operation.
+inference of numba would take a millisecond for each operation, and the Taylor series of an
+integration step have thousands of operations. `lane_values` writes the LLVM code of each operation.
+A lane holds one of several trajectories that are integrated side by side; the same lines are
+executed for each lane.
 """
 
 import ast
@@ -87,7 +89,8 @@ def write(function, builder, pointers):
     lines.lanes, lines.width = lanes, min(lanes, WIDTH)
     lines.arithmetic = Arithmetic(builder, lines.width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
-    # For one round no loop is written, because LLVM would move stores behind the end of the loop.
+    # If one vector holds all lanes, no loop is written, because LLVM would move stores behind the
+    # end of the loop.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         for statement in loop.body:

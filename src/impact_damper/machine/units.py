@@ -210,7 +210,7 @@ def physical(quantity, **others):
 def convert(part) -> None:
     """Replace the fields of a frozen dataclass made by `physical` by numbers in SI units.
 
-    None stays where it is the default.
+    A field whose default is None may keep the value None.
 
     Raises
     ------

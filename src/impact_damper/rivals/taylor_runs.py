@@ -2,9 +2,9 @@
 
 There are three kinds of steps: in flight, in flight until a contact begins, and in contact. The
 counted work of a run is the sum over the kinds of the number of steps times the operations of such
-a step (`operations.operations`). The operations include the generated code of the series. They do
-not include the search for an unexpected contact and the repetitions in searches, because few steps
-need these.
+a step (`operations.operations`), including the operations of the Taylor series. The operations do
+not include the search for a contact that the step did not expect, and repeated iterations of a
+search, because few steps need these.
 """
 
 import math
@@ -78,7 +78,8 @@ def steps_of(orders):
     """Return the first argument of `take_steps` for series of these orders.
 
     It is an array with the addresses of three compiled functions and the size of a workspace. The
-    functions take a step in flight, take a step in contact, and fill the constant series.
+    functions take a step in flight, take a step in contact, and compute the series that are the
+    same in all steps (`kernel.series`).
     """
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
@@ -149,7 +150,10 @@ def steps_work(counts, tangents=0, orders=ORDERS):
 
 @cache
 def step_work(kind, tangents=0, orders=ORDERS):
-    """Return the number of operations of one step of a kind with a number of tangents."""
+    """Return the number of operations of one step of a kind.
+
+    The step also integrates `tangents` solutions of the variational equations.
+    """
     module = instance(1, *orders)
     unexpected = module.search_contact, module.guess_contact, module.meet_expected
     if kind == CONTACT:

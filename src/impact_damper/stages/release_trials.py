@@ -22,7 +22,7 @@ def free_case(oscillator, frequency, cells, settling, workers) -> FreeCase:
     Raises
     ------
     ValueError
-        If it lacks the non-resonance or the resonance motion.
+        If the free oscillator does not have both a non-resonance and a resonance motion.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)

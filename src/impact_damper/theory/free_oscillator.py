@@ -1,8 +1,9 @@
 """Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
 
-a is the amplitude and t1 the phase of the primary mass. Let wl be the linear frequency, g = (3/4)
-k3, and f = F + U W^2 + V/W^2 the forcing amplitude (V = 0 unless k3 = 0). Then equation (3) without
-contact gives
+a is the amplitude and t1 the phase of the primary mass. The parameters h (damping), wl (linear
+frequency), k3 (cubic spring), F, U and V (forcing) are those of `system.parameters.Oscillator`, and
+W is the forcing frequency. Let g = (3/4) k3, and let f = F + U W^2 + V/W^2 be the forcing amplitude
+(V = 0 unless k3 = 0). Then equation (3) of the paper without contact gives
 
     (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2.
 
@@ -147,9 +148,9 @@ def maximum_response(oscillator) -> Point:
 
         (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0,   m = wl^2 + g a^2.
 
-    At the maximum the two roots coincide. Then the discriminant of this equation vanishes, which is
-    a quadratic equation in a^2. With V > 0 the response also grows without limit towards W = 0; the
-    function then returns the local maximum at resonance.
+    At the maximum the two roots coincide, so the discriminant of this equation is zero. The
+    discriminant is a quadratic polynomial in a^2. With V > 0 the response also grows without limit
+    towards W = 0, and the function returns the local maximum at resonance.
 
     Raises
     ------
