@@ -26,7 +26,7 @@ MOST_IMPACTS = 200
 
 @kernel
 def rebound(p, restitution, y, tangents, t):
-    """Apply an instantaneous impact to a state y and to tangents, in place.
+    """Apply an instantaneous impact to a state y and to small changes of the state, in place.
 
     The saltation matrix S maps a small change d of the state before the impact to the change after
     it. Each row of `tangents` is such a d. With k = (1 + e)/(1 + 1/rm) and the acceleration a of Z1

@@ -148,7 +148,7 @@ class Source(Writer):
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
 
     def tangent_value(self, phase):
-        """Return a kernel that evaluates a tangent, a variation of the trajectory, at T."""
+        """Return a kernel that evaluates a tangent (solution of the variational equations) at T."""
         lines = [*self._time("T", phase)]
         for number, name in enumerate(self.moving(phase)):
             terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]

@@ -46,7 +46,7 @@ def bound_steps(module):
     -------
     list of numba.types.ExternalFunction
         The step in flight, the step in contact, and for each of them the kernel that integrates
-        tangents over the step.
+        tangents (solutions of the variational equations) over the step.
     """
     steps = (
         module.flight_step,

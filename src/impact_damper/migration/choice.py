@@ -1,7 +1,8 @@
 """Choose the parameters hold and phase of release policies such that the goal is reached soonest.
 
-A hold is a time with the damper on, which ends with a release (switching the damper off). The
-choice takes two steps, with random numbers that are independent of those of the final trials.
+A hold is a time with the damper on, which ends with a release (switching the damper off). The goal
+is that the motion without the damper settles to the free non-resonance motion. The choice takes two
+steps, with random numbers that are independent of those of the final trials.
 First, holds are recorded, and the free motions after releases at all candidate moments are labelled
 by where they settle. If a hold with the release takes c forcing cycles on average and leads to the
 goal with probability q, the goal is reached after c/q cycles on average. Second, the candidates
@@ -54,7 +55,7 @@ def best_policy(on, free, candidates, trials, limit, seed):
 
 
 def expected_cycles(on, free, trials, seed):
-    """Return estimates of the forcing cycles until the goal for holds that begin on the resonance.
+    """Return estimates of the forcing cycles from a free resonance motion until the goal.
 
     Returns
     -------

@@ -1,13 +1,14 @@
 """The clairvoyant bound: the earliest arrival at the goal if state and future are known exactly.
 
-A hold is a time with the damper on, which ends with a release (switching the damper off). A trial
-of the clairvoyant controller uses the same random numbers as a trial of a policy: in its n-th hold
-the damper is switched on at the same phase, with the loose mass at the same place. The controller
-knows the motion with the damper on, and it knows where the free motion settles after each release.
-In each hold it examines all moments with phases of an even grid. The release with the earliest
-arrival at the goal counts. To look for earlier arrivals in further holds, the controller ends the
-hold after one to two forcing cycles, at the moment after which the free motion settles soonest on
-another motion than the goal, and switches the damper on again.
+The goal is the free non-resonance motion. A hold is a time with the damper on, which ends with a
+release (switching the damper off). A trial of the clairvoyant controller uses the same random
+numbers as a trial of a policy: in its n-th hold the damper is switched on at the same phase, with
+the loose mass at the same place. The controller knows the motion with the damper on, and it knows
+where the free motion settles after each release. In each hold it examines all moments with phases
+of an even grid. The release with the earliest arrival at the goal counts. To look for earlier
+arrivals in further holds, the controller ends the hold after one to two forcing cycles, at the
+moment after which the free motion settles soonest on another motion than the goal, and switches the
+damper on again.
 
 Noise on the measured state does not affect this controller. It compensates a known delay by an
 earlier order to release.

@@ -1,9 +1,11 @@
 """Motions that releases of the damper lead to, and lifetimes of the violent motion (section 5).
 
 Release means switching the damper off. Before a release, the damper is switched on while the free
-oscillator is on its resonance branch, at a phase of the forcing that is drawn uniformly. At this
+oscillator is in its resonance motion, at a phase of the forcing that is drawn uniformly. At this
 time the loose mass is at rest relative to the primary mass, at a place in the gap that is drawn
-uniformly, as if a clamp had held it there.
+uniformly, as if a clamp had held it there. After this the motion can be irregular for many cycles
+before it settles to an orbit. This part is the violent motion, and its length is the lifetime. A
+strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2.
 """
 
 from dataclasses import replace

@@ -1,4 +1,7 @@
-"""The free oscillator at one frequency with its goal, by which releases are judged."""
+"""The free oscillator at one frequency, and the free motions to which releases lead.
+
+The goal of a release is the free non-resonance motion.
+"""
 
 import math
 from typing import NamedTuple
@@ -57,7 +60,7 @@ class FreeCase(NamedTuple):
         return label_states(self.p, states, phase, *settings)
 
     def strobe_states(self, labels, draws):
-        """Return for each label a state Z1, Z1' of its attractor at a strobe.
+        """Return for each label a state Z1, Z1' of its attractor at a strobe (W T = pi/2).
 
         An attractor of period n has n such states. `draws` are numbers between 0 and 1 that select
         one of them.

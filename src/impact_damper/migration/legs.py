@@ -1,9 +1,10 @@
 """Legs of a run of migration control: the motions between two switchings of the damper.
 
 A leg begins when the damper is switched, at any phase of the forcing. Z1 and Z1' are continuous at
-the switching. A leg ends at the first strobe (`motions.strobe_map`) at which the motion is near a
-stable orbit, or after a given number of strobes. The state is not moved onto this orbit, so that a
-run is one continuous motion.
+the switching. A leg ends at the first strobe at which the motion is near a stable orbit, or after a
+given number of strobes. A strobe is the time in each forcing cycle at which the forcing has the
+phase W T = pi/2 (`motions.strobe_map`). The state is not moved onto the orbit, so that a run is one
+continuous motion.
 """
 
 import math

@@ -2,9 +2,10 @@
 
 Release means switching the damper off. A trial begins on the free resonance motion. The damper is
 switched on at a random phase, with the loose mass at rest relative to the primary mass at a random
-place in the gap. It is released when the policy decides so. Then the free motion settles. If it
-settles to a motion other than the goal, the trial continues with another hold from this motion. A
-hold is the time with the damper on. The policies release
+place in the gap. It is released when the policy decides so. Then the free motion settles. The goal
+is the free non-resonance motion. If the free motion settles to another motion than the goal, the
+trial continues with another hold from this motion. A hold is the time with the damper on. A strobe
+is a time at which the forcing has the phase W T = pi/2. The policies release
 
     settled  at a random phase, after the states at the strobes repeat: the paper's policy
     hold     after a fixed number of forcing cycles

@@ -68,7 +68,7 @@ def free_motions(oscillator, frequency, settling) -> FreeMotions:
         course = _course(p, record["state"], int(record["period"]) or settling.watched)
         largest = max(largest, record["maximum_displacement"])
         fastest = max(fastest, np.max(np.abs(course[:, 1])))
-        # T = 0 is three quarters of a cycle after the strobe.
+        # The state is recorded at the phase W T = pi/2. T = 0 is three quarters of a cycle later.
         states.append(course[3 * SAMPLES // 4 :: SAMPLES, :2][:MOST_STATES])
     return FreeMotions(np.concatenate(states or [[(0.0, 0.0)]]), float(largest), float(fastest))
 
@@ -82,7 +82,7 @@ def _peak_amplitude(oscillator):
 
 
 def _course(p, state, periods):
-    """Return samples of a free motion over `periods` cycles from a state at the strobe."""
+    """Return samples of a free motion over `periods` cycles from a state at W T = pi/2."""
     begin = strobe_map.strobe_time(p)
     period = 2 * np.pi / p[FREQUENCY]
     times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES

@@ -37,7 +37,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     outcomes : array, shape (n, m)
         Flags `outcome` of the motions at each value of the parameter.
     states : array, shape (n, m, 4)
-        States of the motions at the strobe.
+        States of the motions at the strobe, W T = pi/2.
     runs, periods : int
         Number of runs of each chaotic motion, and forcing cycles of a run.
     seed : int

@@ -53,7 +53,7 @@ def add_orbits(catalogues, loose, settling, workers) -> None:
 
 
 def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
-    """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
+    """Return states at the strobe (W T = pi/2), shape (k, 4), on stable orbits with contacts.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ NEVER = np.zeros(1, bool)
 # multiplier       dominant Floquet multiplier of the orbit
 # residual         largest difference between the state and the state a period later
 # first_frequency, second_frequency, frequency_error: of a quasi-periodic motion
-# state            last state at the strobe, of a settled motion the state on the orbit
+# state            last state at the strobe (W T = pi/2), of a settled motion the state on the orbit
 # reach            largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe in the second half of the run
 MOTION = np.dtype(
     [

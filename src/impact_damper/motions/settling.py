@@ -1,4 +1,7 @@
-"""Run many motions side by side until they settle. `watch` judges each motion at every strobe."""
+"""Run many motions side by side until they settle.
+
+`watch` judges each motion at every strobe, the time of the phase W T = pi/2 in a forcing cycle.
+"""
 
 import math
 

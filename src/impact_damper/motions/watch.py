@@ -1,6 +1,7 @@
-"""Judge a motion at each strobe: whether it has settled to a stable orbit, or is chaotic.
+"""Judge a motion once in each forcing cycle: whether it has settled to an orbit, or is chaotic.
 
-When a motion settles to an orbit of period n, the distances between states n cycles apart decrease
+The judgement is at the strobe, the time at which the forcing has the phase W T = pi/2. When a
+motion settles to an orbit of period n, the distances between states n cycles apart decrease
 geometrically. Once the sum of the remaining geometric series is small, Newton's method on the map
 over n cycles, with its exact derivative, moves the state onto the orbit. The motion has settled if
 this orbit is close and stable. By this test a slow passage near a fold, during which states hardly
@@ -50,8 +51,8 @@ REST = 1e-9
 # Data of one motion while it runs. index: its number. strobes: number of strobes so far. untouched:
 # number of successive forcing cycles without contact. near: distance from an orbit at which
 # Newton's method is tried next. energy: without forcing, the energy at the first strobe. The other
-# fields belong to the growth of the tangent (`growth`): number of cycles, growth in the present
-# batch, and mean, sum of squares and last values of complete batches.
+# fields belong to the growth of a small change of the state (`growth`): number of cycles, growth in
+# the present batch, and mean, sum of squares and last values of complete batches.
 SEEN = np.dtype(
     [
         ("index", "i8"),

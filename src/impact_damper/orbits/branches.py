@@ -21,7 +21,8 @@ from impact_damper.orbits.orbit import Orbit
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
-# Two orbits at the same parameter are the same if their strobe states differ by less than SAME.
+# Two orbits at the same parameter are the same if their states at W T = pi/2 differ by less than
+# SAME.
 SAME = 1e-5
 # `Branch.holds` compares an orbit with the orbits of a step only if max |Z1| on the step comes
 # within NEARBY of max |Z1| of the orbit.

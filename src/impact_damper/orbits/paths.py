@@ -1,8 +1,9 @@
 """Motions with their derivatives by the first state, at all times.
 
-Each step of the integrator has the Taylor series of the motion and of its tangents, accurate to the
-tolerance of the integration. The series are evaluated at Chebyshev points of the step. Polynomials
-through these points give values and integrals at all times.
+Each step of the integrator has the Taylor series of the motion and of its tangents (the derivatives
+of the state by the first state), accurate to the tolerance of the integration. The series are
+evaluated at Chebyshev points of the step. Polynomials through these points give values and
+integrals at all times.
 """
 
 from dataclasses import dataclass

@@ -137,7 +137,10 @@ class Chain:
 
 
 def _advance(p, state, tangents, begin, end):
-    """Integrate a state and tangents in place between two phases; return the time in contact."""
+    """Integrate a state and solutions `tangents` of the variational equations between two phases.
+
+    Both are changed in place. The time in contact is returned.
+    """
     times = begin / p[FREQUENCY], end / p[FREQUENCY]
     side = side_of(p, state)
     return advance(p, state, tangents, side, *times, POLISH_TOLERANCE, workspace())[2]

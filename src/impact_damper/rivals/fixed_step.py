@@ -120,8 +120,8 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     steps : int
         Steps in a forcing cycle.
     strobes, largest : array, shapes (n, 4) and (n,)
-        Receive the state after each of n cycles and the largest |Z1| in each cycle. If the run
-        diverges (`BEYOND`), the entries from this cycle on are NaN.
+        Receive the state at the end of each of n cycles and the largest |Z1| in each cycle. If the
+        run diverges (`BEYOND`), the entries from this cycle on are NaN.
     """
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])

@@ -8,16 +8,15 @@ which favours the model. The counted work of a model is its number of floating-p
   its derivative, with 10 n^3 operations for n eigenvalues, and a root by bracketing between
   extrema.
 - Full balance (7): BALANCE_EVALUATIONS evaluations of the equation with BALANCE_OPERATIONS each,
-  and
-  the eigenvalues of a companion matrix of degree BALANCE_DEGREE. These numbers were measured in the
-  search for all roots on the scenes. For the free oscillator, the eigenvalues for two cubics.
+  and the eigenvalues of a companion matrix of degree BALANCE_DEGREE. These numbers were measured in
+  the search for all roots on the scenes. For the free oscillator, the eigenvalues for two cubics.
 - Many harmonics: for each Newton step with n unknowns and N harmonics, 2/3 n^3 + 4 n^2 operations
   for the linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M
   values (two with M = 16 N and three with M = 4 N). The balances with fewer harmonics, whose
   solutions are first guesses, are included.
 - Rigid impacts and shooting: for each map over a cycle in Newton's method, the steps of the Taylor
-  series with four tangents. The balance with START_HARMONICS, whose solution is the first guess, is
-  included.
+  series with four solutions of the variational equations. The balance with START_HARMONICS, whose
+  solution is the first guess, is included.
 """
 
 import math

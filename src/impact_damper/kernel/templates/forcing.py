@@ -1,7 +1,7 @@
 """Cosine and sine of the forcing's phase at the beginning of a step, times its amplitude.
 
 This file is a template: `instances.instance` joins it with the other templates into one module. The
-template `step` explains the names in capitals.
+template `step` explains the names in capitals and the word lane.
 """
 
 import math

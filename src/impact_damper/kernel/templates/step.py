@@ -6,11 +6,13 @@ a contact, which the template `contact` searches for, or the end of a contact, w
 `separation` searches for.
 
 The files in this folder are templates. `instances.instance` joins them into one module for a number
-of lanes and a pair of orders. The module begins with the constants declared below and with the
-functions that `evaluation.Source` writes. All numbers stand in flat arrays, `a` for trajectories
-and `d` for tangents. A name in capitals, such as Y0, is the index at which a row begins
-(`series.rows`), and a[Y0 + i] is the number of lane i in this row. No lane reads the numbers of
-another lane, so the result for a trajectory does not depend on the other trajectories.
+of lanes (trajectories side by side) and a pair of orders of the Taylor series, in flight and in
+contact. The module begins with the constants declared below and with the functions that
+`evaluation.Source` writes. All numbers stand in flat arrays, `a` for trajectories and `d` for
+tangents (solutions of the variational equations). A name in capitals, such as Y0, is the index at
+which a row begins (`series.rows`), and a[Y0 + i] is the number of lane i in this row. No lane reads
+the numbers of another lane, so the result for a trajectory does not depend on the other
+trajectories.
 """
 
 import math
