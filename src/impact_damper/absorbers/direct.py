@@ -27,14 +27,16 @@ from impact_damper.motions.smooth_runs import (
 # First grid of the search. TUNINGS: number of natural frequencies of the absorber, which go from
 # LOWEST times the lowest frequency of the band to its highest frequency. DAMPINGS: ratios of the
 # damping to 2 m w, with the middle frequency w of the band. CUBICS: ratios of the cubic stiffness
-# to `tuned_cubic`. A second grid combines the exact absorber with each of CUBICS. COARSE and FINE:
+# to `tuned_cubic`. A second grid, if the machine has a linear stiffness, combines stiffness and
+# damping that are best for a linear spring (`exact_absorber`) with each of CUBICS. COARSE and FINE:
 # numbers of forcing frequencies on the grids, and in the refinement of the best grid points.
 TUNINGS, LOWEST = 16, 0.3
 DAMPINGS = np.geomspace(0.03, 0.5, 5)
 CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
 COARSE, FINE = 25, 45
 # With MARGIN times the machine's force the largest displacement should be at most MOST_RISE times
-# as large. If it is larger, a detached resonance begins at a force near that of the machine. The
+# the largest displacement with the machine's force. If it is larger, a branch of large motions that
+# is detached from the resonance curve begins at a force near that of the machine. The
 # balance predicts this force with an error of some per cent, so the larger displacement is then
 # minimised.
 MARGIN, MOST_RISE = 1.1, 1.3

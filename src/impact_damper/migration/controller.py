@@ -23,9 +23,10 @@ from impact_damper.system.packed import FREQUENCY
 MARGIN = 10
 # Number of samples of a course in a forcing cycle.
 SAMPLES = 40
-# One switching of the damper. Times are in forcing cycles from the first strobe: damper on, damper
-# off, and end of the free motion that follows. Then period and max |Z1| of the released motion, and
-# the flag and max |Z1| of the free motion that is reached.
+# The damper is switched on and off once. Times are in forcing cycles from the first strobe: when
+# the damper is switched on, when it is switched off, and when the free motion that follows has
+# settled. Then period and max |Z1| of the motion with the damper, and the flag
+# (`damper_release.DESTINATIONS`) and max |Z1| of the free motion that is reached.
 SWITCHING = np.dtype(
     [
         ("on_time", "f8"),

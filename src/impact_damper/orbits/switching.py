@@ -1,8 +1,10 @@
 """Switch to the branch that leaves where an orbit loses its symmetry or doubles its period.
 
-At such a point the derivative of the equations for the less symmetric or longer orbits has two null
-vectors. On the branch that leaves, the parameter changes with the square of the distance from the
-point. The branch therefore leaves along the null vector without a change of the parameter.
+The orbits of the other branch are not symmetric, or have twice the period. They solve other
+equations than the orbits of the first branch. At the point where the branches meet, the matrix of
+derivatives of these equations has two null vectors. On the other branch, the parameter changes with
+the square of the distance from the point. This branch therefore begins in the direction of the
+combination of the null vectors that does not change the parameter.
 """
 
 import numpy as np
@@ -10,8 +12,9 @@ import numpy as np
 from impact_damper.orbits.continuation import SYMMETRIC, Point, Problem
 from impact_damper.orbits.shooting import shoot
 
-# DISTANCES: distances from the bifurcation at which an orbit is searched for. ASIDE: largest
-# correction of the first guess, divided by the distance.
+# DISTANCES: distances from the bifurcation at which an orbit of the other branch is searched for,
+# one after the other. ASIDE: largest distance between the first guess and the orbit found by
+# Newton's method, divided by the distance from the bifurcation.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4), 0.5
 LEAVING = ("symmetry_breaking", "period_doubling")
 
