@@ -36,9 +36,8 @@ CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
 COARSE, FINE = 25, 45
 # With MARGIN times the machine's force the largest displacement should be at most MOST_RISE times
 # the largest displacement with the machine's force. If it is larger, a branch of large motions that
-# is detached from the resonance curve begins at a force near that of the machine. The
-# balance predicts this force with an error of some per cent, so the larger displacement is then
-# minimised.
+# is detached from the resonance curve begins at a force near that of the machine. The balance
+# predicts this force with an error of some per cent, so the larger displacement is then minimised.
 MARGIN, MOST_RISE = 1.1, 1.3
 # Number of points of each grid that are refined, and tolerance of the logarithms of the unknowns.
 REFINED = 2

@@ -21,7 +21,9 @@ SPAN = 0.6, 1.4
 
 
 def basin_shares(starts, seed, settling):
-    """Compare the shares of random starts that lead to the five motions of bSTAB.
+    """Compare the shares of random starts that lead to five motions with those published by bSTAB.
+
+    bSTAB is a program that computes basins (`literature.basin_shares`).
 
     Parameters
     ----------
@@ -118,7 +120,7 @@ def jump_frequencies(springs, damping_ratios, peak):
 
 
 def _folds(damping_ratio, cubic, force):
-    """Return the frequencies of the two folds of the response, first of the large motion."""
+    """Return the frequencies at which the large and the small motion end, in this order."""
     oscillator = Oscillator(2 * damping_ratio, 1.0, cubic=cubic, force=force)
     begin = SPAN[0]
     # The first guess is the linear response without damping, well below resonance, at W T = pi/2.

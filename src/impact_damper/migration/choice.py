@@ -2,11 +2,11 @@
 
 A hold is a time with the damper on, which ends with a release (switching the damper off). The goal
 is that the motion without the damper settles to the free non-resonance motion. The choice takes two
-steps, with random numbers that are independent of those of the final trials.
-First, holds are recorded, and the free motions after releases at all candidate moments are labelled
-by where they settle. If a hold with the release takes c forcing cycles on average and leads to the
-goal with probability q, the goal is reached after c/q cycles on average. Second, the candidates
-with the smallest c/q are run in full trials.
+steps, with random numbers that are independent of those of the final trials. First, holds are
+recorded, and the free motions after releases at all candidate moments are labelled by where they
+settle. If a hold with the release takes c forcing cycles on average and leads to the goal with
+probability q, the goal is reached after c/q cycles on average. Second, the candidates with the
+smallest c/q are run in full trials.
 """
 
 import math
@@ -70,7 +70,8 @@ def expected_cycles(on, free, trials, seed):
     limits = np.full(trials, HOLDS[-1] + 1.0)
     recording = record(on, free, starts, drawn[:, :DRAWS].copy(), limits)
     phases = recording.phases
-    # The first moment with each phase after each hold.
+    # For each length of a hold and each phase of the forcing: the first moment that has this phase
+    # after a hold of this length.
     moments = np.add.outer(phases * np.array(HOLDS), np.arange(phases))
     rows = np.repeat(np.arange(trials), moments.size)
     columns = np.tile(moments.ravel(), trials)

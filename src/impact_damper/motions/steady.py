@@ -75,7 +75,7 @@ def steady_motion(
 
 
 def before_strobe(start, frequency) -> float:
-    """Return a time shifted by whole forcing cycles into the cycle that ends with the strobe."""
+    """Return a time shifted by whole forcing cycles into the cycle that ends at W T = pi/2."""
     strobe, period = STROBE / frequency, 2 * np.pi / frequency
     moved = start - np.ceil((start - strobe) / period - 1e-9) * period
     return min(moved, strobe)

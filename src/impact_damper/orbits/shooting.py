@@ -24,8 +24,8 @@ NEAR = 1e-6
 # If the norm of the derivative of the map exceeds AMPLIFYING, single shooting is not accurate
 # enough.
 AMPLIFYING = 100.0
-# Multiple shooting: while a segment amplifies by more than ROUGH * `segments.AMPLIFIED`, the orbit
-# is cut again, at most CUTS times.
+# Multiple shooting: while the derivative of the map over a segment has a norm of more than
+# ROUGH * `segments.AMPLIFIED`, the orbit is cut again into segments, at most CUTS times.
 CUTS, ROUGH = 4, 4.0
 
 
@@ -124,7 +124,10 @@ def _newton(p, state, periods, phase):
 
 
 def orbit_of(chain, periods):
-    """Return the orbit of a `segments.Chain`, whose residual is the largest of its defects.
+    """Return the orbit of a `segments.Chain`.
+
+    The residual of the orbit is the largest defect of the chain, the difference between the end of
+    a segment and the beginning of the next segment.
 
     Parameters
     ----------

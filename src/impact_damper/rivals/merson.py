@@ -205,7 +205,7 @@ def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
 
 
 class Merson(FixedStep):
-    """Runge-Kutta-Merson with step control or, by the methods of `FixedStep`, with equal steps."""
+    """Runge-Kutta-Merson with step control; inherited methods of `FixedStep` use equal steps."""
 
     def __init__(self):
         super().__init__("merson")
