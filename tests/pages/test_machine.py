@@ -47,7 +47,7 @@ def test_both_forms_say_first_what_to_do():
         ({}, "Build it"),
         (
             {"choice": "needs_tolerance", "promise": "nominal_kept"},
-            "Build it, and hold the gap more closely than asked for",
+            "Build it, and hold the gap more closely than your tolerance",
         ),
         (
             {"choice": "least_worst", "promise": "none_made"},
@@ -56,7 +56,7 @@ def test_both_forms_say_first_what_to_do():
         ({"promise": "broken"}, "Do not build it: the check failed"),
         (
             {"promise": "nominal_kept"},
-            "Build it, and hold all values more closely than asked for",
+            "Build it, and hold all values more closely than your tolerances",
         ),
     ],
 )

@@ -6,7 +6,7 @@ from impact_damper.tables.machines import named
 
 ADVICE = {
     "robust": "Build it",
-    "needs_tolerance": "Build it, and hold the gap more closely than asked for",
+    "needs_tolerance": "Build it, and hold the gap more closely than your tolerance",
     "least_worst": "Do not build it for this band",
 }
 VERDICTS = {
@@ -29,7 +29,7 @@ def advice(data) -> str:
         return "Do not build it: the check failed"
     choice = named(data, "design_choice")
     if choice == "robust" and named(data, "promise") == "nominal_kept":
-        return "Build it, and hold all values more closely than asked for"
+        return "Build it, and hold all values more closely than your tolerances"
     larger = float(data["reached_displacement"].max()) > float(data["displacement_limit"])
     if choice != "least_worst" and larger:
         return f"{ADVICE[choice]}, and beware of a large motion beside the quiet one"

@@ -45,7 +45,7 @@ UNSTABLE = {
     "linestyle": (0, (1, 1.5)),
     "label": "quiet orbit, unstable",
 }
-ASKED = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (1, 1.2)), "label": "share asked for"}
+ASKED = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (1, 1.2)), "label": "share required"}
 BEST = STAR | {"label": "smallest stable quiet orbit"}
 
 

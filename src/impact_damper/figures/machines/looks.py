@@ -35,7 +35,7 @@ LIMIT = {
     "label": "quiet limit",
 }
 CHOSEN = {"color": VERMILION, "linewidth": 1.1, "label": "gap to build"}
-TOLERATED = {"facecolor": PALE_SKY, "linewidth": 0, "zorder": 0, "label": "its tolerance"}
+TOLERATED = {"facecolor": PALE_SKY, "linewidth": 0, "zorder": 0, "label": "tolerance of the gap"}
 CLIFF = {"color": ORANGE, "linewidth": 1.1, "linestyle": (0, (4, 2)), "label": "cliff"}
 STAR = {
     "color": BLACK,

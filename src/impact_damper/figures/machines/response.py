@@ -43,7 +43,7 @@ HIGH = {
     "marker": "_",
     "markersize": 6,
     "linestyle": "none",
-    "label": "95 % of its peaks below",
+    "label": "95 % of the peaks are below",
 }
 
 

@@ -13,7 +13,7 @@ quiet motions, with its 95 % interval. Vertical: largest displacement of any of 
 SAMPLES = {"color": BLUE, "marker": "o", "markersize": 3.2, "label": "sample of the tolerances"}
 CORNERS = {"color": ORANGE, "marker": "s", "markersize": 3.2, "label": "corner, new starts"}
 NOMINAL = STAR | {"label": "nominal, new starts"}
-ASKED = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (1, 1.2)), "label": "share asked for"}
+ASKED = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (1, 1.2)), "label": "share required"}
 BARS = {"linestyle": "none", "elinewidth": 0.6, "markerfacecolor": "none"}
 
 
