@@ -6,6 +6,7 @@ clairvoyant bound (`migration.clairvoyant`) is computed for comparison.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -25,7 +26,7 @@ from impact_damper.stages.release_trials import (
 )
 from impact_damper.system.bounds import RUNS_RANGE, SEED_RANGE, check_count
 from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.system.parameters import Oscillator, describe
+from impact_damper.system.parameters import describe
 from impact_damper.system.settling import check_settling
 
 POLICIES = ["settled", "hold", "phase", "state", "clairvoyant"]
@@ -219,12 +220,8 @@ def wrong_models(oscillator, frequency, cells, free):
     """Return cases with release sets of wrong models, keyed by factors of damping and force."""
     found = {}
     for damping, force in {each["model"] for each in DISTURBANCES.values() if "model" in each}:
-        wrong = Oscillator(
-            oscillator.damping * damping,
-            oscillator.linear_frequency,
-            oscillator.cubic,
-            oscillator.force * force,
-            oscillator.unbalance,
+        wrong = replace(
+            oscillator, damping=oscillator.damping * damping, force=oscillator.force * force
         )
         known = free_case(wrong, frequency, cells, free.settling, free.workers)
         found[damping, force] = free._replace(releases=known.releases)
