@@ -26,7 +26,7 @@ SUMMARY = {
 PROMISE = (
     "The machine then moves at most {limit:.3g} mm, instead of {bare:.3g} mm without the damper. "
     "At each frequency of the band at least {share} of all starts, however machine and loose mass "
-    "begin to move, end in such a quiet motion, at 95 % confidence."
+    "begin to move, lead to such a quiet motion, at 95 % confidence."
 )
 
 
