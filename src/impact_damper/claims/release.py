@@ -46,9 +46,10 @@ def scanned(datasets, case):
 
 
 def nearest_range(scan, kind, frequency):
-    """Part of a scan, nearest to a frequency, in which releases lead to both free motions.
+    """Return the part of a scan, nearest to a frequency, in which releases have both outcomes.
 
-    The part is a list of neighbouring entries of `scanned`; empty if there is none.
+    The outcomes are the non-resonance motion and the motion of period 3. The part is a list of
+    neighbouring entries of `scanned`; empty if there is none.
     """
     both = np.array([both_outcomes(releases, kind) for releases in scan], int)
     edges = np.flatnonzero(np.diff(both, prepend=0, append=0))
@@ -166,30 +167,34 @@ CLAIMS = (
             ),
             Measure(
                 "quiet_first",
-                "lowest W of the nearest range in which releases of the quiet motion lead to both",
+                "lowest W of the range, nearest to the W of the claim, in which some releases of "
+                "the quiet motion lead to the non-resonance branch and some to period 3",
             ),
             Measure("quiet_last", "highest W of this range"),
             Measure(
                 "quiet_least", "least share of releases to the non-resonance branch in this range"
             ),
-            Measure("quiet_most", "largest share of this kind"),
+            Measure(
+                "quiet_most", "largest share of releases to the non-resonance branch in this range"
+            ),
             Measure(
                 "longer_first",
-                "lowest scanned W at which a settled motion of a longer period leads to both, each "
-                "in 1 % of its releases at least",
+                "lowest scanned W at which a settled motion of a longer period leads to the "
+                "non-resonance branch and to period 3, each in 1 % of its releases at least",
             ),
-            Measure("longer_last", "highest scanned W of this kind"),
+            Measure("longer_last", "highest scanned W at which such a motion does so"),
             Measure("longer_least", "least share of its releases to period 3"),
             Measure("longer_most", "largest share of its releases to period 3"),
             Measure(
                 "unsettled_first",
-                "lowest scanned W at which releases of the unsettled motion lead to both",
+                "lowest scanned W at which releases of the unsettled motion lead to the "
+                "non-resonance branch and to period 3",
             ),
-            Measure("unsettled_last", "highest scanned W of this kind"),
+            Measure("unsettled_last", "highest scanned W at which they do so"),
             Measure(
                 "by_hold",
-                "share of runs to the non-resonance branch within 350 cycles, released after a "
-                "fixed number of cycles, the best one",
+                "share of runs to the non-resonance branch within 350 cycles, released after the "
+                "best fixed number of cycles",
             ),
             Measure("by_phase", "the same share, released at the best phase"),
         ),

@@ -6,7 +6,7 @@ import numpy as np
 
 
 class Comparison(NamedTuple):
-    """A published number, or the value of a published closed form, and the number of this package.
+    """A published number, or a value of a published closed form, beside this package's number.
 
     Attributes
     ----------
@@ -19,8 +19,8 @@ class Comparison(NamedTuple):
     reason : str
         Reason why the two numbers differ, a flag of the variable `difference_reason`.
     order : float
-        Exponent n of |ours - published| ~ parameter^n for the parameter that `reason` names; NaN if
-        this parameter is not varied.
+        Exponent n of |ours - published| ~ parameter^n , where `reason` names the parameter;
+        NaN if the parameter is not varied.
     limit : float
         `ours` extrapolated to the limit in which the closed form holds (rigid walls); NaN without
         extrapolation.

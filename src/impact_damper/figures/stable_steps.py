@@ -21,7 +21,7 @@ from impact_damper.rivals.methods import METHODS
 
 CAPTION = """
 Points: largest step with which a fixed-step method, started on the exact quiet orbit, keeps the
-largest displacement within 1 or 10 %. All smaller steps tested keep it too. The step is multiplied
+largest displacement within 1 or 10 %. All smaller steps tested do so too. The step is multiplied
 by the natural frequency of a contact. Dotted: limit of linear stability. No point: no step tested
 was small enough.
 """
@@ -37,7 +37,7 @@ LINES = {
 
 @style()
 def draw_stable_steps(*, stable_steps):
-    """Draw the largest step that keeps the motion against stiffness, a panel for each damper.
+    """Plot the largest step that keeps the motion over the contact stiffness, a panel a damper.
 
     Parameters
     ----------

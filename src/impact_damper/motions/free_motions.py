@@ -16,7 +16,7 @@ from impact_damper.theory.free_oscillator import balance_amplitudes, maximum_res
 # Number of phases at which starts with the amplitudes of harmonic balance are placed.
 PHASES = 6
 # SAMPLES: number of samples in a forcing cycle, from which the largest speed of a motion is taken.
-# MOST_STATES: largest number of states that are stored of one motion, which may be chaotic.
+# MOST_STATES: limit on the states stored of one motion, because a chaotic motion has no period.
 SAMPLES = 256
 MOST_STATES = 5
 
@@ -27,7 +27,7 @@ class FreeMotions(NamedTuple):
     Attributes
     ----------
     states : numpy.ndarray, shape (k, 2)
-        Z1, Z1' of each distinct motion at T = 0 and after each further forcing cycle of its period.
+        Z1, Z1' of each motion, once a forcing cycle until the motion repeats.
     displacement, speed : float
         Largest |Z1| and |Z1'| of all these motions.
     """

@@ -56,16 +56,18 @@ def design_rules(
     -------
     xarray.Dataset
         The criterion is the smallest max |Z1| or the smallest first harmonic of Z1. For each
-        criterion: rm W^2 d0/f at the optimum, the smallest value in units of f/W^2, the kind of
-        minimum, stability, and the modulus of the dominant Floquet multiplier. For each `rule`: the
-        ratio rm W^2 d0/f that it predicts, and the fraction by which max |Z1| there exceeds the
-        smallest max |Z1|. The rules:
+        criterion: rm W^2 d0/f at the optimum, its least value in units of f/W^2, the
+        kind of minimum, stability, and the modulus of the dominant Floquet multiplier. For each
+        `rule`: the ratio rm W^2 d0/f that it predicts, and the fraction by which max |Z1| there
+        exceeds the smallest max |Z1|. The rules:
 
         - balance, equation (18): 1;
-        - gap_harmonic, pi^2/8: (18) for a loose mass that crosses the gap in straight flight;
+        - gap_harmonic, pi^2/8: condition (18), derived again for a loose mass that crosses the gap
+          in straight flight;
         - straight_flight: straight flight between rigid walls, for a machine without damping and
           stiffness;
-        - elastic: the explicit formula of `straight_flight.elastic_ratios`, NaN for e < 1;
+        - elastic: the closed form `straight_flight.elastic_ratios`, which holds for e = 1 only;
+          NaN for e < 1;
         - flight: straight flight with all corrections, `straight_flight.Flight`.
 
     Raises
@@ -222,7 +224,7 @@ def first_harmonic(p, y) -> complex:
     """Return the complex amplitude c of Re(c exp(i W T)) in Z1.
 
     The integral over one period is computed by the trapezoidal rule. At an impact Z1 has a kink,
-    and the error is of second order in the step: below 1e-5 of the part of c that the impact adds.
+    and the error is of second order in the step: below 1e-5 of the change of c by this kink.
 
     Parameters
     ----------

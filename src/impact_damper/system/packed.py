@@ -99,7 +99,8 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
         raise ValueError(
             f"contact_stiffness = {damper.contact_stiffness:g}: with mass_ratio = "
             f"{damper.mass_ratio:g} and frequency = {frequency:g}: must be so small that the "
-            f"contact is at most {MOST_STIFF:g} times as fast as the forcing (steps of a contact)"
+            f"contact is at most {MOST_STIFF:g} times as fast as the forcing (otherwise a run "
+            f"takes too many steps)"
         )
     p[CLEARANCE] = damper.clearance
     p[CONTACT_STIFFNESS] = damper.contact_stiffness

@@ -15,7 +15,7 @@ from impact_damper.tables import clearance, responses
 
 INTEGRATORS = COMPARED["accuracy"]
 LABELS = INTEGRATORS + ORBIT_MODELS
-# Text of a required accuracy for each quantity, with a place for the largest error.
+# Text of a required accuracy for each quantity; `{:g}` takes the largest error allowed.
 WORDS = {
     "amplitude": "max |Z1|, relative error {:g}",
     "state": "state, error {:g}",
@@ -46,7 +46,7 @@ SHOWN = {
         "model": "model",
         "by the model": "value by the model",
         "by the motions": "value by the exact motions",
-        "or up to": "or, if uncertain, up to",
+        "or up to": "upper end, if uncertain",
         "relative error": "relative error",
     },
 }
@@ -96,7 +96,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the number of the run with the least work that meets the accuracy, None if none does.
+    """Return the index of the cheapest run that meets the accuracy, None if none does.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the number of the run of a method with the least error of max |Z1|.
+    """Return the index of the run of a method with the least error of max |Z1|.
 
     For a chaotic motion the error of the contacts per cycle decides. If no error is known, return
     the first run; if the method was not run, None.
