@@ -94,7 +94,7 @@ def test_table_and_figure(limit):
 
 
 def test_no_quiet_motion_is_told():
-    with pytest.raises(ArithmeticError, match="frequency = 0.3: no quiet motion"):
+    with pytest.raises(ArithmeticError, match="frequency = 0.3: none of 2 starts leads to"):
         rigid_limit(PAPER, DESIGN, 0.3, [0.3, 0.4], [1e3, 1e4], starts=2)
 
 
