@@ -9,7 +9,7 @@ from impact_damper.motions.ensemble import settle
 from impact_damper.orbits import switching
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.orbits.switching import other_branch
+from impact_damper.orbits.switching import met_branch, other_branch
 from impact_damper.system.packed import pack
 from impact_damper.system.settling import Settling
 
@@ -71,6 +71,17 @@ def test_doubled_motion_is_the_one_that_simulation_finds(doubling, monkeypatch):
     assert_allclose(
         end.orbit.record["maximum_displacement"], record["maximum_displacement"], rtol=1e-6
     )
+
+
+def test_the_branch_at_which_another_ends_is_the_one_that_it_left(doubling, monkeypatch):
+    event, family = doubling
+    monkeypatch.setattr(switching, "DISTANCES", (4e-3,))
+    other = other_branch(event)
+    branch = follow_branch(family, other.orbit, other.value, (event.point.value - 2e-3, 1.8))
+    edge = branch.ends.index("period_doubling")
+    met = met_branch(branch.points[-edge], "period_doubling")
+    assert met.orbit.periods == 1 and met.orbit.is_same(event.point.orbit, 1e-6)
+    assert_allclose(met.value, event.point.value, rtol=0, atol=1e-8)
 
 
 def test_other_events_are_refused(lost):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.single import (
     CONTACT_ORDER,
     FLIGHT_ORDER,
@@ -16,18 +16,28 @@ from impact_damper.motions.extrema import extremum
 
 
 @kernel
-def largest_displacement(p, y, t, end, tolerance):
-    """Return the largest |Z1| of a motion from the time t to `end`.
+def largest_displacement(p, states, times, tolerance):
+    """Return the largest |Z1| on all segments of a chain.
 
-    y, the state at t, is replaced by the last state.
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    states : array, shape (m, 4)
+        States at the beginnings; replaced by those at the ends.
+    times : array, shape (m + 1,)
+    tolerance : float
+        Local error allowed.
     """
-    work, none = workspace(), np.empty((0, 4))
-    side, largest = side_of(p, y), abs(y[0])
-    while t < end:
-        order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
-        length, side = step(p, y, none, side, t, end - t, tolerance, work)
-        largest = extremum(work[X:], order, length, largest)
-        t = end if length >= end - t else t + length
+    work, none, largest = workspace(), np.empty((0, 4)), 0.0
+    for k in range(len(states)):
+        y, t, end = states[k], times[k], times[k + 1]
+        side, largest = side_of(p, y), max(largest, abs(y[0]))
+        while t < end:
+            order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
+            length, side = step(p, y, none, side, t, end - t, tolerance, work)
+            largest = extremum(work[X:], order, length, largest)
+            t = end if length >= end - t else t + length
     return largest
 
 
@@ -57,7 +67,7 @@ def flow_all(p, states, tangents, times, tolerance):
     return touching
 
 
-@kernel
+@kernel_only
 def sweep(factors, basis, triangles):
     """Compute the QR factors of a product of matrices, A_k Q_(k-1) = Q_k R_k.
 
@@ -99,3 +109,79 @@ def sweep(factors, basis, triangles):
         for i in range(n):
             for j in range(n):
                 basis[i, j] = moved[i, j]
+
+
+@kernel
+def separate(factors, apart, sweeps, settled, blocks, cuts):
+    """Separate the eigenvalues of a product of matrices by modulus; return how many groups.
+
+    Orthogonal iteration makes the product block triangular. Its diagonal blocks hold the
+    eigenvalues of one group each.
+
+    Parameters
+    ----------
+    factors : array, shape (m, n, n)
+        The last factor is leftmost in the product.
+    apart : float
+        Groups are separated where moduli differ by more than this factor.
+    sweeps : int
+        Largest number of iterations.
+    settled : float
+        They end once the basis of each group changes by less.
+    blocks : array, shape (n, n)
+        Gets the diagonal blocks.
+    cuts : array of int, shape (n + 1,)
+        Gets the first row of each group, then n.
+    """
+    m, n = factors.shape[:2]
+    basis, first, turned = np.zeros((n, n)), np.empty((n, n)), np.empty((n, n))
+    triangles = np.empty((m, n, n))
+    groups = 0
+    for i in range(n):
+        basis[i, i] = 1.0
+    for _ in range(sweeps):
+        for i in range(n):
+            for j in range(n):
+                first[i, j] = basis[i, j]
+        sweep(factors, basis, triangles)
+        for i in range(n):
+            for j in range(n):
+                turned[i, j] = 0.0
+                for s in range(n):
+                    turned[i, j] += first[s, i] * basis[s, j]
+        groups, cuts[0], moved, before = 1, 0, 0.0, 0.0
+        for j in range(n):
+            size = 0.0
+            for k in range(m):
+                size += np.log(abs(triangles[k, j, j]) + 1e-300)
+            if j > 0 and before - size > np.log(apart):
+                cuts[groups] = j
+                groups += 1
+                for row in range(j, n):
+                    for column in range(j):
+                        moved = max(moved, abs(turned[row, column]))
+            before = size
+        cuts[groups] = n
+        if moved < settled:
+            break
+    product, next_product = np.empty((n, n)), np.empty((n, n))
+    for group in range(groups):
+        begin, end = cuts[group], cuts[group + 1]
+        for i in range(begin, end):
+            for j in range(begin, end):
+                product[i, j] = 1.0 if i == j else 0.0
+        for k in range(m):
+            for i in range(begin, end):
+                for j in range(begin, end):
+                    next_product[i, j] = 0.0
+                    for s in range(i, end):
+                        next_product[i, j] += triangles[k, i, s] * product[s, j]
+            for i in range(begin, end):
+                for j in range(begin, end):
+                    product[i, j] = next_product[i, j]
+        for i in range(begin, end):
+            for j in range(begin, end):
+                blocks[i, j] = 0.0
+                for s in range(begin, end):
+                    blocks[i, j] += turned[i, s] * product[s, j]
+    return groups

@@ -23,6 +23,8 @@ COMPLEX = 1e-6
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
+# Indices of all pairs of 2 or 4 multipliers.
+PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
 class Event(NamedTuple):
@@ -71,7 +73,7 @@ def _doubling(point):
 def _pairs(point):
     """Return the product of mu_i mu_j - 1 of all pairs, zero for a pair on the unit circle."""
     values = point.orbit.multipliers[: point.orbit.active]
-    first, second = np.triu_indices(len(values), 1)
+    first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
 
 
@@ -81,7 +83,7 @@ def _product(values):
     Numbers with a modulus above 1 are divided by their modulus, so that the product cannot
     overflow.
     """
-    return float(np.prod(values / np.maximum(1, np.abs(values))).real)
+    return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
 # For each kind of bifurcation the test function of a point, which is zero at the bifurcation, and

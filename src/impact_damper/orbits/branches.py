@@ -17,7 +17,6 @@ from impact_damper.orbits.continuation import (
     Problem,
 )
 from impact_damper.orbits.grazing import through_grazing
-from impact_damper.orbits.orbit import Orbit
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
@@ -37,9 +36,13 @@ TURNED, SKEW = 0.35, 0.02
 # The length of the next step is chosen to turn by AIM times the largest turn. It is at most GROWTH
 # times the length before and, after a failure, at least SHRINKAGE times this length.
 AIM, GROWTH, SHRINKAGE = 0.8, 1.5, 0.3
+# A branch meets another one at a fold where its deviation from the other one is less than VANISHED
+# times the deviation before.
+VANISHED = 0.5
 # If a step shorter than CLOSE_STEP fails, a grazing is searched for within REACH times its length.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# A step that crosses another branch is halved, down to CLEAR_STEP, until the crossing is located.
+# A step on which an event is not located, or that crosses another branch, is halved, down to
+# CLEAR_STEP, until the event or the crossing is located.
 CLEAR_STEP = 1e-4
 
 
@@ -57,7 +60,7 @@ class Branch:
         Events, each with the index of its point.
     ends : tuple of str
         Reasons why the branch ends before the first and after the last point: range_ends, closed,
-        symmetry_breaking, period_doubling, contact_lost, lost or point_limit.
+        symmetry_breaking, period_doubling, contact_lost, lost, point_limit or unstable.
     lost : int
         Number of events that could not be located.
     """
@@ -98,7 +101,7 @@ class Branch:
         return False
 
 
-def follow_branch(family, orbit, value, span, most=MOST_POINTS) -> Branch:
+def follow_branch(family, orbit, value, span, most=MOST_POINTS, *, stable=False) -> Branch:
     """Follow a branch from an orbit in both directions of a parameter.
 
     Parameters
@@ -113,6 +116,8 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS) -> Branch:
         Least and greatest value of the parameter.
     most : int
         Largest number of orbits in one direction. A branch with more orbits ends as "point_limit".
+    stable : bool
+        Follow the branch only as far as its orbits are stable. It then ends as "unstable".
 
     Returns
     -------
@@ -129,7 +134,7 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS) -> Branch:
         first = problem.begin(orbit, value, direction)
         if first is None:
             raise ArithmeticError(f"no orbit of the family at {value:g} close to the one given")
-        walks.append(_walk(problem, first, span, most))
+        walks.append(_walk(problem, first, span, most, stable))
         if walks[-1].ends[1] == "closed":
             return replace(walks[-1], ends=("closed", "closed"))
     down, up = walks
@@ -145,7 +150,7 @@ def _reversed(event):
     return event._replace(before=event.after, after=event.before)
 
 
-def _walk(problem, first, span, most) -> Branch:
+def _walk(problem, first, span, most, stable=False) -> Branch:
     """Follow a branch from a point along its tangent.
 
     In the attribute `ends` of the result the reason before the first point is "".
@@ -174,16 +179,20 @@ def _walk(problem, first, span, most) -> Branch:
                 continue
             along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
             pieces = [(point, ahead, *events_between(point, ahead, along))]
-            if length > CLEAR_STEP and _passes_unseen(*pieces[0][:3]):
+            if length > CLEAR_STEP and (pieces[0][3] or _passes_unseen(*pieces[0][:3])):
                 length /= 2
                 continue
         for start, ahead, located, missed in pieces:
             lost += missed
             again = _passes(start, ahead, first) if len(points) > 2 else None
-            if _deviation(start.orbit) @ _deviation(ahead.orbit) < 0:
+            met = None
+            if start.orbit.deviation @ ahead.orbit.deviation < 0:
+                met = _meeting(located, start.orbit)
+            if met is not None:
                 end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
-                located, met = _up_to_fold(located, end)
-                lost += not met and not missed
+                lost += met == len(located) and not missed
+                located = located[: met + 1]
+                located[met:] = [event._replace(kind=end) for event in located[met:]]
             elif again is not None:
                 end = "closed"
                 located = [event for event in located if _is_between(start, event.point, again)]
@@ -195,6 +204,8 @@ def _walk(problem, first, span, most) -> Branch:
                     points.append(event.point)
             if end in ("", "range_ends", "closed"):
                 points.append(first if end == "closed" else ahead)
+            if stable and not (end or ahead.orbit.stable):
+                end = "unstable"
             if end:
                 break
         if not end:
@@ -217,7 +228,7 @@ def _passes_unseen(point, ahead, located):
     the step should include a fold. Without it the step may have led to the other branch.
     """
     folds = any(event.kind == "fold" for event in located)
-    return not folds and _deviation(point.orbit) @ _deviation(ahead.orbit) < 0
+    return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0
 
 
 def _through_grazing(point, reach):
@@ -241,28 +252,18 @@ def _through_grazing(point, reach):
     return pieces
 
 
-def _deviation(orbit: Orbit):
-    """Return a vector, shape (4,), that vanishes where an orbit has more symmetry.
+def _meeting(events, orbit):
+    """Return the index of the fold at which a branch meets one of more symmetry, or None.
 
-    The orbit of more symmetry is a symmetric orbit if the period n is odd, and an orbit of half the
-    period if n is even. The branches of both orbits meet where the vector changes its sign. An
-    orbit with a root is symmetric and has no such branch; for it the vector of ones is returned.
+    There the deviation vanishes; `orbit` is the one before the events. The deviation may also turn,
+    so that its sign changes without a meeting. Without any fold the number of events is returned.
     """
-    if orbit.root is not None:
-        return np.ones(4)
-    half = orbit.at(orbit.phase + orbit.periods * np.pi)
-    return orbit.state + half if orbit.periods % 2 else orbit.state - half
-
-
-def _up_to_fold(events, kind):
-    """Drop events after the first fold and relabel this fold as `kind`.
-
-    Return the events, and whether there was a fold.
-    """
-    for k, event in enumerate(events):
-        if event.kind == "fold":
-            return [*events[:k], event._replace(kind=kind)], True
-    return events, False
+    folds = [k for k, event in enumerate(events) if event.kind == "fold"]
+    least = VANISHED * np.max(np.abs(orbit.deviation))
+    for k in folds:
+        if np.max(np.abs(events[k].point.orbit.deviation)) < least:
+            return k
+    return None if folds else len(events)
 
 
 def _next(point, span, length):

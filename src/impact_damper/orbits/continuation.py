@@ -5,7 +5,8 @@ the forcing at which the loose mass is in flight. Most orbits have one segment (
 orbit that strongly amplifies disturbances is cut into several segments (`segments`). A step goes
 along the tangent of the branch and is corrected by Newton's method orthogonally to the tangent, so
 that the continuation passes folds. The derivative with respect to the parameter is a central
-difference. Its error changes the direction of a step, but not the orbits.
+difference. Its error changes the direction of a step, but not the orbits. Where a contact appears
+within the difference, a finer difference is taken.
 """
 
 from collections.abc import Callable
@@ -19,12 +20,15 @@ from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.orbits.shooting import AMPLIFYING, orbit_of, shoot
 from impact_damper.system.packed import CLEARANCE
 
-# Change of the parameter in the central difference.
-NUDGE = 2e-7
+# Change of the parameter in the central difference. If the forward and the backward difference
+# differ by more than the share BENT, a contact appears between them, and FINE_NUDGE is taken.
+NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
+# Avoids a division by zero.
+TINY = 1e-300
 # Newton's method. NEWTON: largest number of corrections. LARGEST: largest size of a correction. The
 # method has converged once a correction is below CLOSE, or below ROUNDING and more than half the
 # correction before.
-NEWTON = 16
+NEWTON = 10
 LARGEST = 0.5
 CLOSE, ROUNDING = 1e-10, 1e-4
 # Singular values below SINGULAR times the largest singular value are set to zero.
@@ -174,21 +178,51 @@ class Problem:
             2 * NUDGE
         )
 
-    def rows(self, x, orbit, rate=None):
+    def rows(self, x, orbit, rate=None, known=None):
         """Return the derivative of the defect by the unknowns, shape (m n, m n + 1).
 
-        `rate` is the result of `Problem.rate` at a parameter nearby, if it is known.
+        Parameters
+        ----------
+        x : array, shape (m n + 1,)
+        orbit : Orbit
+            The orbit at the unknowns.
+        rate : array, shape (COUNT,), optional
+            Result of `rate` at a parameter nearby, if it is known.
+        known : (int, array), optional
+            A segment, and the derivative of its end by the parameter, shape (4,), if it is known.
         """
         n = 4 if self.damped else 2
         states = self._states(x)
-        change = NUDGE * (self.rate(x[-1]) if rate is None else rate)
-        ahead, behind = (
-            segments.ends_of(orbit.p + nudge, self.phases, states)[:, :n]
-            for nudge in (change, -change)
-        )
-        by_parameter = (ahead - behind) / (2 * NUDGE)
+        rate = self.rate(x[-1]) if rate is None else rate
+        chain = orbit.chain
+        ends = segments.ends_of(orbit.p, self.phases, states) if chain is None else chain.ends
+        by_parameter, bent = self._slopes(orbit.p, states, ends, self.phases, rate, NUDGE)
+        for k in np.flatnonzero(bent > BENT) if self.damped else ():
+            if known is None or k != known[0]:
+                here = orbit.p, states[k : k + 1], ends[k : k + 1], self.phases[k : k + 2]
+                by_parameter[k] = self._slopes(*here, rate, FINE_NUDGE)[0][0]
+        if known is not None:
+            by_parameter[known[0]] = known[1]
         by_parameter[-1] *= -1 if self.symmetric else 1
         return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), by_parameter.ravel()])
+
+    def _slopes(self, p, states, ends, phases, rate, nudge):
+        """Return the derivatives of the ends of segments by the parameter, as differences.
+
+        Returns
+        -------
+        slopes : numpy.ndarray, shape (m, n)
+        bent : numpy.ndarray, shape (m,)
+            By how much the difference ahead and the one behind differ, as a share of their sum.
+        """
+        n = 4 if self.damped else 2
+        ahead, behind = (
+            segments.ends_of(p + change, phases, states)[:, :n]
+            for change in (nudge * rate, -nudge * rate)
+        )
+        whole, bend = ahead - behind, ahead + behind - 2 * ends[:, :n]
+        bent = np.abs(bend).max(axis=1) / (np.abs(whole).max(axis=1) + TINY)
+        return whole / (2 * nudge), bent
 
     def correct(self, x, border):
         """Return the point that Newton's method reaches from x, or None.
@@ -200,8 +234,8 @@ class Problem:
         x, last, row = x.copy(), np.inf, self.metric * border
         rate = self.rate(x[-1])
         for _ in range(NEWTON):
-            orbit, defect = self.shoot(x)
             try:
+                orbit, defect = self.shoot(x)
                 rows = self.rows(x, orbit, rate)
                 matrix = np.vstack([rows, row])
                 change = _solved(matrix, -np.append(defect, 0.0))
@@ -284,7 +318,7 @@ class Problem:
             phases, rough = orbit.flight_phase() + np.array([0.0, self.cycle]), 0.0
         problem = replace(self, phases=phases - phases[0] + phases[0] % TURN, rough=rough)
         x = np.append([orbit.at(phase) for phase in phases[:-1]], point.x[-1])
-        nudged = point.x + NUDGE * point.tangent
+        nudged = point.x + FINE_NUDGE * point.tangent
         p, states = self.family(nudged[-1]), self._states(nudged)
         if orbit.chain is None:
             displaced = replace(orbit, p=p, state=states[0])

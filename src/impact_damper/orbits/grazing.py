@@ -22,6 +22,11 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # On the side with more contacts the heights of successive points have the ratio RATIO, from LEAST
 # to MOST in modulus.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
+# How often the way to the next height is halved on a passage, where another contact changes or the
+# branch meets another one before it; and between two points of it.
+HALVINGS, HALVINGS_BETWEEN = 8, 3
+# An orbit has more symmetry than the one before if its deviation is less by this factor.
+FALLEN = 0.01
 # Heights of the points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
 # Newton's method. LARGEST: largest size of a correction. CLOSE, ROUNDING: largest relative and
@@ -47,7 +52,8 @@ class Turn(NamedTuple):
     gradient : numpy.ndarray, shape (4 m + 1,)
         Derivative of the height by the unknowns.
     by_parameter : numpy.ndarray, shape (4,)
-        Derivative of the end of the segment by the parameter.
+        Derivative of the end of the segment by the parameter, without the sign of a symmetric
+        orbit's last segment.
     """
 
     segment: int
@@ -67,11 +73,9 @@ def turns_of(problem, x, orbit, segment=None):
         steps, sizes, weights, times = path.turns(1)
         if not len(steps):
             continue
-        variations = Variations(path)
-        change = variations.changes(np.zeros((4, 1)), rate[:, None])[2, 0]
-        by_parameter = variations.slopes() @ rate
-        if k == len(problem.phases) - 2 and problem.symmetric:
-            by_parameter = -by_parameter
+        variations = Variations(path, rate[:, None])
+        change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
+        by_parameter = variations.slopes()[:, 0]
         for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
             wall, part = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
             gradient = np.zeros(len(x))
@@ -84,13 +88,6 @@ def turns_of(problem, x, orbit, segment=None):
             phase = orbit.p[FREQUENCY] * time
             turns.append(Turn(k, phase, bool(outer), height, gradient, by_parameter))
     return turns
-
-
-def exact_rows(problem, x, orbit, turn):
-    """Return `Problem.rows`, with the derivative by the parameter integrated for one segment."""
-    rows = problem.rows(x, orbit)
-    rows[4 * turn.segment : 4 * turn.segment + 4, -1] = turn.by_parameter
-    return rows
 
 
 def nearest(turns, turn):
@@ -120,7 +117,7 @@ def at_height(problem, x, turn, height, direction):
         turn = nearest(turns_of(problem, x, orbit, turn.segment), turn)
         if turn is None:
             return None
-        rows = exact_rows(problem, x, orbit, turn)
+        rows = problem.rows(x, orbit, known=(turn.segment, turn.by_parameter))
         matrix, last = np.vstack([rows, turn.gradient]), np.eye(len(x))[-1]
         missing = height - turn.height
         try:
@@ -163,16 +160,20 @@ class Passage(NamedTuple):
 
     def between(self, k):
         """Return a function that maps a height between points k and k + 1 to a point."""
+        known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
+        direction = np.sign(self.heights[k + 1] - self.heights[k])
 
-        def point_at(height):
-            end = k if abs(height - self.heights[k]) < abs(height - self.heights[k + 1]) else k + 1
-            start, turn = self.points[end], self.turns[end]
-            direction = np.sign(self.heights[k + 1] - self.heights[k])
+        def point_at(height, halvings=HALVINGS_BETWEEN):
+            near, start, turn = min(known, key=lambda each: abs(each[0] - height))
             x = guess(start, turn, height)
-            reached = at_height(start.problem, x, turn, height, direction)
-            if reached is None:
+            found = at_height(start.problem, x, turn, height, direction)
+            if found is None and halvings == 0:
                 raise ArithmeticError
-            return reached[0]
+            if found is None:
+                point_at((near + height) / 2, halvings - 1)
+                return point_at(height, halvings - 1)
+            known.append((height, *found))
+            return found[0]
 
         return point_at
 
@@ -224,24 +225,67 @@ def through_grazing(point, reach):
     sharp = 1 if turn.outer else -1
     direction = int(np.sign(turn.gradient @ point.tangent))
     targets = _targets(turn.height, sharp, direction)
-    points, heights, turns = [point], [turn.height], [turn]
-    grazing, one = None, 2 if point.problem.symmetric else 1
+    one = 2 if point.problem.symmetric else 1
     fewest = len(point.orbit.sequence) - one * (direction != sharp)
-    for target in targets:
-        reached = at_height(
-            point.problem, guess(points[-1], turns[-1], target), turns[-1], target, direction
-        )
-        contacts = fewest + one * (sharp * target > 0)
-        if reached is None or len(reached[0].orbit.sequence) != contacts:
-            break
-        points.append(reached[0])
-        heights.append(target)
-        turns.append(reached[1])
-        if abs(target) == LEAST:
-            grazing = len(points) - 1
-    if grazing is None:
+
+    def contacts(height):
+        return fewest + one * (sharp * height > 0)
+
+    points, heights, turns = _along(point, turn, targets, direction, contacts)
+    grazing = [k for k, height in enumerate(heights) if abs(height) == LEAST]
+    if not grazing:
         return None
-    return Passage(points, heights, turns, grazing, "grazing" if turn.outer else "merging")
+    return Passage(points, heights, turns, grazing[0], "grazing" if turn.outer else "merging")
+
+
+def _along(point, turn, targets, direction, contacts):
+    """Follow a branch from height to height, as far as Newton's method leads.
+
+    Parameters
+    ----------
+    point : Point
+    turn : Turn
+        The extremum at the point.
+    targets : list of float
+        Heights in order.
+    direction : int
+        Sign of the change of height.
+    contacts : callable
+        Maps a height to the number of contacts there.
+
+    Returns
+    -------
+    points, heights, turns : list
+        As in `Passage`.
+    """
+    points, heights, turns = [point], [turn.height], [turn]
+    pending, halvings = targets[::-1], 0
+    while pending and halvings <= HALVINGS:
+        target = pending.pop()
+        ratio = target / heights[-1]
+        x = guess(points[-1], turns[-1], target)
+        found = at_height(point.problem, x, turns[-1], target, direction)
+        stays = found is not None and len(found[0].orbit.sequence) == contacts(target)
+        if stays and (ratio < 0 or not _has_left(points[-1].orbit, found[0].orbit)):
+            points.append(found[0])
+            heights.append(target)
+            turns.append(found[1])
+        else:
+            pending += [target, _before(heights[-1], target)]
+            halvings += 1
+    return points, heights, turns
+
+
+def _before(height, target):
+    """Return a height on the way to another one: across the grazing, close to it."""
+    if height * target > 0:
+        return height * (target / height) ** 0.5
+    return height / 2 if abs(height) > abs(target) else target / RATIO
+
+
+def _has_left(orbit, ahead):
+    """Return whether the next orbit lies on another branch, whose orbits have more symmetry."""
+    return np.max(np.abs(ahead.deviation)) < FALLEN * np.max(np.abs(orbit.deviation))
 
 
 def _targets(height, sharp, direction):

@@ -172,7 +172,7 @@ class Orbit:
         log = log[touching:count]
         return log[log[:, 1] < end]
 
-    @property
+    @cached_property
     def sequence(self):
         """Walls touched in order, such as "+-"; the first of all cyclic shifts in the alphabet."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
@@ -199,6 +199,19 @@ class Orbit:
         side = side_of(self.p, y)
         advance(self.p, y, np.empty((0, 4)), side, begin, end, POLISH_TOLERANCE, workspace())
         return y
+
+    @cached_property
+    def deviation(self):
+        """Difference, shape (4,), of the orbit from one of more symmetry.
+
+        The branches of both orbits meet where the difference changes sign. The other orbit is the
+        symmetric one if the period n is odd, and one of half the period if n is even. A symmetric
+        orbit has no such branch to meet; the difference is then replaced by ones.
+        """
+        if self.root is not None:
+            return np.ones(4)
+        half = self.at(self.phase + self.periods * np.pi)
+        return self.state + half if self.periods % 2 else self.state - half
 
     @cached_property
     def strobe_states(self):

@@ -11,12 +11,13 @@ mass is in flight, so that the flow is smooth there.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from impact_damper.kernel.single import advance, side_of, workspace
 from impact_damper.motions import records
-from impact_damper.motions.segment_runs import flow_all, largest_displacement, sweep
+from impact_damper.motions.segment_runs import flow_all, largest_displacement, separate
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
 from impact_damper.system.packed import FREQUENCY
@@ -70,10 +71,11 @@ class Chain:
         """Length of the chain, radian: the period of the orbit, or half of it."""
         return self.phases[-1] - self.phases[0]
 
-    @property
+    @cached_property
     def defects(self):
         """The values F_k, shape (m, 4), which are zero for an orbit."""
-        defects = self.ends - np.roll(self.states, -1, axis=0)
+        defects = np.empty_like(self.ends)
+        defects[:-1] = self.ends[:-1] - self.states[1:]
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
         return defects
 
@@ -130,10 +132,7 @@ class Chain:
     def largest(self):
         """Return the largest |Z1|."""
         times = self.phases / self.p[FREQUENCY]
-        return max(
-            largest_displacement(self.p, state.copy(), *times[k : k + 2], POLISH_TOLERANCE)
-            for k, state in enumerate(self.states)
-        )
+        return largest_displacement(self.p, self.states.copy(), times, POLISH_TOLERANCE)
 
 
 def _advance(p, state, tangents, begin, end):
@@ -148,7 +147,8 @@ def _advance(p, state, tangents, begin, end):
 
 def chain_of(p, phases, states, sign) -> Chain:
     """Return a chain after integration of all its segments; the arguments are its attributes."""
-    ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
+    ends, tangents = np.array(states, float), np.empty((len(states), 4, 4))
+    tangents[:] = np.eye(4)
     touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)
     factors = tangents.transpose(0, 2, 1).copy()
     factors[-1] *= sign
@@ -165,10 +165,9 @@ def ends_of(p, phases, states):
 def cyclic(factors):
     """Return the derivative of `Chain.defects` with respect to the states, shape (m n, m n)."""
     m, n = factors.shape[:2]
-    matrix = np.zeros((m, n, m, n))
-    for k in range(m):
-        matrix[k, :, k] = factors[k]
-        matrix[k, :, (k + 1) % m] -= np.eye(n)
+    matrix, k = np.zeros((m, n, m, n)), np.arange(m)
+    matrix[k, :, k] = factors
+    matrix[k, :, (k + 1) % m] -= np.eye(n)
     return matrix.reshape(m * n, m * n)
 
 
@@ -191,24 +190,13 @@ def multipliers(factors):
     m, n = factors.shape[:2]
     if m == 1:
         return np.linalg.eigvals(factors[0]).astype(complex)
-    factors = np.ascontiguousarray(factors)
-    basis, triangles = np.eye(n), np.empty((m, n, n))
-    for _ in range(SWEEPS):
-        first = basis.copy()
-        sweep(factors, basis, triangles)
-        turned = first.T @ basis
-        sizes = np.sum(np.log(np.abs(np.diagonal(triangles, axis1=1, axis2=2)) + 1e-300), axis=0)
-        cuts = [0, *(np.flatnonzero(sizes[:-1] - sizes[1:] > np.log(APART)) + 1), n]
-        if all(np.max(np.abs(turned[cut:, :cut]), initial=0) < SETTLED for cut in cuts):
-            break
-    triangles[-1] = turned @ triangles[-1]
-    values = []
-    for begin, end in zip(cuts, cuts[1:], strict=False):
-        product = np.eye(end - begin)
-        for triangle in triangles:
-            product = triangle[begin:end, begin:end] @ product
-        values.append(np.linalg.eigvals(product))
-    return np.concatenate(values).astype(complex)
+    blocks, cuts = np.empty((n, n)), np.zeros(n + 1, int)
+    groups = separate(np.ascontiguousarray(factors), APART, SWEEPS, SETTLED, blocks, cuts)
+    values = np.diagonal(blocks).astype(complex)
+    for begin, end in zip(cuts[:groups], cuts[1:], strict=False):
+        if end > begin + 1:
+            values[begin:end] = np.linalg.eigvals(blocks[begin:end, begin:end])
+    return values
 
 
 def log_determinant(factors):

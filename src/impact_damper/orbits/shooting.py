@@ -6,6 +6,7 @@ map comes from the variational equations, with saltation matrices where the dash
 """
 
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 
@@ -135,11 +136,9 @@ def orbit_of(chain, periods):
     periods : int
         Period n of the orbit in forcing cycles, odd if the chain is half of the orbit.
     """
-    product = np.eye(4)
-    for factor in chain.factors:
-        product = factor @ product
-    residual = float(np.max(np.abs(chain.defects)))
-    converged = bool(residual <= RESIDUAL * max(1.0, np.max(np.abs(chain.states))))
+    product = reduce(lambda product, factor: factor @ product, chain.factors)
+    residual = float(np.abs(chain.defects).max())
+    converged = bool(residual <= RESIDUAL * max(1.0, np.abs(chain.states).max()))
     half = chain.sign < 0
     matrices = (product @ product, product) if half else (product, None)
     touching = (1 + half) * chain.touching

@@ -48,9 +48,12 @@ class Variations:
     Attributes
     ----------
     path : Path
+    directions : numpy.ndarray, shape (COUNT, k), or None
+        Changes of the parameters by which the variations are taken; None for each parameter.
     """
 
     path: Path
+    directions: np.ndarray | None = None
 
     @cached_property
     def _inverse(self):
@@ -70,20 +73,29 @@ class Variations:
 
     @cached_property
     def _integrals(self):
-        """Duhamel's integral of each parameter up to all points, shape (4, COUNT, N)."""
-        shape = 4, COUNT, len(self.path.sides), POINTS
-        rates = self._rates().reshape(shape)
+        """Duhamel's integral of each direction up to all points, shape (4, k, N)."""
+        rates = self._rates()
+        count = rates.shape[1]
+        rates = rates.reshape(4, count, len(self.path.sides), POINTS)
         integrals = self.path.lengths[:, None] * (rates @ INTEGRALS.T)
         gains = integrals[..., -1].copy()
         # A change of the clearance moves the wall. This adds a jump by the dashpot's force.
         for point, wall, begun in zip(*self.path.events, strict=True):
             moved = begun * wall * self.path.p[DASHPOT] * self._columns[1][:, point + 1]
-            gains[:, CLEARANCE, point // POINTS] += moved
+            for k, share in self._along(CLEARANCE):
+                gains[:, k, point // POINTS] += share * moved
         integrals[:, :, 1:] += np.cumsum(gains[..., :-1], axis=2)[..., None]
-        return integrals.reshape(4, COUNT, -1)
+        return integrals.reshape(4, count, -1)
+
+    def _along(self, parameter):
+        """Return pairs of a direction and its component along a parameter, those of 0 left out."""
+        if self.directions is None:
+            return [(parameter, 1.0)]
+        row = self.directions[parameter]
+        return [(k, row[k]) for k in np.flatnonzero(row)]
 
     def _rates(self):
-        """Return P^-1 f_d for each parameter at all points, shape (4, COUNT, N)."""
+        """Return P^-1 f_d for each direction at all points, shape (4, k, N)."""
         p, (x, v, _, w) = self.path.p, self.path.states
         walls, depth = self.path.contacts
         frequency, cosine = p[FREQUENCY], np.cos(p[FREQUENCY] * self.path.times)
@@ -97,20 +109,25 @@ class Variations:
         wall[CLEARANCE] = -p[CONTACT_STIFFNESS] * walls
         wall[CONTACT_STIFFNESS], wall[DASHPOT] = depth, np.abs(walls) * w
         both, pushed, loose = self._columns
-        rates = both[:, None] * free - pushed[:, None] * wall
         force = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * wall[DASHPOT]
-        rates[:, INVERSE_MASS_RATIO] -= loose * force
+        if self.directions is not None:
+            free, wall = self.directions.T @ free, self.directions.T @ wall
+        rates = both[:, None] * free - pushed[:, None] * wall
+        for k, share in self._along(INVERSE_MASS_RATIO):
+            rates[:, k] -= share * loose * force
         drive = (
             forcing_amplitude.py_func(p) * cosine
             - p[DAMPING] * v
             - (p[STIFFNESS] + p[CUBIC] * x * x) * x
         )
         moving = self._inverse[:, 0] * v + self._inverse[:, 2] * w
-        rates[:, FREQUENCY] -= (moving + both * drive - pushed * force) / frequency
+        later = (moving + both * drive - pushed * force) / frequency
+        for k, share in self._along(FREQUENCY):
+            rates[:, k] -= share * later
         return rates
 
     def slopes(self):
-        """Return the derivatives of the last state by the parameters, shape (4, COUNT).
+        """Return the derivatives of the last state by the directions, shape (4, k).
 
         The first state and the first and last phase of the forcing are held fixed.
         """
@@ -123,8 +140,8 @@ class Variations:
         ----------
         first : array, shape (4, n)
             Changes of the first state.
-        parameters : array, shape (COUNT, n)
-            Changes of the parameters.
+        parameters : array, shape (k, n)
+            Changes of the parameters, each a sum of the directions with these factors.
 
         Returns
         -------
@@ -139,7 +156,7 @@ class Variations:
         Parameters
         ----------
         first, parameters
-            As in `changes`.
+            As in `changes`, for variations by each parameter.
         """
         changes = self.changes(first, parameters)
         inner = self._smooth(changes[0], parameters) + self._at_events(changes[2], parameters)

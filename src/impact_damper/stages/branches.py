@@ -18,21 +18,22 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.random_search import COUNT, stable_orbits
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.orbits.switching import LEAVING, other_branch
+from impact_damper.orbits.switching import LEAVING, met_branch, other_branch
 from impact_damper.stages.branch_datasets import branches_dataset, orbit_variables, torus_variables
 from impact_damper.system.bounds import FREQUENCY_RANGE, check_count, check_number, shown
-from impact_damper.system.checks import check_span
+from impact_damper.system.checks import check_frequency, check_span
 from impact_damper.system.families import LINEAR, family_of
-from impact_damper.system.packed import pack
+from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
-# `complete_branches` follows a branch for at most this number of orbits in one direction. For
-# periods beyond LONG a smaller number, divided by the period, holds, since such branches wind
-# through chaos.
-MOST_POINTS, MOST_PERIODS, LONG = 2500, 6000, 8
+# `complete_branches` follows a branch for at most MOST_POINTS orbits in one direction. Branches of
+# periods beyond LONGEST, which wind through chaos, are followed only as far as they are stable.
+MOST_POINTS, LONGEST = 4000, 9
 # Longest period of branches to which `complete_branches` switches at a bifurcation: period
 # doublings form infinite cascades.
 LONGEST_SWITCHED = 4
+# Bifurcations of one kind at frequencies that differ by less are the same.
+NEAR = 1e-9
 
 
 def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None):
@@ -167,7 +168,7 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
 
     Stable orbits that lie on none of these branches are searched for from random states. Where a
     stable orbit loses its symmetry or doubles its period, the branch that begins there is followed
-    too, up to period 4.
+    too, up to period 4. So is the branch at which one of these branches ends.
 
     Parameters
     ----------
@@ -211,14 +212,17 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
         raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
 
+    packed = pack(oscillator, damper, frequencies[0])
+
     def family(value):
-        return pack(oscillator, damper, value)
+        p = packed.copy()
+        p[FREQUENCY] = check_frequency(value)
+        return p
 
     def follow(orbit, value):
-        most = MOST_POINTS if orbit.periods <= LONG else MOST_PERIODS // orbit.periods
-        return follow_branch(family, orbit, value, frequencies, most)
+        long = orbit.periods > LONGEST
+        return follow_branch(family, orbit, value, frequencies, MOST_POINTS, stable=long)
 
-    family(frequencies[0])
     branches, lost = [], 0
     seeds = sorted(_seeds(motions, damper), key=lambda seed: seed[:3])
     with tqdm(seeds, desc=progress, disable=progress is None, mininterval=1.0) as bar:
@@ -250,7 +254,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
 def _follow_others(branches, follow):
     """Follow the branches that leave where a stable orbit loses its symmetry or doubles its period.
 
-    The new branches are appended to the list, and branches that begin on them are followed too.
+    The branches at which a branch ends are followed too. The new branches are appended to the list,
+    and branches that begin on them are followed too.
 
     Returns
     -------
@@ -259,6 +264,11 @@ def _follow_others(branches, follow):
     """
     sought = lost = 0
     for branch in branches:
+        for edge, kind in zip((0, -1), branch.ends, strict=True):
+            if kind in LEAVING and branch.points[0].orbit.periods <= LONGEST_SWITCHED:
+                met = met_branch(branch.points[edge], kind)
+                if met and not any(_passes(each, kind, met) for each in branches):
+                    branches.append(follow(met.orbit, met.value))
         for place, event in branch.events:
             periods = event.point.orbit.periods * (2 if event.kind == "period_doubling" else 1)
             beside = branch.points[max(place - 1, 0) : place + 2]
@@ -273,6 +283,15 @@ def _follow_others(branches, follow):
             elif not any(each.holds(other.orbit, other.value) for each in branches):
                 branches.append(follow(other.orbit, other.value))
     return sought, lost
+
+
+def _passes(branch, kind, point):
+    """Return whether a branch holds the orbit of a point, or has an event of a kind there."""
+    periods = point.orbit.periods
+    there = [each.point for _, each in branch.events if each.kind == kind]
+    near = any(abs(each.value - point.value) < NEAR for each in there)
+    same = branch.points[0].orbit.periods == periods
+    return same and (near or branch.holds(point.orbit, point.value))
 
 
 def _summary(branches, seeds, lost):

@@ -18,6 +18,7 @@ BRANCH_END = {
     "contact_lost": 4,
     "lost": 5,
     "point_limit": 6,
+    "unstable": 7,
 }
 TORUS = {"absent": 0, "stable": 1, "unstable": 2, "of_unstable_orbit": 3, "unknown": 4}
 
