@@ -38,8 +38,8 @@ EVENTS = {
 # axes. It is drawn if that part has at least CROWD events.
 INSET, MAGNIFIED, CROWD = (0.76, 0.52, 0.225, 0.45), (0.15, 0.2), 4
 # Sizes of markers of events next to stable orbits, and of others.
-LARGE, SMALL = 3.6, 1.2
-OPEN_ENDS = ("lost", "point_limit")
+LARGE, SMALL = 3.0, 1.2
+OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {
     "marker": "x",
     "color": GREY,
@@ -47,10 +47,12 @@ OPEN = {
     "linestyle": "none",
     "zorder": 2.5,
 }
+
+# Label, colour, opacity of unstable orbits, and periods.
 PERIODS = [
-    ("period 1", BLUE, lambda period: period == 1),
-    ("period 3", PURPLE, lambda period: period == 3),
-    ("other periods", ORANGE, lambda period: period not in (1, 3)),
+    ("period 1", BLUE, 1.0, lambda period: period == 1),
+    ("period 3", PURPLE, 1.0, lambda period: period == 3),
+    ("other periods", ORANGE, 0.4, lambda period: period not in (1, 3)),
 ]
 
 
@@ -114,10 +116,11 @@ def draw_orbits(axes, data):
     data : xarray.Dataset
         Of the stage branches, or of `orbit_branch`.
     """
-    for label, color, chosen in PERIODS:
+    for label, color, opacity, chosen in PERIODS:
+        faint = {"linestyle": ":", "linewidth": 0.35, "alpha": opacity}
+        strong = {"label": label, "zorder": 2.2, "linewidth": 1.5}
         for value, size, stable in runs(data, chosen):
-            look = {"label": label, "zorder": 2.2} if stable else {"linestyle": ":"}
-            axes.plot(value, size, color=color, linewidth=1.5 if stable else 0.35, **look)
+            axes.plot(value, size, color=color, **(strong if stable else faint))
     axes.plot([], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
     mark_events(axes, data)
     mark_open_ends(axes, data)
