@@ -69,7 +69,7 @@ def points_of(scene, name, exponents, rounds):
 
 
 def points(scenes, exponents, rounds, names=tuple(TIMED)):
-    """Return error of the state and microseconds a forcing period, by scene, method and tolerance.
+    """Return error of the state and microseconds a forcing cycle, by scene, method and tolerance.
 
     The time is the median of `rounds`, or of one run if a method is slow. `status` is found, lost
     (the state is off by more than LOST) or given_up (the run did not end).
@@ -129,7 +129,7 @@ def draw(table):
     for axes in panels[::columns]:
         axes.set_ylabel("Error of the state at the end")
     for axes in panels[max(0, len(names) - columns) : len(names)]:
-        axes.set_xlabel("Time a forcing period and trajectory (µs)")
+        axes.set_xlabel("Time a forcing cycle and trajectory (µs)")
         axes.tick_params(labelbottom=True)
     letter_panels(panels[: len(names)])
     legend(drawn, 3)

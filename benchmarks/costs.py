@@ -1,4 +1,4 @@
-"""Time of a forcing period by the kernel, over amplitude, contacts and tolerance."""
+"""Time of a forcing cycle by the kernel, over amplitude, contacts and tolerance."""
 
 import math
 
@@ -59,7 +59,7 @@ def motions(count, seed=1995):
 
 
 def per_period(found, rounds, tolerances=TOLERANCES):
-    """Return the microseconds a forcing period of single motions.
+    """Return the microseconds a forcing cycle of single motions.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def draw(table):
     left.set(
         xlabel=r"Largest displacement times period, $2\pi\,\max\,|Z_1|/\Omega$", ylim=(0, None)
     )
-    left.set_ylabel("Time a forcing period (µs)")
+    left.set_ylabel("Time a forcing cycle (µs)")
     right.set_xlabel("Contacts a period")
     letter_panels([left, right])
     legend(drawn, 3)

@@ -36,7 +36,7 @@ def tolerances(scene, timed, limit):
 
 
 def microseconds(scene, found, rounds):
-    """Return microseconds a forcing period and trajectory, of each method in each round."""
+    """Return microseconds a forcing cycle and trajectory, of each method in each round."""
     starts = {name: starts_of(scene, name) for name in found}
     calls = {
         name: lambda run=each.run, starts=starts[name]: run(starts) for name, each in found.items()
@@ -93,7 +93,7 @@ def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
     -------
     times : pandas.DataFrame
         For each scene and method the loosest tolerance within the limit, its error, and the
-        microseconds a forcing period and trajectory: median, quartiles and least.
+        microseconds a forcing cycle and trajectory: median, quartiles and least.
     ratios : pandas.DataFrame
         For each use of the kernel and each rival, median and quartiles over rounds of the ratio of
         their times in that round; whether both are within the limit.

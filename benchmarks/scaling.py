@@ -31,7 +31,7 @@ def starts_of(scene, count):
 
 
 def sizes(scenes, counts, rounds):
-    """Return microseconds a trajectory and forcing period over the size of an ensemble."""
+    """Return microseconds a trajectory and forcing cycle over the size of an ensemble."""
     rows = []
     for scene in scenes:
         run = TIMED["kernel_ensemble"].prepare(scene, TOLERANCE)

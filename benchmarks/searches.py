@@ -1,7 +1,7 @@
 """Default searches against searches ten times as wide, with a thousand starts.
 
 Motions that only the wide search finds are missed ones. A chaotic motion may end after thousands
-of forcing periods, and its size in a few of them is a matter of chance, so it is run on before it
+of forcing cycles, and its size in a few of them is a matter of chance, so it is run on before it
 counts as missed. Escapes over the barrier of a softening spring are counted by themselves: most of
 the wide starts lie beyond the barrier. So these systems have as many starts again up to the
 barrier. The default search states a bound on the share of a
@@ -98,7 +98,7 @@ def wide_search(oscillator, damper, frequency, reaches, count):
 
 
 def run_on(p, state):
-    """Return the record of what a motion has become LONG forcing periods after a strobe."""
+    """Return the record of what a motion has become LONG forcing cycles after a strobe."""
     state, none = state.copy(), np.empty((0, 4))
     begin = strobe_map.strobe_time(p)
     strobe_map.flow(p, state, none, begin, LONG, np.bool_(False), strobe_map.POLISH_TOLERANCE)

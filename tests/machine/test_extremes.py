@@ -46,7 +46,7 @@ USUAL = {
     "stiffness_ratio": 100.0,
     "damping_ratio": 0.005,
 }
-# A faster contact, in units of the machine, takes up to half a second for each forcing period.
+# A faster contact, in units of the machine, takes up to half a second for each forcing cycle.
 FAST = 1e3
 ALONE = [{name: value} for name, both in ENDS.items() for value in both]
 
@@ -134,7 +134,7 @@ def test_a_machine_with_one_extreme_ends_in_an_outcome(spring, given):
     ("spring", "given"), list(zip(cycle(SPRINGS), drawn(36), strict=False)), ids=named
 )
 def test_extremes_together_end_in_an_outcome(spring, given):
-    """With a slow contact within the limit; with a fast one, a forcing period comes to its end."""
+    """With a slow contact within the limit; with a fast one, a forcing cycle comes to its end."""
     if contact_speed(given) < FAST:
         assert_ends(spring, given, 1.0)
     else:
@@ -152,6 +152,6 @@ def test_a_search_at_an_extreme_has_outcomes(name, end):
 @pytest.mark.parametrize("restitution", ENDS["restitution"])
 @pytest.mark.parametrize("gap", ENDS["gap"])
 def test_the_fastest_contact_keeps_its_time(restitution, gap):
-    """A light loose mass at stiff walls: up to 200 000 contacts in a forcing period."""
+    """A light loose mass at stiff walls: up to 200 000 contacts in a forcing cycle."""
     given = {"mass_ratio": 1e-4, "stiffness_ratio": 1e6, "gap": gap, "restitution": restitution}
     assert_a_period_ends("linear", USUAL | given)

@@ -88,7 +88,7 @@ def test_subharmonic_suppression_of_a_machine():
 
 
 def test_migration_of_a_machine():
-    """Released after 3 forcing periods, so that chaos does not magnify rounding."""
+    """Released after 3 forcing cycles, so that chaos does not magnify rounding."""
     given = {"seed": 1, "longest_hold": 3}
     found = idm.migrate(HARD, DAMPER, hertz(1.95), **given)
     by_hand = idm.migrate(PAPER, PAPER_DAMPER, 1.95, **given)

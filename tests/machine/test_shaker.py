@@ -58,7 +58,7 @@ def test_orbits_of_a_branch_are_those_at_one_frequency(point):
 
 
 def test_orbits_of_a_branch_are_those_of_three_bodies_in_space(point):
-    """Base, machine and loose mass by SciPy: after a forcing period the motion repeats."""
+    """Base, machine and loose mass by SciPy: after a forcing cycle the motion repeats."""
     angular = 2 * math.pi * float(point.followed_value)
     c, amplitude = MACHINE.viscous_damping, ACCELERATION / angular**2
     logarithm, ratio = math.log(RESTITUTION), LOOSE / MASS

@@ -146,7 +146,7 @@ def test_random_states_depend_on_the_seed_only():
 
 def test_steady_motion_of_the_design():
     """It has two symmetric contacts a period and is small; a simulation returns to its state."""
-    # from W T = pi/2 to T = pi, one forcing period after T = 0
+    # from W T = pi/2 to T = pi, one forcing cycle after T = 0
     before = simulate(PAPER, DESIGN, 2.0, ON_ORBIT, start=math.pi / 4, periods=0.75, samples=4)
     start = [float(before[name][-1]) for name in list(before)[:4]]
     data = steady_motion(PAPER, DESIGN, 2.0, start)

@@ -144,7 +144,7 @@ def test_strongly_unstable_orbit_in_80_bit(saddle):
 
 
 def test_mirrored_chain_is_a_chain():
-    """The mirror image of an unsymmetric orbit, half a forcing period later, is an orbit too."""
+    """The mirror image of an unsymmetric orbit, half a forcing cycle later, is an orbit too."""
     guess, _ = shoot(pack(PAPER, DESIGN, 1.55), np.array(RETURNING), 12, STROBE)
     chain = polish(guess).chain
     mirrored = segments.chain_of(chain.p, chain.phases + math.pi, -chain.states, 1)

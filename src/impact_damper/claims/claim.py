@@ -9,8 +9,8 @@ DIFFERENT = "reproduced with a difference"
 NOT_REPRODUCED = "not reproduced"
 NOT_DECIDABLE = "not decidable"
 PLAIN = {word: word for word in (REPRODUCED, DIFFERENT, NOT_REPRODUCED, NOT_DECIDABLE)}
-# Words for the verdict on a misprint or gap, keyed by the verdict on the claim that the print is
-# correct; on initial conditions of too few numbers; on values chosen because none are printed.
+# Words for the verdict on a misprint or omission, keyed by the verdict on the claim that the print
+# is correct; on initial conditions of too few numbers; on values chosen because none are printed.
 SLIP = PLAIN | {
     REPRODUCED: "the print is consistent",
     DIFFERENT: "the print is nearly right",
@@ -76,7 +76,7 @@ class Claim:
     Attributes
     ----------
     number : str
-        "1" to "19", or "S1" to "S6" for misprints and gaps.
+        "1" to "19", or "S1" to "S6" for misprints and omissions.
     text : str
         The statement, shortened.
     source : str

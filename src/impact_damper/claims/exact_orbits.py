@@ -42,7 +42,7 @@ def pieces(branches) -> pd.DataFrame:
     pandas.DataFrame
         One row for each piece, with the columns
 
-        - branch, period (in forcing periods);
+        - branch, period (in forcing cycles);
         - lower, upper: ends in W;
         - frequency, size (max |Z1|), amplitude (first harmonic of Z1 as a complex number, with its
           phase relative to Z2, the displacement of the primary relative to the loose mass), loose

@@ -1,4 +1,4 @@
-"""S1 to S6: misprints and gaps of the paper, taken as claims that the print is correct.
+"""S1 to S6: misprints and omissions of the paper, taken as claims that the print is correct.
 
 A printed value agrees with a computed one if it is the computed one rounded to the printed digits.
 """

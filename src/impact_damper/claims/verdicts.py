@@ -1,6 +1,6 @@
 """Registry of all claims of Chatterjee, Mallik and Ghosh (1995), and the table of verdicts.
 
-Slips, in the names of the code, are misprints and gaps of the paper.
+Slips, in the names of the code, are misprints and omissions of the paper.
 """
 
 import re
@@ -40,7 +40,7 @@ MODULES = (
 
 
 def _order(claim):
-    """Sort key: claims 1 to 19 before misprints and gaps S1 to S6."""
+    """Sort key: claims 1 to 19 before misprints and omissions S1 to S6."""
     return claim.number.startswith("S"), int(claim.number.removeprefix("S"))
 
 
@@ -48,7 +48,7 @@ CLAIMS = tuple(sorted((claim for module in MODULES for claim in module.CLAIMS), 
 
 
 def claims(datasets) -> pd.DataFrame:
-    """Table of verdicts: a row for each claim, then one for each misprint or gap.
+    """Table of verdicts: a row for each claim, then one for each misprint or omission.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def document(frame, picture=None, drawn=None) -> str:
     slips = frame["number"].str.startswith("S")
     parts = [
         "# The paper, claim by claim",
-        f"Claims: {_tally(frame[~slips])}. Misprints and gaps: {_tally(frame[slips])}.",
+        f"Claims: {_tally(frame[~slips])}. Misprints and omissions: {_tally(frame[slips])}.",
         READING,
         as_markdown(
             frame[["number", "claim", "verdict"]].assign(number=frame["number"].map(_link))
@@ -134,8 +134,8 @@ def typeset(text) -> str:
 
 
 def title(number):
-    """Heading of the section of a claim, or of a misprint or gap."""
-    return f"Misprint or gap {number}" if number.startswith("S") else f"Claim {number}"
+    """Heading of the section of a claim, or of a misprint or omission."""
+    return f"Misprint or omission {number}" if number.startswith("S") else f"Claim {number}"
 
 
 def _label(name):

@@ -172,7 +172,8 @@ def polish(p, y, periods, reach, tolerance):
         residual = largest_modulus(change)
         for i in range(active):
             newton[i, i] -= 1.0
-        if abs(solve(newton, change)) < REGULAR:
+        # Over many periods of a chaotic motion the matrix overflows.
+        if not REGULAR <= abs(solve(newton, change)) < np.inf:
             break
         if largest_modulus(change) < CONVERGED:
             assign(y, orbit)

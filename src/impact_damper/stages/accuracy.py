@@ -45,10 +45,10 @@ def error_against_work(scene, settings, stored=None):
     settings : dict
         For each key of `methods.TOLERANCE_KEYS` a list of decreasing tolerances; `orders`: further
         pairs of orders of the Taylor series, in flight and in contact; `evaluations`: for each name
-        in `methods.LIMITED`, the number of evaluations of the right-hand side per forcing period
+        in `methods.LIMITED`, the number of evaluations of the right-hand side per forcing cycle
         after which a run is given up; `harmonics`: highest harmonic of harmonic balance; `batch`:
-        forcing periods in each part (batch) from whose averages standard errors are estimated;
-        `scipy_periods`: forcing periods for which slow integrators run a chaotic motion.
+        forcing cycles in each part (batch) from whose averages standard errors are estimated;
+        `scipy_periods`: forcing cycles for which slow integrators run a chaotic motion.
     stored : dict or None
         Stored reference record of this test case (`reference_of`); not needed if it is chaotic.
 
@@ -87,7 +87,7 @@ def error_against_work(scene, settings, stored=None):
 def integrations(scene, settings, slow_periods):
     """Run each integrator at each setting; yield its label, the setting, the run and its periods.
 
-    Slow integrators run for `slow_periods` forcing periods, and only with their loosest tolerances
+    Slow integrators run for `slow_periods` forcing cycles, and only with their loosest tolerances
     (SHORT) if the motion is chaotic. Once a slow run is given up, tighter tolerances are left out.
     """
     p, start = scene.p, np.array(scene.state, float)

@@ -48,7 +48,7 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
         Z1, Z1', Z2, Z2' near the orbit.
     period : int
-        Period n of the orbit in forcing periods.
+        Period n of the orbit in forcing cycles.
     phase : float, optional
         Phase W T of the state, radian. The default is the phase stored with the state of a dataset,
         and pi/2 for other states.

@@ -190,7 +190,7 @@ def errors(data, solutions, exact):
         start=np.pi / (2 * balance.frequency),
         tolerance=FINEST,
     )
-    # the samples begin at W T = pi/2, a quarter of a forcing period after T = 0
+    # the samples begin at W T = pi/2, a quarter of a forcing cycle after T = 0
     coefficients = np.fft.rfft(np.roll(orbit["displacement"].values[:-1], SAMPLES // 4)) / SAMPLES
     for k, solution in enumerate(solutions):
         if solution.status == "converged":

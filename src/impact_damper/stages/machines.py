@@ -59,7 +59,7 @@ def design_damper(
     contact : HertzContact, optional
         Radius and materials of the contact, for its pressure. If no contact stiffness is given,
         they also determine the stiffness, for an impact at the speed with which the loose mass
-        crosses the gap of the flight rule in half a forcing period.
+        crosses the gap of the flight rule in half a forcing cycle.
     frequencies : int
         Number of frequencies over the band; the resonances in it are added.
     candidates : int

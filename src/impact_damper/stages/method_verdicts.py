@@ -45,7 +45,7 @@ class VerdictScene(NamedTuple):
         States at W T = pi/2. If the orbit does not exist at the frequency of the scene, `orbit` is
         its state at the frequency where it was found.
     period, periods : int
-        Period of the orbit, and length of a run, both in forcing periods.
+        Period of the orbit, and length of a run, both in forcing cycles.
     multiplier : float
         Modulus of the dominant Floquet multiplier, NaN if the orbit does not exist.
     landing : numpy.ndarray, shape (n, 2)
@@ -184,7 +184,7 @@ def _by_resolution(label, scene, tolerances, steps):
 
 
 def verdicts(scenes, tolerances, steps):
-    """Judge each method on each scene, at each tolerance or number of steps per forcing period.
+    """Judge each method on each scene, at each tolerance or number of steps per forcing cycle.
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def verdicts(scenes, tolerances, steps):
     tolerances : sequence of float
         Increasing.
     steps : sequence of int
-        Increasing numbers of steps per forcing period for fixed-step methods, as many as there are
+        Increasing numbers of steps per forcing cycle for fixed-step methods, as many as there are
         tolerances; the fewest steps take the place of the largest tolerance.
 
     Returns

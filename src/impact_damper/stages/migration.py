@@ -196,7 +196,7 @@ def trials(
     releases : int
         Number of releases of each damped motion, and of runs in which the life is measured.
     lifetime : int
-        Largest number of forcing periods of the runs that measure the life.
+        Largest number of forcing cycles of the runs that measure the life.
     seed : int
     workers : int
         Threads; the result does not depend on it.

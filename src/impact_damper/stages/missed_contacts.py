@@ -83,7 +83,7 @@ def _taylor_counts(p, passages, depths, tolerance):
 
 
 def _taylor_seen(p, states, clearances, tolerance):
-    """Return whether each motion has a contact within a forcing period."""
+    """Return whether each motion has a contact within a forcing cycle."""
     parameters = np.repeat(p[None], len(states), axis=0)
     parameters[:, CLEARANCE] = clearances
     return np.isfinite(collide(parameters, states, 1, tolerance))
@@ -125,7 +125,7 @@ def missed_contacts(
     tolerances : sequence of float
         Increasing relative and absolute tolerances of methods with step control.
     steps : sequence of int
-        Increasing numbers of steps per forcing period for fixed-step methods, as many as there are
+        Increasing numbers of steps per forcing cycle for fixed-step methods, as many as there are
         tolerances; the fewest steps take the place of the largest tolerance.
     implicit_passages : int
         Implicit methods, which are slow, run only this number of the passages, the first ones.

@@ -73,7 +73,7 @@ def release_scan(
     releases : int
         Number of releases of each motion.
     lifetime : int
-        Number of forcing periods within which the motion that has not settled is released.
+        Number of forcing cycles within which the motion that has not settled is released.
     seed : int
     settling : Settling, optional
     workers, progress

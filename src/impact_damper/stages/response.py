@@ -61,7 +61,7 @@ def frequency_response(
     life_runs : int
         Runs of each chaotic motion that measure how long it lasts; 0 for none.
     life_periods : int
-        Length of these runs in forcing periods.
+        Length of these runs in forcing cycles.
     workers : int
         Threads; the result does not depend on it.
     progress : str, optional
@@ -167,7 +167,7 @@ def collisions(
     -------
     xarray.Dataset
         For each `ball` (literal, within the gap): the share of starts that lie beyond a wall, the
-        share that collide within the given forcing periods, and the longest time before a first
+        share that collide within the given forcing cycles, and the longest time before a first
         collision.
 
     Raises

@@ -168,9 +168,9 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     stiffnesses : sequence of float
         Increasing values of r1.
     scaled_steps : sequence of float
-        Increasing values of h omega_c; the number of steps in a forcing period is rounded up.
+        Increasing values of h omega_c; the number of steps in a forcing cycle is rounded up.
     most_steps : int
-        Runs that would take more steps than this in a forcing period are left out.
+        Runs that would take more steps than this in a forcing cycle are left out.
     periods : int
         Forcing periods of a run.
 

@@ -101,7 +101,7 @@ def simulate(
     state: Annotated[
         str, typer.Option(help="Initial x, x', z, z'; z is relative to the loose mass.")
     ] = "0, 0, 0, 0",
-    periods: Annotated[float, typer.Option(help="Length in forcing periods.")] = 200,
+    periods: Annotated[float, typer.Option(help="Length in forcing cycles.")] = 200,
     output: Annotated[Path, typer.Option(help="NetCDF file of the motion.")] = None,
     as_json: AsJson = False,
 ):

@@ -1,4 +1,4 @@
-"""Findings on S1 to S6, misprints and gaps of the paper."""
+"""Findings on S1 to S6, misprints and omissions of the paper."""
 
 from impact_damper.claims.findings.words import number, part_of, percent
 

@@ -31,7 +31,7 @@ from impact_damper.workflow.models.system import (
 )
 from impact_damper.workflow.models.values import count, number, several
 
-STEPS = range_of(count("steps a forcing period", **STEPS_RANGE))
+STEPS = range_of(count("steps a forcing cycle", **STEPS_RANGE))
 TOLERANCES = range_of(number("tolerance of a method", **METHOD_TOLERANCE_RANGE), points=True)
 GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
 
@@ -48,7 +48,7 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
 
     restitutions: several(RESTITUTION, "increasing restitutions of the motions", least=2)
     frequencies: several(FREQUENCY, "increasing frequencies of the motions", least=1)
-    periods: count("forcing periods over which contacts are logged", **PERIODS_RANGE)
+    periods: count("forcing cycles over which contacts are logged", **PERIODS_RANGE)
     cells: ContactCells
     smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"])
     largest_load: number(
@@ -88,7 +88,7 @@ class MissedContacts(WithOscillator):
     """Contacts near grazing that integrators find and miss."""
 
     frequency: FREQUENCY
-    passages: count("random flights without contact, of a forcing period each", **RUNS_RANGE)
+    passages: count("random flights without contact, of a forcing cycle each", **RUNS_RANGE)
     implicit_passages: count(
         "number of passages, the first ones, on which the implicit Radau method is run",
         **RUNS_RANGE,
@@ -114,7 +114,7 @@ class StableSteps(WithDamper):
     frequency: FREQUENCY
     stiffnesses: range_of(CONTACT_STIFFNESS, points=True)
     scaled_steps: GEOMETRIC
-    most_steps: count("steps a forcing period beyond which a cell is not run", **MOST_STEPS_RANGE)
+    most_steps: count("steps a forcing cycle beyond which a cell is not run", **MOST_STEPS_RANGE)
     periods: RUN_PERIODS
 
     counts: ClassVar = ("stiffnesses.points", "scaled_steps.points")

@@ -39,7 +39,7 @@ DECREASING = several(
     number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
 )
 EVALUATIONS = count(
-    "evaluations of the equations of motion per forcing period", least=1, most=1000000
+    "evaluations of the equations of motion per forcing cycle", least=1, most=1000000
 )
 ORDER = count("order of the series", least=6, most=60)
 
@@ -56,13 +56,13 @@ class FreeVerdict(Section):
     orbit_frequency: number("W at which the orbit is found", **BOUNDS["frequency"])
     near: state("state close to the orbit at W T = pi/2")
     period: count(
-        "period of the orbit in forcing periods, at most the number of states compared at the end",
+        "period of the orbit in forcing cycles, at most the number of states compared at the end",
         least=1,
         most=LONGEST_PERIOD,
     )
     offset: state("difference between the start of the run and the state of the orbit")
     periods: count(
-        "forcing periods of a run, at least the number of states compared", **VERDICT_PERIODS_RANGE
+        "forcing cycles of a run, at least the number of states compared", **VERDICT_PERIODS_RANGE
     )
     scipy_every: count(
         "SciPy's slow methods are run at every tolerance whose number is a multiple of this, "
@@ -160,8 +160,8 @@ class Comparison(ByTolerances):
         f"highest harmonic; shooting begins from {START_HARMONICS} of them",
         **HARMONIC_RANGE | {"least": START_HARMONICS},
     )
-    batch: count("forcing periods of a batch", least=1, most=100000)
-    scipy_periods: count("forcing periods, two batches at least", **PERIODS_RANGE | {"least": 2})
+    batch: count("forcing cycles of a batch", least=1, most=100000)
+    scipy_periods: count("forcing cycles, two batches at least", **PERIODS_RANGE | {"least": 2})
 
     def contradictions(self, path, config):
         for key in TOLERANCE_KEYS:

@@ -97,7 +97,7 @@ class Migration(WithDamper):
 
     frequency: FREQUENCY
     longest_hold: count(
-        "forcing periods after which the damper is switched off at the latest",
+        "forcing cycles after which the damper is switched off at the latest",
         **PERIODS_RANGE,
     )
 
@@ -107,7 +107,7 @@ class ReleaseScan(WithDamper):
 
     frequencies: FREQUENCIES
     lifetime: count(
-        "forcing periods within which the motion that has not settled is released",
+        "forcing cycles within which the motion that has not settled is released",
         **SCAN_LIFETIME_RANGE,
     )
 

@@ -50,7 +50,7 @@ class Search(Section):
     study_starts: starts_of("in each cell of a study")
     radius: RADIUS
     life_runs: count("runs that measure the life of a chaotic motion", least=0, most=1000)
-    life_periods: count("forcing periods of these runs", **LIFETIME_RANGE)
+    life_periods: count("forcing cycles of these runs", **LIFETIME_RANGE)
 
 
 class Settling(Section):
@@ -58,16 +58,16 @@ class Settling(Section):
 
     scene: text("name of an entry of `scenes` that has a tolerance")
     patience: count(
-        "forcing periods after which a motion that is certainly chaotic is stopped",
+        "forcing cycles after which a motion that is certainly chaotic is stopped",
         **PATIENCE_RANGE,
     )
-    limit: count("forcing periods after which every other motion is stopped", **LIMIT_RANGE)
+    limit: count("forcing cycles after which every other motion is stopped", **LIMIT_RANGE)
     further: count(
-        "largest number of forcing periods for which an undecided motion is continued",
+        "largest number of forcing cycles for which an undecided motion is continued",
         **FURTHER_RANGE,
     )
     watched: count(
-        "forcing periods over which a motion that has not settled is measured", **WATCHED_RANGE
+        "forcing cycles over which a motion that has not settled is measured", **WATCHED_RANGE
     )
 
     def contradictions(self, path, config):
@@ -85,6 +85,6 @@ class Controller(Section):
     """The migration controller of figure 17, and its runs."""
 
     trials: count("runs of each case", **RUNS_RANGE)
-    periods: count("forcing periods of a run after which no switching begins", **PERIODS_RANGE)
+    periods: count("forcing cycles of a run after which no switching begins", **PERIODS_RANGE)
     releases: count("releases of each damped motion, and lives watched", **RUNS_RANGE)
-    lifetime: count("forcing periods for which lives are watched", **LIFETIME_RANGE)
+    lifetime: count("forcing cycles for which lives are watched", **LIFETIME_RANGE)

@@ -30,7 +30,7 @@ MASS_RATIO, CLEARANCE, RESTITUTION, CONTACT_STIFFNESS, FREQUENCY = (
     PARAMETERS[name]
     for name in ("mass_ratio", "clearance", "restitution", "contact_stiffness", "frequency")
 )
-RUN_PERIODS = count("forcing periods of a run", **PERIODS_RANGE)
+RUN_PERIODS = count("forcing cycles of a run", **PERIODS_RANGE)
 CLEARANCE_OR_RULE = number_or_word(
     "rule",
     f"{MEANINGS['clearance']}; the word `rule` stands for the clearance by equation (19)",
