@@ -26,9 +26,10 @@ from impact_damper.system.families import LINEAR, family_of
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
-# `complete_branches` follows a branch for at most MOST_POINTS orbits in one direction. Branches of
-# periods beyond LONGEST, which wind through chaos, are followed only as far as they are stable.
-MOST_POINTS, LONGEST = 4000, 9
+# `complete_branches` follows a branch for at most MOST_POINTS orbits in one direction, for periods
+# beyond LONG for at most MOST_LONG. Branches of periods beyond LONGEST are followed only as far as
+# they are stable. All these branches wind through chaos.
+MOST_POINTS, MOST_LONG, LONG, LONGEST = 4000, 2000, 7, 9
 # Longest period of branches to which `complete_branches` switches at a bifurcation: period
 # doublings form infinite cascades.
 LONGEST_SWITCHED = 4
@@ -220,8 +221,9 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
         return p
 
     def follow(orbit, value):
-        long = orbit.periods > LONGEST
-        return follow_branch(family, orbit, value, frequencies, MOST_POINTS, stable=long)
+        most = MOST_POINTS if orbit.periods <= LONG else MOST_LONG
+        stable = orbit.periods > LONGEST
+        return follow_branch(family, orbit, value, frequencies, most, stable=stable)
 
     branches, lost = [], 0
     seeds = sorted(_seeds(motions, damper), key=lambda seed: seed[:3])

@@ -118,11 +118,11 @@ TABLES = (
         "begins at a settled motion, at a stable orbit that Newton's method found in one of 360 "
         "searches from random states, or at a point of another branch, up to period 4: where a "
         "stable orbit loses its symmetry or doubles its period, or where the other branch ends. "
-        "Point limit: the branch was followed no further after 4000 orbits in one direction, among "
-        "chaotic motions. Unstable: a branch of a period above 9 is followed only as far as its "
-        "orbits are stable. Lost: Newton's method found no next orbit, since several contacts "
-        "appear at almost the same frequency. The column `not located` of the CSV counts events "
-        "that lie between two orbits but were not located.",
+        "Point limit: the branch was followed no further after 4000 orbits in one direction (2000 "
+        "for periods 8 and 9), among chaotic motions. Unstable: a branch of a period above 9 is "
+        "followed only as far as its orbits are stable. Lost: Newton's method found no next orbit, "
+        "since several contacts appear at almost the same frequency. The column `not located` of "
+        "the CSV counts events that lie between two orbits but were not located.",
     ),
     Table(
         "bifurcations",
