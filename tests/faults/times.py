@@ -55,7 +55,7 @@ def clock_set_back(context):
         project = context.finished("clock-halfway")
         _ahead((project.folder / "results").rglob("*"))
         for path in (project.folder / "results").rglob("*"):
-            if path.suffix in (".csv", ".md", ".png", ".pdf"):
+            if path.suffix in (".csv", ".md", ".png", ".pdf", ".rst"):
                 path.unlink()
         return project.recover(context.undisturbed, lost=0)
 
