@@ -65,7 +65,7 @@ class Turn(NamedTuple):
 
 
 def turns_of(problem, x, orbit, segment=None):
-    """Return every `Turn` of an orbit, or of one segment of the orbit."""
+    """Return every `Turn` of an orbit, or of one segment, that has a gradient."""
     rate = problem.rate(x[-1])
     turns = []
     for k in range(len(problem.phases) - 1) if segment is None else [segment]:
@@ -74,7 +74,11 @@ def turns_of(problem, x, orbit, segment=None):
         if not len(steps):
             continue
         variations = Variations(path, rate[:, None])
-        change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
+        try:
+            change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
+        except np.linalg.LinAlgError:
+            # So many inelastic contacts that P is singular in rounding: no gradient is known.
+            continue
         by_parameter = variations.slopes()[:, 0]
         for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
             wall, part = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
