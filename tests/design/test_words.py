@@ -1,10 +1,13 @@
 """The conclusion of a design: which sentences stand when."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from helpers.made_up_design import MACHINE, made_up_design
 
 import impact_damper as idm
+from impact_damper.design.remarks import tried_restitutions
 from impact_damper.design.task import Task
 from impact_damper.design.words import conclusion
 
@@ -19,16 +22,47 @@ TASK = Task(
 VIOLENT = {"reached_displacement": [0.8, 9.5, 0.8, 0.8, 0.8]}
 
 
-def said(kind="robust", **changed):
-    return " ".join(conclusion(TASK, kind, made_up_design(choice=kind, **changed)))
+PROMISE = {"robust": "robust_kept", "needs_tolerance": "nominal_kept", "least_worst": "none_made"}
+
+
+def said(kind="robust", promise=None, task=TASK, **changed):
+    data = made_up_design(choice=kind, promise=promise or PROMISE[kind], **changed)
+    return " ".join(conclusion(task, kind, data))
 
 
 def test_a_robust_gap_is_promised_within_its_tolerance():
     words = said()
-    assert "Build a gap of 7 mm (full play, from wall to wall); any gap from 6.3 to 7.7 mm" in words
+    built = "Build a gap of 7 mm (full play, from wall to wall), with walls of restitution 0.7"
+    assert f"{built}; any gap from 6.3 to 7.7 mm will do" in words
     assert "The machine then moves at most 2 mm, instead of 10 mm without the damper" in words
     assert "at least 95 % of all starts" in words and "at 95 % confidence" in words
     assert "does it move more than 0.8 mm" in words
+    assert "the promise held, at the nominal values and at the corners" in words
+
+
+def test_a_robust_gap_with_a_promise_at_nominal_values_only_is_said_to_need_closer_values():
+    words = said(promise="nominal_kept")
+    assert "0.7, and hold all values more closely than their tolerances: gaps from 6.3 to" in words
+    assert "will do only if all other values are as given" in words
+    assert "Nothing is promised for other values." in words
+
+
+def test_a_broken_promise_forbids_the_damper():
+    words = said(promise="broken")
+    assert words.startswith("Do not build this damper: the check with new random starts failed.")
+    assert "Build a gap" not in words
+
+
+def test_motions_that_never_repeat_have_a_lower_limit():
+    chaos = {"reached_quiet_share": [1, 0.2, 1, 1, 1], "reached_displacement": [0.5, 1.6, 1, 1, 1]}
+    told = "A motion that never repeats counts as quiet only up to 1.33 mm"
+    assert told in said("least_worst", **chaos)
+    assert "20 % of the starts lead to quiet motions at the worst frequency, and 95 % must" in said(
+        "least_worst", **chaos
+    )
+    quiet = {"corner_share": np.ones((3, 3))}
+    assert told in said(corner_displacement=[0.8, 1.8, 0.9])
+    assert told not in said(**quiet) and told not in said()
 
 
 def test_a_gap_that_needs_a_closer_tolerance_is_held_between_its_cliffs():
@@ -42,7 +76,35 @@ def test_a_range_that_goes_on_beyond_what_was_looked_at_is_said_to():
     assert "hold it from 6 or less to 8.5 mm. The" in said("needs_tolerance")
     words = said(stability_gap_event=[4, 0], stability_force_event=[0, 4])
     assert "is stable from 6.5 or less to 8.8 mm" in words
-    assert "is stable from 0.5 to 2 or more times the nominal excitation" in words
+    assert "(at 30 Hz from 0.5 to 2 or more times)" in words
+
+
+def test_excitations_are_those_at_which_the_orbit_is_stable_over_the_whole_band():
+    words = said()
+    assert "Over the whole band the quiet orbit is stable from 0.6 to 2 times the nominal" in words
+    open_end = said(stability_force=[0.5, 1.8], stability_force_event=[0, 4])
+    assert "stable from 0.6 to 1.8 or more times the nominal excitation" in open_end
+    crossing = said(force_edge_share=[0.5, 1.1, 2, 2])
+    assert "at other frequencies of the band it is not stable at the nominal excit" in crossing
+
+
+@pytest.mark.parametrize(
+    ("sizes", "told"),
+    [([0.5, 1, 1], "lower end"), ([1, 0.5, 1], None), ([1, 1, 0.5], "upper end")],
+)
+def test_a_restitution_at_an_end_of_its_range_is_remarked(sizes, told):
+    data = made_up_design()
+    data["tried_restitution"] = ("tried", [0.3, 0.5, 0.7])
+    data["tried_displacement"] = ("tried", sizes)
+    data["tried_choice"] = ("tried", [0, 0, 0])
+    words = tried_restitutions(data)
+    assert "Of the restitutions 0.3, 0.5 and 0.7" in words
+    assert f"This is the {told} of the range given" in words if told else "range" not in words
+
+
+def test_walls_that_pull_are_remarked_at_a_low_restitution():
+    assert "cannot pull" in said(task=replace(TASK, restitution=0.3))
+    assert "cannot pull" not in said()
 
 
 def test_a_large_motion_is_told_with_the_starts_that_lead_to_it():

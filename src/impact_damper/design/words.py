@@ -2,32 +2,55 @@
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import decode, flag
 from impact_damper.data.design_ranges import quiet_gaps, stable_range
 from impact_damper.design.cliff import HOLDABLE, LEAD, LONGEST
 from impact_damper.design.deviations import UNSEEN
-from impact_damper.design.restitutions import best_of
+from impact_damper.design.remarks import excitations, pulling_walls, tried_restitutions
+from impact_damper.design.task import LATER
 
 SUMMARY = {
     "robust": (
-        "Build a gap of {gap:.3g} mm (full play, from wall to wall); any gap from {low:.3g} to "
-        "{high:.3g} mm will do. {promise} {worst}"
+        "{build}; any gap from {low:.3g} to {high:.3g} mm will do. {promise} {worst}"
     ),
-    "needs_tolerance": (
-        "Build a gap of {gap:.3g} mm (full play, from wall to wall) and hold it from {edges} mm"
-        "{narrow}. {promise} {worst}"
+    "nominal": (
+        "{build}, and hold all values more closely than their tolerances: gaps from {low:.3g} to "
+        "{high:.3g} mm will do only if all other values are as given. {promise} {worst}"
     ),
+    "needs_tolerance": "{build} and hold it from {edges} mm{narrow}. {promise} {worst}",
     "least_worst": (
         "No range of gaps that one can hold (at least {holdable} of the gap) is quiet over the "
-        "whole band. The gap of {gap:.3g} mm is the least bad: {worst}, instead of {bare:.3g} mm "
-        "without the damper. Do not build this damper for this band."
+        "whole band. The gap of {gap:.3g} mm, with walls of restitution {restitution:.3g}, is the "
+        "least bad: {worst}, instead of {bare:.3g} mm without the damper. {fewest} of the starts "
+        "lead to quiet motions at the worst frequency, and {share} must. Do not build this damper "
+        "for this band."
+    ),
+    "broken": (
+        "Do not build this damper: the check with new random starts failed. The gap chosen was "
+        "{gap:.3g} mm, with walls of restitution {restitution:.3g}. {worst}"
     ),
 }
+BUILD = (
+    "Build a gap of {gap:.3g} mm (full play, from wall to wall), with walls of restitution "
+    "{restitution:.3g}"
+)
 PROMISE = (
     "The machine then moves at most {limit:.3g} mm, instead of {bare:.3g} mm without the damper. "
     "At each frequency of the band at least {share} of all starts, however machine and loose mass "
     "begin to move, lead to such a quiet motion, at 95 % confidence."
 )
+VERDICTS = {
+    "none_made": "Nothing is promised.",
+    "nominal_kept": (
+        "In a check with new random starts the promise held at the nominal values. "
+        "Nothing is promised for other values."
+    ),
+    "robust_kept": (
+        "In a check with new random starts the promise held, at the nominal values and at the "
+        "corners of the tolerances."
+    ),
+    "broken": "In a check with new random starts the promise did NOT hold: do not rely on it.",
+}
 
 
 def conclusion(task, kind, data) -> list[str]:
@@ -47,8 +70,14 @@ def conclusion(task, kind, data) -> list[str]:
     ends = gap * (1 - tolerance), gap * (1 + tolerance)
     # the cliff is located more finely than the spacing of the gaps that decided the kind
     narrow = edges[0] > ends[0] or edges[1] < ends[1]
+    checked = decode(data["promise"]).item()
+    limit = float(data["displacement_limit"])
     numbers = {
         "gap": gap,
+        "restitution": task.restitution,
+        "limit": limit,
+        "share": _percent(task.share),
+        "fewest": _percent(data["reached_quiet_share"].min()),
         "low": ends[0],
         "high": ends[1],
         "narrow": f", a narrower range than the tolerance of {_percent(tolerance)}"
@@ -59,15 +88,15 @@ def conclusion(task, kind, data) -> list[str]:
         "bare": float(data["balance_displacement"].max()),
         "worst": _worst(kind, data),
     }
-    numbers["promise"] = PROMISE.format(
-        limit=float(data["displacement_limit"]), share=_percent(task.share), **numbers
-    )
-    found = [SUMMARY[kind].format(**numbers), _sureness(data)]
+    numbers |= {"build": BUILD.format(**numbers), "promise": PROMISE.format(**numbers)}
+    summary = {"broken": "broken", "nominal_kept": "nominal" if kind == "robust" else kind}
+    found = [SUMMARY[summary.get(checked, kind)].format(**numbers), VERDICTS[checked]]
+    found += [_never_repeating(data), _sureness(data)]
     if kind == "least_worst":
         found.append(_help(task, data))
     else:
-        found += [_untouched(data, gap), _margins(data, gap), _lives(data), _amplitudes(data)]
-    found += [_restitutions(data), _competition(data)]
+        found += [_untouched(data, gap), _margins(data, gap), _lives(data), excitations(data)]
+    found += [tried_restitutions(data), pulling_walls(task.restitution), _competition(data)]
     return [sentence for sentence in found if sentence]
 
 
@@ -98,6 +127,20 @@ def _worst(kind, data):
         "All random starts lead to quiet motions, but slow changes of the frequency or the force, "
         "or starts on motions without the damper, lead to a larger motion, in which the machine "
         f"{_moves(size)}."
+    )
+
+
+def _never_repeating(data):
+    """Return a sentence on motions within the quiet limit that do not count as quiet."""
+    limit = float(data["displacement_limit"])
+    shares = np.append(data["reached_quiet_share"].values, data["corner_share"].values[:, 0])
+    sizes = np.append(data["reached_displacement"].values, data["corner_displacement"].values)
+    if not ((shares < 1) & (sizes <= limit)).any():
+        return ""
+    return (
+        f"A motion that never repeats counts as quiet only up to {limit / LATER:.3g} mm, because "
+        f"its later peaks may be {LATER:.3g} times as large. Therefore starts can count as not "
+        f"quiet although no motion exceeds the limit of {limit:.3g} mm."
     )
 
 
@@ -209,17 +252,6 @@ def _rounded(count):
     return f"{float(f'{count:.2g}'):.0f}"
 
 
-def _amplitudes(data):
-    """Return a sentence on the forces between which the quiet orbit is stable."""
-    stable = stable_range(data, "force")
-    if not stable:
-        return ""
-    return (
-        f"The damper works for a range of excitations: at {float(data['branch_frequency']):.4g} "
-        f"Hz its quiet orbit is stable from {stable} times the nominal excitation."
-    )
-
-
 def _help(task, data):
     """Return a sentence on what would help if no gap is quiet."""
     texts = []
@@ -241,18 +273,6 @@ def _help(task, data):
             "lead to quiet motions over the band."
         )
     return f"What would help: {'; or '.join(texts)}."
-
-
-def _restitutions(data):
-    """Return a sentence on the best restitution, if it is free within a range."""
-    if "tried_restitution" not in data:
-        return ""
-    *others, last = (f"{value:.3g}" for value in data["tried_restitution"].values)
-    k = best_of(data["tried_displacement"].values, data["tried_choice"].values)
-    return (
-        f"Of the restitutions {', '.join(others)} and {last}, each with its best gap, "
-        f"{float(data['tried_restitution'][k]):.3g} is best, by a comparison with few starts."
-    )
 
 
 def _competition(data):

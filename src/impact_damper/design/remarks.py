@@ -1,0 +1,73 @@
+"""Remarks in the conclusion of a design on the excitation and on the restitution of the walls."""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag
+from impact_damper.data.design_ranges import known_range, stable_range
+from impact_damper.design.restitutions import best_of
+
+# Restitution below which claim 15 on the paper finds that walls which pull matter.
+LOW_RESTITUTION = 0.5
+
+
+def excitations(data) -> str:
+    """Return sentences on the excitations between which the quiet orbit is stable.
+
+    The map of edges covers the band. Its edges next to the nominal excitation bound the range that
+    holds at all frequencies.
+    """
+    here = stable_range(data, "force")
+    if not here:
+        return ""
+    event = data["stability_force_event"].values == flag("stability_force_event", "range_ends")
+    ends, edges = data["stability_force"].values, data["force_edge_share"].values
+    crossing = [
+        number
+        for number in np.unique(data["force_edge_number"].values)
+        if np.ptp(np.sign(edges[data["force_edge_number"].values == number] - 1)) > 0
+    ]
+    frequency = f"{float(data['branch_frequency']):.4g} Hz"
+    if crossing:
+        return (
+            f"At {frequency} the quiet orbit is stable from {here} times the nominal excitation, "
+            "but at other frequencies of the band it is not stable at the nominal excitation."
+        )
+    below, above = edges[edges <= 1], edges[edges >= 1]
+    inner = max(ends[0], below.max(initial=0)), min(ends[1], above.min(initial=np.inf))
+    over = known_range(inner, event & (np.array(inner) == ends))
+    return (
+        f"Over the whole band the quiet orbit is stable from {over} times the nominal excitation "
+        f"(at {frequency} from {here} times). For other excitations nothing was checked except "
+        "the few starts of the map of excitations."
+    )
+
+
+def tried_restitutions(data) -> str:
+    """Return sentences on the best restitution, if it is free within a range."""
+    if "tried_restitution" not in data:
+        return ""
+    values = data["tried_restitution"].values
+    *others, last = (f"{value:.3g}" for value in values)
+    k = best_of(data["tried_displacement"].values, data["tried_choice"].values)
+    text = (
+        f"Of the restitutions {', '.join(others)} and {last}, each with its best gap, "
+        f"{values[k]:.3g} is best, by a comparison with few starts."
+    )
+    if k in (0, len(values) - 1):
+        end, way = ("lower", "lower") if k == 0 else ("upper", "higher")
+        text += (
+            f" This is the {end} end of the range given: a {way} restitution was not tried and may "
+            "be better."
+        )
+    return text
+
+
+def pulling_walls(restitution) -> str:
+    """Return a sentence on the model of contact at a low restitution."""
+    if restitution >= LOW_RESTITUTION:
+        return ""
+    return (
+        "At so low a restitution the model of the walls matters: its dashpot pulls the loose mass "
+        "at the end of a contact, and a wall that cannot pull has a higher restitution with the "
+        "same dashpot. Set the restitution to the value of a drop test on the real wall."
+    )
