@@ -41,6 +41,12 @@ def test_texts_are_converted_by_the_definitions_of_units(text, quantity, value):
     assert si_value("x", text, quantity) == pytest.approx(value, rel=1e-14)
 
 
+@pytest.mark.parametrize("text", ["0.05 kg * 40 mm", "2*3 kg m", "50 g * 40 mm"])
+def test_a_calculation_is_refused_with_advice(text):
+    with pytest.raises(ValueError, match="write the result of the calculation, as one number"):
+        si_value("unbalance", text, "unbalance")
+
+
 @pytest.mark.parametrize(("text", "value"), ANGULAR)
 def test_angular_frequencies_are_divided_by_two_pi(text, value):
     assert si_value("frequency", text, "frequency") == pytest.approx(value, rel=1e-14)

@@ -72,6 +72,8 @@ NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
 LONGEST_TEXT = 80
+# Text with two numbers joined by an operator, such as "0.05 kg * 40 mm".
+CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
 
 
 def si_value(name, value, quantity) -> float:
@@ -105,7 +107,7 @@ def si_value(name, value, quantity) -> float:
     if isinstance(value, str):
         parts = TEXT.fullmatch(value) if len(value) <= LONGEST_TEXT else None
         if parts is None:
-            raise ValueError(f"{name} = {shown(value)}: {allowed}")
+            raise ValueError(f"{name} = {shown(value)}: {allowed}{wrong_unit(value, quantity)}")
         number, text = float(parts[1]), parts[2] or ""
     elif hasattr(value, "magnitude") and hasattr(value, "units"):
         number, text = value.magnitude, str(value.units)
@@ -124,9 +126,12 @@ def wrong_unit(value, quantity) -> str:
 
     `value` and `quantity` are as of `si_value`.
     """
-    parts = TEXT.fullmatch(value) if isinstance(value, str) else None
-    if parts is None or not QUANTITIES[quantity].unit:
+    if not isinstance(value, str) or len(value) > LONGEST_TEXT or not QUANTITIES[quantity].unit:
         return ""
+    parts = TEXT.fullmatch(value)
+    if parts is None:
+        product = CALCULATION.fullmatch(value)
+        return " (write the result of the calculation, as one number with a unit)" * bool(product)
     unit = parts[2]
     if unit is None:
         return " (this text has no unit)"
