@@ -73,6 +73,7 @@ def _screening():
         "worst_frequency": 34.0,
         "balance_displacement": np.linspace(6.0, 10.0, 5),
         "displacement_limit": 2.0,
+        "best_orbit_frequency": 34.0,
         "best_orbit_gap": 9.0,
         "best_orbit_displacement": 0.4,
         "best_orbit_status": flag("best_orbit_status", "smooth"),

@@ -11,9 +11,10 @@ from impact_damper.design.screen import gap_span
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.performance.costs import measured_costs
 
-# Masses divided by the nominal mass. Of the reduced design for each: largest number of frequencies,
-# gaps and starts of the coarse comparison, and largest number of starts of the last comparison.
+# Masses divided by the nominal mass.
 MASSES = (0.5, 0.7, 1.4, 2.0)
+# A reduced design for each mass has at most these numbers of frequencies, of gaps and starts in the
+# coarse comparison, and of starts in the last comparison.
 FREQUENCIES, GAPS, COARSE_STARTS, STARTS = 5, 20, 8, 24
 # Cycles over which the contact force of a motion that is not periodic is measured.
 WATCHED = 100
@@ -68,8 +69,8 @@ def judge(task, gap, limit, **running) -> Alternative:
     task : Task
     gap, limit : float
         Gap and quiet limit, mm.
-    running
-        `workers` and `progress` of `outcomes.run`.
+    **running
+        Arguments `workers` and `progress` of `outcomes.run`.
     """
     gaps = gap * (1 + _tolerance(task) * np.array([-1, -0.5, 0, 0.5, 1]))
     few = task.few(FREQUENCIES)

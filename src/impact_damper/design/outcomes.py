@@ -17,7 +17,8 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, CHAOTIC, NON_COLLIDING, SETTLED
 from impact_damper.motions.start_states import random_starts
 
-# Outcomes of motions that repeat or rest for good, and outcomes that are certain.
+# Outcomes of motions that continue unchanged for good, and outcomes that a longer run would not
+# change.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST)
 CERTAIN = (*LASTING, CHAOTIC)
 # Purposes for which starts are drawn. Each purpose has its own random stream, so that no start is

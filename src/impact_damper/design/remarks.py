@@ -2,12 +2,13 @@
 
 import numpy as np
 
+from impact_damper.contact.contact_law import contact
 from impact_damper.data.datasets import flag
 from impact_damper.data.design_ranges import known_range, stable_range
 from impact_damper.design.restitutions import best_of
 
-# Restitution below which claim 15 on the paper finds that walls which pull matter.
-LOW_RESTITUTION = 0.5
+# Relative excess of the restitution of walls that cannot pull above which a remark is made.
+EXCESS = 0.1
 
 
 def excitations(data) -> str:
@@ -64,10 +65,11 @@ def tried_restitutions(data) -> str:
 
 def pulling_walls(restitution) -> str:
     """Return a sentence on the model of contact at a low restitution."""
-    if restitution >= LOW_RESTITUTION:
+    real = contact(restitution, 0.0, "no_tension").departure
+    if real <= (1 + EXCESS) * restitution:
         return ""
     return (
-        "At so low a restitution the model of the walls matters: its dashpot pulls the loose mass "
-        "at the end of a contact, and a wall that cannot pull has a higher restitution with the "
-        "same dashpot. Set the restitution to the value of a drop test on the real wall."
+        f"At so low a restitution the model of the walls matters: the dashpot of {restitution:.3g} "
+        "pulls the loose mass at the end of a contact, and a wall with this dashpot that cannot "
+        f"pull has a restitution of {real:.2g}. A drop test tells the restitution of a real wall."
     )

@@ -10,9 +10,7 @@ from impact_damper.design.remarks import excitations, pulling_walls, tried_resti
 from impact_damper.design.task import LATER
 
 SUMMARY = {
-    "robust": (
-        "{build}; any gap from {low:.3g} to {high:.3g} mm will do. {promise} {worst}"
-    ),
+    "robust": ("{build}; any gap from {low:.3g} to {high:.3g} mm will do. {promise} {worst}"),
     "nominal": (
         "{build}, and hold all values more closely than their tolerances: gaps from {low:.3g} to "
         "{high:.3g} mm will do only if all other values are as given. {promise} {worst}"

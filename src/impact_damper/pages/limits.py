@@ -14,7 +14,7 @@ NOT_LOOKED_AT = [
     "Deviations of the absorbers that are compared, except of their springs.",
 ]
 SOURCES = (
-    "Each number above names its source, a variable of the file {name}.nc. A name with a dot is a "
+    "Each number above names its source, a variable of the file {file}. A name with a dot is a "
     "value in the attribute `machine` or `parameters` of this file."
 )
 
@@ -33,8 +33,8 @@ def missing(data) -> Section:
     return Section("What was not considered", [Points(texts)])
 
 
-def origin(name, data) -> Section:
-    """Return the section on how the numbers were found."""
+def origin(file, data) -> Section:
+    """Return the section on how the numbers were found, for a dataset in the file named `file`."""
     asked = parameters_of(data)
     rows = [
         ("motions run in the screening", f"{int(data['screen_motions'])}", "screen_motions"),
@@ -46,5 +46,5 @@ def origin(name, data) -> Section:
         ),
         ("seed of all random numbers", f"{asked['seed']}", "parameters.seed"),
     ]
-    words = Words(SOURCES.format(name=name))
+    words = Words(SOURCES.format(file=file))
     return Section("Where the numbers come from", [words, Numbers(rows)])

@@ -27,7 +27,7 @@ FIGURES = {
 }
 
 
-def machine_page(name, data) -> Page:
+def machine_page(name, data, file=None) -> Page:
     """Return the page of a machine.
 
     Parameters
@@ -36,6 +36,8 @@ def machine_page(name, data) -> Page:
         Name of the entry in the configuration.
     data : xarray.Dataset
         Of `stages.machines.design_damper`.
+    file : str, optional
+        Name of the file of `data`, by default that of the pipeline.
     """
     return Page(
         f"Impact damper for the machine {name.replace('_', ' ')}",
@@ -48,6 +50,6 @@ def machine_page(name, data) -> Page:
             costs.section(data),
             others.section(data),
             limits.missing(data),
-            limits.origin(name, data),
+            limits.origin(file or f"{name}.nc", data),
         ],
     )

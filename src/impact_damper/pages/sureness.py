@@ -37,8 +37,9 @@ DEPENDENCE = (
     "orbit is stable while the modulus of its largest multiplier is below 1."
 )
 TRAP = (
-    "The gap of the smallest stable quiet orbit is {best}. It is not the gap to build, because the "
-    "share of starts that lead to the orbit decides, not its size or its stability."
+    "The gap of the smallest stable quiet orbit is {best}, at {frequency}. It is not the gap to "
+    "build, because the share of starts that lead to the orbit decides, not its size or its "
+    "stability."
 )
 
 
@@ -53,7 +54,8 @@ def section(data) -> Section:
     ]
     best = float(data["best_orbit_gap"])
     if np.isfinite(best):
-        blocks.append(Words(TRAP.format(best=shown(best, "mm"))))
+        where = shown(data["best_orbit_frequency"], "Hz", 4)
+        blocks.append(Words(TRAP.format(best=shown(best, "mm"), frequency=where)))
     pictures = [
         Picture("cliff", cliff.CAPTION),
         Picture("tolerances", tolerances.CAPTION),

@@ -19,6 +19,8 @@ SETTLED = {
     "markerfacecolor": "none",
     "linewidth": 0.5,
 }
+# Words for the first words of labels in the figures of the paper.
+PLAIN = {"free": "without damper", "inelastic": "damper with $e < 1$"}
 
 
 def response(data, *, ax=None):
@@ -70,8 +72,18 @@ def response(data, *, ax=None):
         shown = [each for each in given if _kind(each) != "bands"] or given
         axes.set(xlabel=_frequency_label(shown[0]), ylabel=_size_label(shown))
         axes.set_ylim(bottom=0)
+        _name_dampers(axes)
         key(axes, 3)
     return axes
+
+
+def _name_dampers(axes):
+    """Write in the legend which damper a curve belongs to, in place of the words of the paper."""
+    for artist in axes.get_children():
+        words = str(artist.get_label())
+        for begin, plain in PLAIN.items():
+            if words.startswith(begin):
+                artist.set_label(plain + words.removeprefix(begin))
 
 
 def _kind(data):

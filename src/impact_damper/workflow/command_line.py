@@ -79,7 +79,7 @@ def design(
     )
     output.mkdir(parents=True, exist_ok=True)
     save(found, output / "design.nc")
-    page = write_report(found, machine_file.stem, output)
+    page = write_report(found, machine_file.stem, output / "design.nc", output)
     words = json.loads(found.attrs["conclusion"])
     numbers = {
         "design_gap_mm": float(found["design_gap"]),
@@ -191,8 +191,9 @@ def report(
 
     found = load(data)
     if "promise" not in found:
-        raise ValueError(f"{data}: must be the design.nc of a design ({found.attrs['title']})")
-    page = write_report(found, data.stem, output or data.parent)
+        title = found.attrs["title"]
+        raise ValueError(f"{data}: must be the design.nc of a design; its title is {title}")
+    page = write_report(found, data.stem, data, output or data.parent)
     tell(as_json, [f"The page: {page}"], {"page": str(page)})
 
 
@@ -236,19 +237,19 @@ def damper(given, gap):
 
 
 def quantity(text):
-    """Return a plain number, in SI units, or the text with its unit."""
+    """Return the number that a text holds, or the text itself if it has a unit."""
     try:
         return float(text)
     except ValueError:
         return text.strip()
 
 
-def write_report(data, name, folder):
-    """Write the page of a design into a folder, and return the path of the page."""
+def write_report(data, name, file, folder):
+    """Write the page of a design, kept in a file, into a folder; return the path of the page."""
     from impact_damper.pages.machine import FIGURES, machine_page
     from impact_damper.pages.render import write_page
 
-    write_page(machine_page(name, data), FIGURES, data, folder)
+    write_page(machine_page(name, data, file.name), FIGURES, data, folder)
     return folder / "index.html"
 
 

@@ -18,8 +18,9 @@ CAPTION = """
 Horizontal: gap, the full play. Above: share of random starts that lead to quiet motions, at the
 worst frequency of the band (circles: coarse comparison; squares: candidates, with 95 % intervals).
 Below: largest displacement of all motions found over the band. Star: smallest stable quiet orbit;
-few starts may lead to it. Blue line: exact quiet orbit at the frequency at which the share falls
-first.
+few starts may lead to it. The frequency of the star is the one, among those with a stable quiet
+orbit, at which the machine without the damper moves most. Blue line: exact quiet orbit at the
+frequency at which the share falls first. If the frequencies differ, the star is off the line.
 """
 COARSE = {
     "color": GREY,

@@ -84,7 +84,7 @@ def decades(axes):
 def name_numbers(axis, low, high):
     """Label a logarithmic axis from `low` to `high` with plain numbers."""
     ratio = high / low
-    digits = "123456789" if ratio < 3 else "1235" if ratio < 12 else "12" if ratio < 60 else "1"
+    digits = "123456789" if ratio < 3 else "1235" if ratio < 15 else "125" if ratio < 100 else "1"
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in digits else "")
 

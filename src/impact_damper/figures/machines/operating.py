@@ -10,25 +10,28 @@ from matplotlib.ticker import NullLocator
 
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.figures.machines.looks import STAR, finite, name_numbers
-from impact_damper.figures.style import BLACK, GREY, PALE, WHITE, figure, legend, style
+from impact_damper.figures.style import BLACK, GREY, PALE, VERMILION, WHITE, figure, legend, style
 
 CAPTION = """
 Above: share of random starts that lead to quiet motions. Below: largest displacement of any motion;
 hatched: a motion escapes. Light is good. A cell has only 12 starts: the maps show where the damper
-works, and prove no share. Lines: the exact quiet orbit ceases to be stable, by a fold, a loss of
-symmetry or a Neimark-Sacker point.
+works, and prove no share. Lines: the exact quiet orbit ceases to be stable. At a fold the orbit
+ends. At a loss of symmetry the two halves of its cycle become unequal. At the onset of modulation
+(a Neimark-Sacker point) its size begins to vary slowly.
 """
-FORCES = (
-    CAPTION + "Dashed: the nominal excitation. The quiet limit is proportional to the excitation."
+FORCES = CAPTION + (
+    "Red: the nominal excitation. The quiet limit is proportional to the excitation: at half the "
+    "excitation a motion counts as quiet up to half the limit. A dark cell below the red line may "
+    "therefore hold motions smaller than the limit of the design."
 )
 DAMPERS = CAPTION + "Star: the gap and the restitution of the design."
 NOMINAL = STAR | {"markeredgecolor": WHITE, "markersize": 9}
-LINE = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (6, 4)), "label": "nominal excitation"}
+LINE = {"color": VERMILION, "linewidth": 1.3, "label": "nominal excitation"}
 HALO = [withStroke(linewidth=2.6, foreground=WHITE)]
 EDGES = {
     "fold": {"linestyle": "-", "label": "fold"},
     "symmetry_breaking": {"linestyle": (0, (4, 1.5)), "label": "loss of symmetry"},
-    "neimark_sacker": {"linestyle": (0, (1, 1)), "label": "torus"},
+    "neimark_sacker": {"linestyle": (0, (1, 1)), "label": "onset of modulation"},
 }
 
 
