@@ -9,6 +9,9 @@ from impact_damper.design.restitutions import best_of
 
 # Relative excess of the restitution of walls that cannot pull above which a remark is made.
 EXCESS = 0.1
+# Distance of an end of the range of excitations from 1 below which the range is called narrow.
+CLOSE = 0.1
+NARROW = "This range is narrow: a small change of the excitation leaves it. "
 
 
 def excitations(data) -> str:
@@ -36,10 +39,11 @@ def excitations(data) -> str:
     below, above = edges[edges <= 1], edges[edges >= 1]
     inner = max(ends[0], below.max(initial=0)), min(ends[1], above.min(initial=np.inf))
     over = known_range(inner, event & (np.array(inner) == ends))
+    local = "" if over == here else f" (at {frequency} from {here} times)"
     return (
-        f"Over the whole band the quiet orbit is stable from {over} times the nominal excitation "
-        f"(at {frequency} from {here} times). For other excitations nothing was checked except "
-        "the few starts of the map of excitations."
+        f"Over the whole band the quiet orbit is stable from {over} times the nominal excitation"
+        f"{local}. {NARROW * bool(min(1 - inner[0], inner[1] - 1) < CLOSE)}"
+        "For excitations outside this range see the map of excitations, which has few starts."
     )
 
 
@@ -69,7 +73,8 @@ def pulling_walls(restitution) -> str:
     if real <= (1 + EXCESS) * restitution:
         return ""
     return (
-        f"At so low a restitution the model of the walls matters: the dashpot of {restitution:.3g} "
-        "pulls the loose mass at the end of a contact, and a wall with this dashpot that cannot "
-        f"pull has a restitution of {real:.2g}. A drop test tells the restitution of a real wall."
+        f"At so low a restitution the model of the walls matters: the dashpot for a "
+        f"restitution of {restitution:.3g} pulls the loose mass at the end of a contact. A wall "
+        f"with this dashpot that cannot pull has a restitution of {real:.2g}. A drop test shows "
+        "the restitution of a real wall."
     )
