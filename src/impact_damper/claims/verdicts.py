@@ -60,7 +60,7 @@ def claims(datasets) -> pd.DataFrame:
 
 # What holds for all claims.
 READING = """\
-S1 to S6 are places of the paper that look like a misprint or a gap, each taken as the claim that \
+S1 to S6 are places of the paper that look like a misprint or an omission, each taken as the claim that \
 the print is correct.
 
 W is the forcing frequency, Ω in the figures, and Wp its value at the peak of the resonance \
