@@ -19,7 +19,7 @@ from helpers.changes import (
     share,
     unstable,
 )
-from helpers.made_up import PEAKS, damped_branches, world
+from helpers.made_up import PEAKS, damped_branches, subharmonic, world
 
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import (
@@ -63,9 +63,9 @@ REFUTED = {
     "13": share("figure_15", "quiet", 0.0),
     "14": scale("migration", "figure_15", within_share=0),
     "15": renamed("response", "figure_10", restitution=0.2),
-    "16": each(ELASTIC, lambda name: scale("branches", name, orbit_displacement=2)),
+    "16": each(ELASTIC, lambda name: scale("harmonic_balance", name, edge_frequency=[0.2, 1])),
     "17": scale("branches", "figure_05c", orbit_displacement=10),
-    "18": scale("subharmonic", "figure_08", free_subharmonic=0.2),
+    "18": put("subharmonic", "figure_05a", subharmonic("figure_05a")),
     "19": early(0),
     "S1": power,
     "S2": renamed("harmonic_balance", "figure_03a", clearance=0.69),
@@ -77,7 +77,7 @@ REFUTED = {
 
 DIFFERENCES = {
     "3": unstable("figure_05a", 0.8, 0.85),
-    "4": scale("harmonic_balance", "figure_03b", band_width=0.81),
+    "4": assign("design_orbit", "figure_03b", orbit_multiplier_real=1.01),
     "6": assign("response", "figure_05b", outcome=flag("outcome", "chaotic")),
     "8": scale("collisions", "figure_05a", colliding=0.995),
     "9": scale("optimum", "0.215_0.12_1.0", quiet_displacement=1.5, optimum_displacement=1.5),

@@ -425,7 +425,7 @@ def world():
             )
         },
         "subharmonic": {
-            "figure_05a": subharmonic("figure_05a"),
+            "figure_05a": subharmonic("figure_05a", damped=0.16),
             "figure_05b": subharmonic("figure_05b"),
             "figure_05c": subharmonic("figure_05c", damped=0.1),
             "figure_08": subharmonic("figure_08", 0.107),

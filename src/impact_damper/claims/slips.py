@@ -201,7 +201,7 @@ CLAIMS = (
         evidence=captions,
         finding=slips_findings.captions,
         figures=("figure_03a", "figure_03b"),
-        words=SLIP,
+        words=SLIP | {NOT_REPRODUCED: "the printed values do not follow"},
     ),
     Claim(
         number="S3",
@@ -247,8 +247,9 @@ CLAIMS = (
         number="S5",
         text="The peak frequencies are 2, 2.37 and 2.8 for h = 0.215, 0.15 and 0.107.",
         source="section 3, figures 6 to 8",
-        interpretation="The peak frequency is that of the largest amplitude by harmonic balance "
-        "without the damper: the W with W^2 = (3/4) a^2 and a = 1/(h W). A printed value is "
+        interpretation="The peak frequency is taken as the end of the resonance branch by harmonic "
+        "balance without the damper: the W with W^2 = (3/4) a^2 and a = 1/(h W). A printed value "
+        "is "
         "right if it is this one rounded to the printed digits. The end of the resonance branch of "
         "exact orbits, its fold, is given too.",
         measures=tuple(
@@ -272,11 +273,12 @@ CLAIMS = (
     ),
     Claim(
         number="S6",
-        text="Figure 8 prints no d0, figure 11 neither h nor W: the values chosen agree with the "
-        "design of the paper.",
+        text="Figure 8 prints no d0, figure 11 no W: the values chosen agree with the design of "
+        "the paper.",
         source="figures 8 and 11",
         interpretation="Figure 8 is computed with d0 by (19) at the printed Wp = 2.8, figure 11 "
-        "with h = 0.215 and W = 2. A value chosen is right if it is the computed one rounded to "
+        "with W = 2; its h = 0.215 is assumed, as in figure 6, and not judged. A value chosen is "
+        "right if it is the computed one rounded to "
         "its digits: for d0 that of (19) at the printed Wp, for W the peak by harmonic balance.",
         measures=(
             Measure(

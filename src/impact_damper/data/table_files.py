@@ -74,11 +74,12 @@ def for_people(frame, title, heads, csv_name, cells=None) -> str:
 def in_words(cell) -> str:
     """Return the words for a cell: names of figures and of entries without underscores, and ∞.
 
-    "figure_05a" becomes "figure 5 (a)", "figure_03c_rule" "figure 3 (c), rule", "over_damping"
-    "over damping".
+    "figure_05a" becomes "figure 5 (a)", "figure_03c_rule" "figure 3 (c), rule", "orbits_08" "orbits
+    of figure 8", "over_damping" "over damping".
     """
-    cell = re.sub(r"^figure_0*([0-9]+)([a-z])", r"figure_\1 (\2)", str(cell))
-    cell = re.sub(r"^figure_0*([0-9]+)", r"figure \1", cell).replace(")_", "), ")
+    cell = re.sub(r"^orbits_(?=[0-9])", "orbits of figure_", str(cell))
+    cell = re.sub(r"\bfigure_0*([0-9]+)([a-z])", r"figure_\1 (\2)", cell)
+    cell = re.sub(r"\bfigure_0*([0-9]+)", r"figure \1", cell).replace(")_", "), ")
     return "∞" if cell == "inf" else re.sub(r"(?<=\w)_(?=\w)", " ", cell)
 
 

@@ -1,5 +1,7 @@
 """Findings on harmonic balance: claims 1 to 4, 7, 16 and 17."""
 
+from functools import partial
+
 from impact_damper.claims.findings.words import (
     between,
     least,
@@ -14,20 +16,24 @@ CLOSE = 1.25  # largest factor between two amplitudes that agree
 def small_motion(vanishing, stable, size, orbits, orbit_size, designs, dampers, **others):
     """Return the finding on claim 1."""
     return (
-        f"A root of (14) is zero at rm W^2 d0 = 1, to within {number(vanishing, 1)}. At Wp "
+        f"A root of (14) is zero at rm W^2 d0 = 1, to within {number(vanishing, 2, 'up')}. At Wp "
         f"{part_of(stable, 'designs by (19)', designs)} have a stable small solution of (7), with "
-        f"at most {percent(size)} of the amplitude of the free resonance, and "
+        f"at most {percent(size, 'up')} of the amplitude of the free resonance, and "
         f"{part_of(orbits, 'dampers of figures 5 and 8', dampers)} have a stable small orbit, "
-        f"with at most {percent(orbit_size)}; of these dampers omega_l is 0."
+        f"with at most {percent(orbit_size, 'up')}. Of these dampers omega_l is 0; for omega_l "
+        f"of at "
+        "least 1 exact orbits are unstable at Wp, see claim 3."
     )
 
 
 def rigid_against_elastic(alike, error, pulling, orbits, orbits_stable, **others):
     """Return the finding on claim 2."""
     return (
-        f"At {part_of(alike, 'W computed')} equation (7) has as many solutions as (14) has roots "
+        f"At {part_of(alike, 'W computed')} equation (7) has as many solutions with contact as "
+        "(14) has roots "
         "with walls that push. Apart from the smallest, their amplitudes differ by at most "
-        f"{percent(error)}. At {percent(pulling)} of the W (14) also has roots whose walls would "
+        f"{percent(error, 'up')}. At {percent(pulling)} of the W (14) also has roots whose walls "
+        f"would "
         "have to pull, without a counterpart in (7). For the dampers of figures 5 and 8 an exact "
         "orbit whose first harmonic is within 10 % of a is known for "
         f"{percent(orbits)} of these solutions of (7); {part_of(orbits_stable, 'orbits found')} "
@@ -48,9 +54,10 @@ def quiet_and_high(
         at_peak = (
             "At Wp the exact quiet orbit is unstable in "
             f"{part_of(1 - designs_stable, 'designs', designs)}, all with omega_l of at least "
-            f"{number(unstable_from)}, with Floquet multipliers up to {number(design_multiplier)}; "
-            f"there random starts {lead}, with max |Z1| from {percent(least_size)} to "
-            f"{percent(most_size)} of the free resonance."
+            f"{number(unstable_from)}, with Floquet multipliers up to "
+            f"{number(design_multiplier, 3, 'up')}; "
+            f"there random starts {lead}, with max |Z1| from "
+            f"{between(least_size, most_size).replace(' to ', ' % to ')} of the free resonance."
         )
     approximated = part_of(
         truly_stable,
@@ -62,29 +69,43 @@ def quiet_and_high(
         f"violent one at {least(beside)} of the W below the band. {at_peak} For omega_l = 0 stable "
         f"quiet orbits fill {least(orbit_around)} of the range within 10 % of Wp; at a W in the "
         f"band {least(single)} of the random starts lead to one, the others to motions that "
-        f"coexist. Below the band stable violent orbits fill {least(orbits_beside)} of the range, "
+        f"are not violent. Below the band stable violent orbits fill {least(orbits_beside)} of "
+        f"the range, "
         f"but {approximated} are stable."
     )
 
 
 def band_width(
     linear_rule, linear, relative_rule, relative, mass, existing, restitution,
-    reduction, reduction_rule, orbit_reduction, orbit_reduction_rule, **others,
+    reduction, reduction_rule, orbit_reduction, orbit_reduction_rule, designs_stable, **others,
 ):  # fmt: skip
     """Return the finding on claim 4."""
-    narrower = "" if relative >= 1 else ", so that relative to Wp the band becomes narrower"
+    missing = ""
+    if designs_stable != 1:
+        missing = (
+            f" But {percent(1 - designs_stable)} of these orbits are unstable at Wp, and larger "
+            "motions take their place (claim 3), so that the reduction then does depend on omega_l."
+        )
+    narrower = ""
+    if relative < 1:
+        narrower = "; with these the band becomes narrower relative to Wp in at least one step"
     return (
         "By (7) each step to a larger omega_l multiplies the width of the band by at least "
-        f"{number(linear_rule)} with d0 by (19) and by at least {number(linear, 4)} with d0 of the "
-        f"captions. It multiplies the width over Wp by at least {number(relative_rule)} with d0 by "
-        f"(19) and {number(relative)} with d0 of the captions{narrower}. Each step to a larger rm "
-        f"multiplies the width by at least {number(mass)} by (7), and by at least "
-        f"{number(existing)} in the motions that exist; there the step from e = 1 to 0.75 "
-        f"multiplies it by at least {number(restitution)}. The reduction at Wp varies over omega_l "
+        f"{number(linear_rule, 3, 'down')} with d0 by (19) and by at least "
+        f"{number(linear, 4, 'down')} with d0 of the "
+        f"captions. It multiplies the width over Wp by at least "
+        f"{number(relative_rule, 3, 'down')} with d0 by (19) and {number(relative, 3, 'down')} "
+        f"with "
+        f"d0 of the captions{narrower}. Each step to a larger rm "
+        f"multiplies the width by at least {number(mass, 3, 'down')} by (7), and by at least "
+        f"{number(existing, 3, 'down')} in the motions that exist; there the step from e = 1 to "
+        f"0.75 "
+        f"multiplies it by at least {number(restitution, 3, 'down')}. The reduction at Wp varies "
+        f"over omega_l "
         f"by {number(reduction_rule, 2)} percentage points with d0 by (19) and by "
         f"{number(reduction, 2)} with d0 of the captions; for the exact quiet orbits, stable or "
         f"not, by {number(orbit_reduction_rule, 2)} and {number(orbit_reduction, 2)} percentage "
-        "points."
+        f"points.{missing}"
     )
 
 
@@ -93,14 +114,19 @@ def phases(
 ):  # fmt: skip
     """Return the finding on claim 7."""
     return (
-        "From 0.75 Wp to Wp the first harmonics of Z1 and Z2 are within "
-        f"{number(below, 2)} rad of antiphase. They are a quarter of a cycle apart at "
-        f"{number(turn)} Wp, where by (7) a changes sign at {number(turn_balance)} Wp, and within "
-        f"0.3 rad of being in phase from {number(in_phase)} Wp on. At the highest W computed, "
-        f"{number(highest)}, {number(above, 2)} rad are left. Z1 and the displacement x2 of the "
-        f"loose mass do the opposite: they are within {number(loose_below, 2)} rad of being in "
-        f"phase below Wp, and within {number(loose_above, 2)} rad of antiphase at W = "
-        f"{number(highest)}."
+        "Read literally, for the displacements of both masses, the claim is reversed: Z1 and the "
+        f"displacement x2 of the loose mass are within {number(loose_below, 2, 'up')} rad of "
+        f"being in "
+        f"phase below Wp, and within {number(loose_above, 2, 'up')} rad of antiphase at the "
+        f"highest W "
+        f"computed, {number(highest)}. Read as in (6d), with Z2 for the loose mass, it holds: "
+        f"from 0.75 "
+        "Wp to Wp the first harmonics of Z1 and Z2 are within "
+        f"{number(below, 2, 'up')} rad of antiphase. They are a quarter of a cycle apart at "
+        f"{number(turn)} Wp, whereas by (7) a changes sign at {number(turn_balance)} Wp, and "
+        f"within "
+        f"0.3 rad of being in phase from {number(in_phase)} Wp on. At the highest W "
+        f"{number(above, 2, 'up')} rad are left."
     )
 
 
@@ -109,12 +135,14 @@ def accuracy(typical, width, typical_factor, factor, least_factor, harmonic, sha
     agrees = "agrees" if factor <= CLOSE else "does not agree"
     return (
         f"Harmonic balance gives the width of the band to {percent(typical)} in the median over "
-        f"the dampers, and to {percent(width)} at worst. The amplitude {agrees}: depending on the "
-        "damper, the means of max |Z1| and of |a| over the band differ by a factor of "
-        f"{between(least_factor, factor, lambda value: number(value, 2))}, in the median "
-        f"{number(typical_factor, 2)}. The mean of the first harmonic differs from that of |a| by "
-        f"a factor of up to {number(harmonic, 2)}. Relative to the free resonance max |Z1| and "
-        f"|a| differ by at most {percent(share)}."
+        f"the dampers, and to {percent(width, 'up')} at worst. The amplitude {agrees}: depending "
+        f"on "
+        "the damper, the mean of max |Z1| over the band is "
+        f"{between(least_factor, factor, partial(number, digits=2))} times the mean of |a|, in the "
+        f"median {number(typical_factor, 2)} times. The mean of the first harmonic differs from "
+        f"that of |a| by "
+        f"a factor of up to {number(harmonic, 2, 'up')}. Max |Z1| and |a| differ by at most "
+        f"{percent(share, 'up')} of the free resonance."
     )
 
 
@@ -126,10 +154,11 @@ def amplitude_by_mass(
     return (
         f"At rm = {number(heaviest)} the mean of max |Z1| over the common band of the dampers of "
         f"figure 5 is {percent(whole)} of the mean at rm = {number(lightest)}. Each step to a "
-        f"larger rm multiplies the mean by at most {number(steps)}, by (7) by at most "
-        f"{number(balance)}. At W = {number(frequency)}, the design frequency of the paper, rm W^2 "
+        f"larger rm multiplies the mean by at most {number(steps, 3, 'up')}, by (7) by at most "
+        f"{number(balance, 3, 'up')}. At W = {number(frequency)}, the design frequency of the "
+        f"paper, rm W^2 "
         f"d0 is {number(product_a)} in (a), {number(product_b)} in (b) and {number(product_c)} in "
-        "(c), where (19) demands 1. For dampers that fulfil (19) max |Z1| at this W and at rm = "
+        "(c), whereas (19) demands 1. For dampers that fulfil (19) max |Z1| at this W and at rm = "
         f"{number(rule_heaviest)} is {percent(rule)} of its value at rm = "
         f"{number(rule_lightest)}."
     )

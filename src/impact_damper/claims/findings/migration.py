@@ -31,7 +31,8 @@ def release_phase(
     decides = ""
     if not math.isnan(quiet_first):
         decides = (
-            " Among the frequencies scanned its phase of release decides between both from W = "
+            " Among the frequencies scanned the phase of release of the quiet motion decides "
+            "between both from W = "
             f"{number(quiet_first, 4)} to {number(quiet_last, 4)}, where "
             f"{between(quiet_least, quiet_most)} of the phases lead to the non-resonance branch."
         )
@@ -47,7 +48,9 @@ def release_phase(
         early = (
             f" The phase of early releases matters at W = {number(frequency)}: of runs that "
             f"repeat such releases {percent(by_phase)} arrive on the non-resonance branch within "
-            f"350 cycles at the best phase, but {percent(by_hold)} at a random phase."
+            f"350 cycles at the best phase, but {percent(by_hold)} at a random phase after the "
+            f"best "
+            "fixed number of cycles, both after several tries."
         )
     return (
         f"Without the damper the period-3 motion exists from W = {number(lower, 5)} to "
@@ -67,7 +70,7 @@ def total_cycles(
     )
     longest = ""
     if all(case["hold"] for case in cases):
-        longest = f", or after {listed(str(case['hold']) for case in cases)} cycles"
+        longest = f", at the latest after {listed(str(case['hold']) for case in cases)} cycles"
     fixed = ""
     if not any(math.isnan(case["by_hold"]) for case in cases):
         by_hold = listed(percent(case["by_hold"]) for case in cases)
@@ -83,8 +86,8 @@ def total_cycles(
     return (
         "The non-resonance branch is reached within 350 cycles by "
         f"{shares}, if the damper is released when its motion has settled{longest}.{fixed} At the "
-        f"least favourable W the share is {percent(within)} in the first way, and {percent(best)} "
-        f"in the better way at each W.{state}"
+        f"least favourable W {percent(within)} do in the first way, and {percent(best)} in the "
+        f"better way.{state}"
     )
 
 
@@ -97,7 +100,8 @@ def early_release(
     whenever = ""
     if not math.isnan(later):
         whenever = (
-            f" Of releases at any time before the motion has settled {percent(later)} do. The "
+            f" Of releases at any time before the motion has settled {percent(later)} lead to "
+            f"period 3. The "
             f"difference is in the returns to resonance, {percent(resonance)} and "
             f"{percent(later_resonance)}: of the other releases {percent(of_others)} and "
             f"{percent(later_of_others)} lead to period 3."

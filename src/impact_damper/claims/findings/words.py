@@ -6,22 +6,49 @@ import math
 FEW = 20
 
 
-def number(value, digits=3) -> str:
-    """A number with a few significant digits."""
-    return "an unknown number" if math.isnan(value) else f"{value:.{digits}g}"
+def number(value, digits=3, bound="") -> str:
+    """Return a number with a few significant digits, rounded up or down if it is a bound.
+
+    Parameters
+    ----------
+    value : float
+    digits : int
+    bound : {"", "up", "down"}
+        "up" for a number after "at most", "down" after "at least", so that the sentence holds.
+    """
+    if math.isnan(value):
+        return "an unknown number"
+    decimals = digits - 1 - math.floor(math.log10(abs(value))) if value else 0
+    return f"{_rounded(value, decimals, bound):.{digits}g}"
 
 
-def percent(share) -> str:
-    """A share as a percentage of two or three digits, which is 0 or 100 only if that is exact."""
+def percent(share, bound="") -> str:
+    """Return a share as a percentage of two or three digits, rounded as in `number`.
+
+    It is 0 or 100 only if the share is.
+    """
     if math.isnan(share):
         return "an unknown share"
     if 0 < share < 0.0005:
         return "less than 0.1 %"
     if share == 1 or not 0.95 < share < 1:
         decimals = 0 if abs(share) >= 0.1 else 1
-        return f"{100 * share:.{decimals}f}".removesuffix(".0") + " %"
-    text = f"{100 * share:.{3 if share < 0.999 else 4}g}"
+        rounded = _rounded(100 * share, decimals, bound)
+        return f"{rounded:.{decimals}f}".removesuffix(".0") + " %"
+    digits, decimals = (3, 1) if share < 0.999 else (4, 2)
+    text = f"{_rounded(100 * share, decimals, bound):.{digits}g}"
     return "more than 99.99 %" if text == "100" else f"{text} %"
+
+
+def _rounded(value, decimals, bound):
+    """Return a number rounded to decimals: to the nearest, or up or down beyond rounding errors."""
+    if not bound:
+        return value
+    scaled = value * 10.0**decimals
+    near = round(scaled)
+    if not math.isclose(scaled, near, rel_tol=1e-9, abs_tol=1e-9):
+        near = math.ceil(scaled) if bound == "up" else math.floor(scaled)
+    return near / 10.0**decimals
 
 
 def part_of(share, things, count=None) -> str:
@@ -37,14 +64,15 @@ def part_of(share, things, count=None) -> str:
 
 
 def least(share) -> str:
-    """A lower bound of a share."""
-    return "all" if share == 1 else f"at least {percent(share)}"
+    """Return a lower bound of a share in words."""
+    return "all" if share == 1 else f"at least {percent(share, 'down')}"
 
 
 def between(low, high, form=percent) -> str:
-    """Both ends of a range, or one of them if they look the same."""
-    ends = [form(low), form(high)]
-    return ends[0] if ends[0] == ends[1] else f"{ends[0].removesuffix(' %')} to {ends[1]}"
+    """Return a range that contains both numbers, or one number if they look the same."""
+    if form(low) == form(high):
+        return form(low)
+    return f"{form(low, bound='down').removesuffix(' %')} to {form(high, bound='up')}"
 
 
 def listed(items) -> str:
