@@ -1,18 +1,19 @@
-"""Approximate periodic motions by single-term harmonic balance, first guesses of Newton's method.
+"""First guesses for Newton's method: periodic motions by harmonic balance with one harmonic.
 
 Let u = U cos(T + phase) be the motion of the machine relative to the absorber. It determines the
 force in the absorber's spring and dashpot. This force determines the motion x of the machine, and x
 determines the external force of amplitude f that the motion needs. Therefore f is an explicit
 function of U, even if several motions have the same f. Let the machine have the stiffness k,
 damping h and cubic stiffness k3, and the absorber the mass m, stiffness kappa, damping eta and
-cubic stiffness kappa3, all divided by the mass of the machine and with the unit of time of
-`problems`. With q = U^2
+cubic stiffness kappa3. All are divided by the mass of the machine, in units of time in which the
+forcing is f cos T (`problems`). With q = U^2
 
     f^2 = q |P(q)|^2,    P = A (c0 + c1 q) + h0 + h1 q,    A = k - 1 + i h + (3/4) k3 |x|^2
     x = U (c0 + c1 q),   c0 = 1 - h0/m,   c1 = -h1/m,   h0 = kappa + i eta,   h1 = (3/4) kappa3
 
 All motions with one harmonic, also detached resonances, are therefore roots of a polynomial of
-degree 9. Without an absorber x takes the place of u, with c0 = 1 and c1 = h0 = h1 = 0.
+degree 9 in q, or of degree 3 if only one of the two springs is nonlinear. Without an absorber x
+takes the place of u, with c0 = 1 and c1 = h0 = h1 = 0.
 """
 
 import numpy as np
@@ -29,7 +30,8 @@ from impact_damper.motions.smooth_runs import (
     STIFFNESS,
 )
 
-# Largest imaginary part of a root 1/q, relative to its real part. REAL allows for rounding errors.
+# Largest imaginary part, as a fraction of the real part, with which a root y = scale/q (see
+# `_solutions`) counts as real. REAL allows for rounding errors.
 # Near a fold, exact motions may exist although two roots of the balance have just become complex.
 # Therefore the first guesses come from all roots within NEARLY_REAL.
 REAL, NEARLY_REAL = 1e-5, 0.1
@@ -64,7 +66,7 @@ def harmonic_displacements(problems):
 def _solutions(problems, allowed):
     """Return the problem and the amplitude of u (or x) of all roots that are nearly real."""
     power, force = _polynomial(problems), problems[:, FORCE]
-    # With q = scale/y the polynomial in y has the leading coefficient 1 and the next one -1.
+    # With q = scale/y the polynomial in y has the coefficients 1 of y^9 and -1 of y^8.
     scale, degree = force**2 / power[0], len(power)
     companion = np.zeros((len(problems), degree, degree))
     companion[:, 0, :] = (power * scale ** np.arange(1, degree + 1)[:, None] / force**2).T

@@ -12,8 +12,9 @@ Then by equations (3), (4) and (20) to (24)
 
 with the dashpot coefficient D. For k = 0 the last terms are h x[1] and D q[1]. f is the force of
 the wall, and g the part of the acceleration that does not come from the wall. In flight q and f are
-absent, and Z2 - Z1 is a linear function of time. The variational equations are the same equations
-with e = 0 and with 3 k3 (x^2 dx)[k] in place of k3 (x^3)[k].
+absent, and Z2 - Z1 is a linear function of time. The variational equations, for a small difference
+dx, dq between two motions, are the same equations with e = 0, with dx and dq in place of x and q,
+and with 3 k3 (x^2 dx)[k] in place of k3 (x^3)[k].
 
 The coefficients of x^3 are computed as follows. A product of three coefficients x[i] x[j] x[m] with
 i + j + m = k has at most one factor of an order above n = k // 2. Let l be the polynomial that has
@@ -24,9 +25,10 @@ the terms of x up to order n. Then
 Each of the newest coefficients therefore occurs in one product only, and this product is computed
 last. The lines use these names:
 
-    s0, s1, ...   coefficients of k3 l^2; a new term x[n] of l changes s[n] to s[2n]
+    s0, s1, ...   coefficients of k3 l^2; a new term x[n] of l changes all of s[n], ..., s[2n]
     z0, z1, ...   3 s0, 3 s1, ...
-    P0, P2, ...   pairs of neighbours (s0, s1), (s2, s3), ..., each in one register with one lane
+    P0, P2, ...   pairs of neighbours (s0, s1), (s2, s3), ...; with one lane (a single trajectory)
+                  each pair is in one register
     Z0, Z2, ...   3 P0, 3 P2, ...
 """
 
@@ -87,7 +89,7 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield the lines that change s[n] to s[2n] when the coefficient x[n] is added to l.
+    """Yield the lines that change all of s[n], ..., s[2n] when the term x[n] is added to l.
 
     With y = 2 k3 x[n] the product y x[j] is added to s[n+j] for each j < n, in pairs that begin at
     an even order, and k3 x[n]^2 becomes s[2n].

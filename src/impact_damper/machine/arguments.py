@@ -40,11 +40,12 @@ def takes_machine(function):
 
     An argument is converted by its name, which has the same meaning in all functions: `frequency`
     and `frequencies` (Hz), `state` and `loose` (m, m/s), `displacement` (m), `velocity` (m/s),
-    `clearances` (m, on each side), `radius` (m for displacements; speeds are scaled alike), `start`
-    (s), `damper`, `parameter` with `span`, `motions`. Each number may be text with units or a
-    quantity of pint. `mass_ratio` stays a ratio. A dataset that the function returns is converted
-    by `in_si`; a single number that it returns is a clearance on each side, in m. Numbers in errors
-    and warnings are in SI units. With an `Oscillator` nothing is converted.
+    `clearances` (m, on each side), `radius` (m; the ball of starts also reaches the speed radius *
+    w0, with 1/w0 the scale of time), `start` (s), `damper`, `parameter` with `span`, `motions`.
+    Each number may be text with units or a quantity of pint. `mass_ratio` stays a ratio. A dataset
+    that the function returns is converted by `in_si`. A single number that it returns is a
+    clearance on each side, in m. Numbers in errors and warnings are in SI units. With an
+    `Oscillator` nothing is converted.
 
     Parameters
     ----------
@@ -70,7 +71,8 @@ def _called(function, machine, given):
     arguments = dict(given)
     damper = arguments.get("damper")
     parameter = arguments.get("parameter", "frequency")
-    # The force of a moving base depends on the frequency; several frequencies need one formula.
+    # The force of a moving base is exact for one given frequency. Over a range of frequencies one
+    # formula approximates it.
     fixed = "frequency" in arguments and not ("span" in arguments and parameter == "frequency")
     single = machine.check_frequency("frequency", arguments["frequency"]) if fixed else None
     arguments["oscillator"] = machine.oscillator(single)
@@ -160,7 +162,10 @@ def _clearances(machine, name, values):
 
 
 def _state(machine, name, values):
-    """Return a state in the scales of a machine; a state from a dataset keeps its phase."""
+    """Return a state in the scales of a machine.
+
+    A state from a dataset stays a DataArray, with its forcing phase as coordinate.
+    """
     labelled, values = values, getattr(values, "values", values)
     if isinstance(labelled, xr.DataArray):
         units = labelled.attrs.get("units")

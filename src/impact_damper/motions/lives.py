@@ -18,7 +18,7 @@ from impact_damper.motions.settling import settle_many
 from impact_damper.motions.watch import NEAR
 from impact_damper.system.packed import FREQUENCY
 
-# The first states of the runs of one motion differ by at most APART in Z1 and Z1'.
+# Z1 and Z1' of the first state of a run differ by at most APART from the state of the motion.
 APART = 1e-4
 # A transient ends when its distance from an orbit falls below CAPTURE.
 CAPTURE = 0.1
@@ -37,7 +37,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     outcomes : array, shape (n, m)
         Flags `outcome` of the motions at each value of the parameter.
     states : array, shape (n, m, 4)
-        States of the motions at the strobe, W T = pi/2.
+        States of the motions once in each cycle, at the phase W T = pi/2 (the strobe).
     runs, periods : int
         Number of runs of each chaotic motion, and forcing cycles of a run.
     seed : int
@@ -82,8 +82,8 @@ def _lives(parameters, states, periods, settling, **running):
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # The patience exceeds the limit, so no run is stopped as chaotic, and no tangent is
-        # computed.
+        # The patience exceeds the limit. Therefore no run is stopped as chaotic, and no
+        # neighbouring motion (tangent) is followed for the Lyapunov exponent.
         settle_many(
             parameters[part],
             states[part],
@@ -106,7 +106,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # A run that is no longer chaotic ended shortly before its last cycle.
+    # A run that proves no longer chaotic when it is continued counts as ended at `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

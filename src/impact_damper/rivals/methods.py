@@ -28,8 +28,9 @@ class Method(NamedTuple):
         Whether runs stop after a number of evaluations of the rate. A slow integrator is run with
         fewer tolerances and, for chaotic motions, over fewer cycles.
     implicit : bool
-        Whether the integrator is an implicit one, for which the stage `missed_contacts` runs only
-        the first `implicit_passages` passages.
+        Whether the integrator is an implicit one. With such an integrator the stage
+        `missed_contacts` runs only the first `implicit_passages` passages, which are random flights
+        without contact.
     """
 
     title: str

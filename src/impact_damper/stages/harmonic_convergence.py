@@ -25,7 +25,7 @@ FINEST = 1e-14
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd highest harmonics N up to `highest`: all to 15, then three in each octave."""
+    """Return odd numbers N up to `highest`: all up to 15, then three for each doubling."""
     check_count("highest", highest, **HARMONIC_RANGE)
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
@@ -33,7 +33,10 @@ def ladder(highest) -> np.ndarray:
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return symmetric motions by harmonic balance, their stability by Hill's method, and errors.
+    """Return symmetric motions by harmonic balance, with their stability and errors.
+
+    The stability follows from Floquet multipliers, which Hill's method computes from the Fourier
+    series of the linearised motion (`theory.hill`).
 
     For the first balance Newton's method starts from a single-term solution: the solution of (7)
     for e = 1 with the smallest |a|, or without a damper the free solution with the largest |a|. For
@@ -138,7 +141,8 @@ def hill_table(solutions, exact):
     period = 2 * np.pi / frequency
     trace = -oscillator.damping
     if damper is not None:
-        # mean divergence of the flow (Liouville's theorem); in contact the dashpot adds to it
+        # Sum of the Floquet exponents (Liouville's theorem): the average over a cycle of -h and,
+        # during contact, also of -c (1 + 1/rm).
         trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.touching / period
     multipliers = np.full((len(solutions), 2 if damper is None else 4), complex(np.nan, np.nan))
     status = np.full(len(solutions), flag("hill_status", "not_tried"))

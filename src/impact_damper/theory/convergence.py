@@ -2,29 +2,29 @@
 
 With elastic contacts the contact force is continuous with kinks, and coefficient k of the Fourier
 series of Z1 and Z2 decreases as k^-4. With a dashpot the force jumps at the beginning and end of a
-contact, and the coefficients decrease as k^-3. The errors below follow from these powers. Of two
-powers the first holds for elastic contacts and the second with a dashpot.
+contact, and the coefficients decrease as k^-3. The errors below follow from these powers. Where
+two powers are given, the first is for elastic contacts and the second for contacts with a dashpot.
 
 - Root mean square of the omitted harmonics k > N: N^-3.5 or N^-2.5.
 - Error of the retained harmonics k <= N: N^-5 or N^-3. The omitted harmonics cause this error
   through the contact force. Let M be the function of time that is 1 in contact and 0 elsewhere; its
-  coefficients decrease as 1/k. The error is the sum over |k| > N of the omitted coefficients times
-  coefficients of M. This sum is of order N^-4 or N^-3. For elastic contact the terms of k and -k
-  cancel at the order N^-4.
+  coefficients decrease as 1/k. The force on a retained harmonic k changes by the sum, over the
+  omitted harmonics |n| > N, of coefficient n of the motion times coefficient k - n of M. This sum
+  is of order N^-4 or N^-3. For elastic contact the terms of n and -n cancel at the order N^-4.
 - Error of max |Z1|: N^-4 or N^-3. It is the error of the retained harmonics plus the value of the
   omitted series at one instant, provided that max |Z1| is reached away from the ends of the
   contacts. For elastic contact the N^-5 term may be larger than the N^-4 term at small N.
 - Error of the Floquet multipliers: N^-4 or N^-3. The coefficients of a disturbance decrease as k^-3
   or k^-2. For elastic contact the omitted harmonics of the disturbance change the force at each end
-  of a contact by a term of order N^-3. The error in the time of this end causes a term of the same
-  size and opposite sign: r1 (1 + 1/rm)/pi times the sum of k^-4 over k > N. With a dashpot the
-  terms of k and -k cancel.
+  of a contact by r1 (1 + 1/rm)/pi times the sum of k^-4 over k > N, which is of order N^-3. The
+  error in the time of this end cancels this order, and N^-4 remains. With a dashpot the terms of
+  k and -k cancel.
 
 These powers hold for N above `asymptotic_harmonic`. The errors oscillate about the powers, because
 the beginning and end of a contact contribute with a relative phase that changes with N.
 
-Without contacts the motion is an analytic function of complex time in a strip around the real axis.
-The strip extends to the nearest singularity, at a distance s from the real axis. The omitted
+Without contacts the motion can be continued to complex time T, up to the nearest point at which Z1
+becomes infinite (singularity). Let s be the distance of this point from the real axis. The omitted
 harmonics decrease as exp(-s W N) and the error of the last retained harmonics as N^-2 exp(-s W N).
 The error of the multipliers is quadratic in the omitted harmonics and decreases as exp(-2 s W N).
 With a linear spring there is no singularity, and N = 1 is exact.
@@ -61,8 +61,8 @@ def asymptotic_harmonic(damper, frequency) -> float:
     Harmonic N must resolve a contact. Its period 2 pi/(N W) equals the duration of a contact
     without other forces, pi/(w sqrt(1 - z^2)) with w^2 = r1 (1 + 1/rm) and z = zc sqrt(1 + rm)
     (appendix B). With a dashpot N is also at least r1/(c W), with c = 2 zc sqrt(r1 rm). Above this
-    harmonic the jump c Z2' of the contact force has a larger Fourier coefficient than the kink r1
-    Z2' of the force.
+    harmonic the jump of the contact force, c Z2', contributes more to a coefficient than the jump
+    of its slope, r1 Z2'.
 
     Parameters
     ----------

@@ -22,8 +22,8 @@ from impact_damper.theory.straight_flight import (
     least_harmonic_ratio,
 )
 
-# rm W^2 d0 at which, in a straight flight between rigid walls, the first harmonic of the loose mass
-# has the amplitude that rule (18) requires.
+# rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
+# equals f/(rm W^2). This amplitude keeps the primary mass at rest, and rule (18) requires it.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # A solution of (7) with |a| below ZERO_AMPLITUDE times the clearance counts as a = 0.
 ZERO_AMPLITUDE = 1e-6
@@ -109,10 +109,11 @@ def analytical_table(oscillator, dampers, frequency):
 
 
 def excess_table(ratio, damper):
-    """Return how much of the excess of the optimum over rule (18) two closed forms explain.
+    """Return the fraction of the optimum's excess over rule (18) that each closed form explains.
 
-    The excess is (rm W^2 d0 at the optimum) - 1. A closed form with the ratio c explains the share
-    (c - 1)/excess of it.
+    The excess is (rm W^2 d0 at the optimum) - 1. A closed form with the ratio c explains the
+    fraction (c - 1)/excess. The two closed forms are FIRST_HARMONIC_RATIO and
+    `straight_flight_ratio`.
 
     Parameters
     ----------
@@ -141,8 +142,8 @@ def rule_ratios(oscillator, damper, frequency):
 
     The rules are: rule (18) ("balance"), the first harmonic of a straight flight ("gap_harmonic"),
     a straight flight between rigid walls ("straight_flight"), a straight flight with elastic
-    contact to first order in its duration and in the damping ("elastic"), and a straight flight
-    with damping, stiffness and inelastic contact ("flight").
+    contact to first order in the duration of a contact and in the damping ("elastic"), and a
+    straight flight with damping, stiffness and inelastic contact ("flight").
 
     Parameters
     ----------
