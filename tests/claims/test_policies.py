@@ -59,5 +59,5 @@ def test_claims_cite_the_policies(data):
         "b": policies(cases["figure_13"], 1.95),
     }
     rows = {claim.number: claim.judge(data) for claim in CLAIMS if claim.number in ("13", "14")}
-    assert "30 % arrive" in rows["13"]["finding"]
+    assert "30 % of the runs arrive" in rows["13"]["finding"]
     assert "upper end of this interval: 0.15" in rows["14"]["evidence"]

@@ -129,7 +129,8 @@ CLAIMS = (
             ),
             Measure(
                 "bands",
-                "share of designs with a range of W around Wp in which (7) has one stable solution",
+                "share of designs with a range of W around Wp in which (7) has one stable solution "
+                "with contact",
                 least=1,
                 decisive=True,
             ),

@@ -211,10 +211,9 @@ CLAIMS = (
         interpretation="The ball is read literally, so that it extends beyond the walls, where a "
         "start counts as a collision, and also restricted to the gap. At the design frequency, "
         "for each damper of figure 5, at least 99 % of the random starts must lead to a collision "
-        "within 2000 cycles, for full agreement all. Special initial conditions do exist: "
-        "started on "
-        "the non-resonance branch without the damper, where max |Z1| is below d0, with the loose "
-        "mass at rest in the middle, the masses never collide.",
+        "within 2000 cycles, for full agreement all. Special initial conditions do exist: started "
+        "on the non-resonance branch without the damper, where max |Z1| is below d0, with the "
+        "loose mass at rest in the middle, the masses never collide.",
         measures=(
             Measure(
                 "literal",

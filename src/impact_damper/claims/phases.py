@@ -63,8 +63,8 @@ CLAIMS = (
         "Wp.",
         source="section 3, figure 5",
         interpretation="The phase is taken between Z1 and Z2, as in (6d): the sign of a, by (7) "
-        "exactly 0 or pi. The phase between Z1 and the displacement x2 = Z1 - Z2 of the loose mass "
-        "is the opposite where |a| < b, and is given too. The phases are those of the first "
+        "exactly 0 or pi. The phase between Z1 and the displacement x2 = Z1 - Z2 of the loose "
+        "mass is the opposite where |a| < b, and is given too. The phases are those of the first "
         "harmonics of the smallest stable orbit of period 1, from 0.75 Wp to the highest W "
         "computed. The least favourable of the dampers of figure 5 counts. Almost means within "
         "0.3 rad: at all W below Wp, and at the highest W above. For full agreement the phase "

@@ -247,11 +247,10 @@ CLAIMS = (
         number="S5",
         text="The peak frequencies are 2, 2.37 and 2.8 for h = 0.215, 0.15 and 0.107.",
         source="section 3, figures 6 to 8",
-        interpretation="The peak frequency is taken as the end of the resonance branch by harmonic "
-        "balance without the damper: the W with W^2 = (3/4) a^2 and a = 1/(h W). A printed value "
-        "is "
-        "right if it is this one rounded to the printed digits. The end of the resonance branch of "
-        "exact orbits, its fold, is given too.",
+        interpretation="The peak frequency is taken where the free resonance by harmonic balance "
+        "crosses its backbone, W^2 = (3/4) a^2 with a = 1/(h W), close to its end. A printed "
+        "value is right if it is this one rounded to the printed digits. The end of the resonance "
+        "branch of exact orbits, its fold, is given too.",
         measures=tuple(
             Measure(f"{kind}_{value:g}", f"{words} for h = {value:g}{unit}", **bounds)
             for value in PRINTED_PEAKS

@@ -208,10 +208,11 @@ CLAIMS = (
         "read as a fall of the amplitude of the subharmonic, relative to the free amplitude, that "
         "is larger at h = 0.107 than at h = 0.215, both with rm = 0.12, by 5 % at least. In units "
         "of Z1 the fall is larger because the free amplitude is, which is no property of the "
-        "control. The fall is averaged over random starts and over W between the folds of the free "
-        "subharmonic; a start that leads to another motion counts as 0. Full agreement also "
-        "requires that no stable subharmonic remains nearly unchanged, however few starts lead to "
-        "it.",
+        "control. A relative fall cannot exceed 100 %: where it is nearly complete at both h, the "
+        "verdict says only that the control is not more complete at lower h. The fall is averaged "
+        "over random starts and over W between the folds of the free subharmonic; a start that "
+        "leads to another motion counts as 0. Full agreement also requires that no stable "
+        "subharmonic remains nearly unchanged, however few starts lead to it.",
         measures=(
             Measure(
                 "relative",

@@ -61,21 +61,25 @@ def claims(datasets) -> pd.DataFrame:
 # What holds for all claims.
 READING = """\
 S1 to S6 are places of the paper that look like a misprint or an omission, each taken as the \
-claim that the print is correct. A claim of several statements is reproduced with a difference \
-if some of them hold and others do not.
+claim that the print is correct. A claim is reproduced if all that is required and all that full \
+agreement demands hold, reproduced with a difference if only what is required holds, and \
+otherwise not reproduced. In the findings bounds and ends of ranges are rounded outward.
 
 W is the forcing frequency, Ω in the figures, and Wp its value at the peak of the resonance \
 without the damper. Z1 is the displacement of the primary mass, Z2 its displacement relative to \
-the loose mass. (7), (14) and (19) are equations of the paper: harmonic balance, its limit of \
-rigid walls, and the rule rm Wp^2 d0 = 1 for the clearance.
+the loose mass; a and b are their amplitudes by harmonic balance. h is the damping, omega_l^2 \
+the linear stiffness, rm the mass ratio, d0 half the gap, and e the restitution. (7), (14) and \
+(19) are equations of the paper: harmonic balance, its limit of rigid walls, and the rule rm \
+Wp^2 d0 = 1 for the clearance.
 
 A motion is violent if its max |Z1| is above half of the free resonance at the same W, the \
 resonance branch without the damper; for solutions of (7) |a| counts. Above the end of this \
 branch no motion is called violent. A quiet motion has period 1, touches the walls and is not \
 violent. In all claims the suppression band is the range of W around Wp, up to the end of the \
 free resonance, in which no motion with the damper is violent. By (7) the quiet motion is the \
-only stable one there. In the simulations other motions that are not violent exist beside it, \
-such as the subharmonics that the paper finds within the band of figure 5 (c)."""
+only stable one with contact there; a motion without contact may coexist. In the simulations \
+other motions that are not violent exist beside it, such as the subharmonics that the paper \
+finds within the band of figure 5 (c)."""
 
 
 def document(frame, picture=None, drawn=None) -> str:

@@ -20,9 +20,8 @@ def small_motion(vanishing, stable, size, orbits, orbit_size, designs, dampers, 
         f"{part_of(stable, 'designs by (19)', designs)} have a stable small solution of (7), with "
         f"at most {percent(size, 'up')} of the amplitude of the free resonance, and "
         f"{part_of(orbits, 'dampers of figures 5 and 8', dampers)} have a stable small orbit, "
-        f"with at most {percent(orbit_size, 'up')}. Of these dampers omega_l is 0; for omega_l "
-        f"of at "
-        "least 1 exact orbits are unstable at Wp, see claim 3."
+        f"with at most {percent(orbit_size, 'up')}. Of these dampers omega_l is 0; claim 3 has "
+        "the exact orbits for omega_l = 1 and 1.5."
     )
 
 
@@ -30,12 +29,10 @@ def rigid_against_elastic(alike, error, pulling, orbits, orbits_stable, **others
     """Return the finding on claim 2."""
     return (
         f"At {part_of(alike, 'W computed')} equation (7) has as many solutions with contact as "
-        "(14) has roots "
-        "with walls that push. Apart from the smallest, their amplitudes differ by at most "
-        f"{percent(error, 'up')}. At {percent(pulling)} of the W (14) also has roots whose walls "
-        f"would "
-        "have to pull, without a counterpart in (7). For the dampers of figures 5 and 8 an exact "
-        "orbit whose first harmonic is within 10 % of a is known for "
+        "(14) has roots with walls that push. Apart from the smallest, their amplitudes differ by "
+        f"at most {percent(error, 'up')}. At {percent(pulling)} of the W (14) also has roots "
+        "whose walls would have to pull, without a counterpart in (7). For the dampers of figures "
+        "5 and 8 an exact orbit whose first harmonic is within 10 % of a is known for "
         f"{percent(orbits)} of these solutions of (7); {part_of(orbits_stable, 'orbits found')} "
         "are stable."
     )
@@ -55,9 +52,9 @@ def quiet_and_high(
             "At Wp the exact quiet orbit is unstable in "
             f"{part_of(1 - designs_stable, 'designs', designs)}, all with omega_l of at least "
             f"{number(unstable_from)}, with Floquet multipliers up to "
-            f"{number(design_multiplier, 3, 'up')}; "
-            f"there random starts {lead}, with max |Z1| from "
-            f"{between(least_size, most_size).replace(' to ', ' % to ')} of the free resonance."
+            f"{number(design_multiplier, 3, 'up')}; there random starts {lead}, with max |Z1| "
+            f"from {between(least_size, most_size).replace(' to ', ' % to ')} of the free "
+            "resonance."
         )
     approximated = part_of(
         truly_stable,
@@ -66,12 +63,11 @@ def quiet_and_high(
     return (
         f"By (7) {part_of(bands, 'designs of figure 3', designs)} have a suppression band, a "
         f"stable quiet solution at {least(around)} of the W within 10 % of Wp, and a stable "
-        f"violent one at {least(beside)} of the W below the band. {at_peak} For omega_l = 0 stable "
-        f"quiet orbits fill {least(orbit_around)} of the range within 10 % of Wp; at a W in the "
-        f"band {least(single)} of the random starts lead to one, the others to motions that "
-        f"are not violent. Below the band stable violent orbits fill {least(orbits_beside)} of "
-        f"the range, "
-        f"but {approximated} are stable."
+        f"violent one at {least(beside)} of the W below the band. {at_peak} For omega_l = 0 "
+        f"stable quiet orbits fill {least(orbit_around)} of the range within 10 % of Wp; at a W "
+        f"in the band {least(single)} of the random starts lead to one, the others to motions "
+        f"that are not violent. Below the band stable violent orbits fill {least(orbits_beside)} "
+        f"of the range, but {approximated} are stable."
     )
 
 
@@ -92,20 +88,16 @@ def band_width(
     return (
         "By (7) each step to a larger omega_l multiplies the width of the band by at least "
         f"{number(linear_rule, 3, 'down')} with d0 by (19) and by at least "
-        f"{number(linear, 4, 'down')} with d0 of the "
-        f"captions. It multiplies the width over Wp by at least "
-        f"{number(relative_rule, 3, 'down')} with d0 by (19) and {number(relative, 3, 'down')} "
-        f"with "
-        f"d0 of the captions{narrower}. Each step to a larger rm "
-        f"multiplies the width by at least {number(mass, 3, 'down')} by (7), and by at least "
+        f"{number(linear, 4, 'down')} with d0 of the captions. It multiplies the width over Wp by "
+        f"at least {number(relative_rule, 3, 'down')} with d0 by (19) and "
+        f"{number(relative, 3, 'down')} with d0 of the captions{narrower}. Each step to a larger "
+        f"rm multiplies the width by at least {number(mass, 3, 'down')} by (7), and by at least "
         f"{number(existing, 3, 'down')} in the motions that exist; there the step from e = 1 to "
-        f"0.75 "
-        f"multiplies it by at least {number(restitution, 3, 'down')}. The reduction at Wp varies "
-        f"over omega_l "
-        f"by {number(reduction_rule, 2)} percentage points with d0 by (19) and by "
-        f"{number(reduction, 2)} with d0 of the captions; for the exact quiet orbits, stable or "
-        f"not, by {number(orbit_reduction_rule, 2)} and {number(orbit_reduction, 2)} percentage "
-        f"points.{missing}"
+        f"0.75 multiplies it by at least {number(restitution, 3, 'down')}. The reduction at Wp "
+        f"varies over omega_l by {number(reduction_rule, 2)} percentage points with d0 by (19) "
+        f"and by {number(reduction, 2)} with d0 of the captions; for the exact quiet orbits, "
+        f"stable or not, by {number(orbit_reduction_rule, 2)} and {number(orbit_reduction, 2)} "
+        f"percentage points.{missing}"
     )
 
 
@@ -116,16 +108,12 @@ def phases(
     return (
         "Read literally, for the displacements of both masses, the claim is reversed: Z1 and the "
         f"displacement x2 of the loose mass are within {number(loose_below, 2, 'up')} rad of "
-        f"being in "
-        f"phase below Wp, and within {number(loose_above, 2, 'up')} rad of antiphase at the "
-        f"highest W "
-        f"computed, {number(highest)}. Read as in (6d), with Z2 for the loose mass, it holds: "
-        f"from 0.75 "
-        "Wp to Wp the first harmonics of Z1 and Z2 are within "
+        f"being in phase below Wp, and within {number(loose_above, 2, 'up')} rad of antiphase at "
+        f"the highest W computed, {number(highest)}. Read as in (6d), with Z2 for the loose mass, "
+        "it holds: from 0.75 Wp to Wp the first harmonics of Z1 and Z2 are within "
         f"{number(below, 2, 'up')} rad of antiphase. They are a quarter of a cycle apart at "
         f"{number(turn)} Wp, whereas by (7) a changes sign at {number(turn_balance)} Wp, and "
-        f"within "
-        f"0.3 rad of being in phase from {number(in_phase)} Wp on. At the highest W "
+        f"within 0.3 rad of being in phase from {number(in_phase)} Wp on. At the highest W "
         f"{number(above, 2, 'up')} rad are left."
     )
 
@@ -136,13 +124,11 @@ def accuracy(typical, width, typical_factor, factor, least_factor, harmonic, sha
     return (
         f"Harmonic balance gives the width of the band to {percent(typical)} in the median over "
         f"the dampers, and to {percent(width, 'up')} at worst. The amplitude {agrees}: depending "
-        f"on "
-        "the damper, the mean of max |Z1| over the band is "
-        f"{between(least_factor, factor, partial(number, digits=2))} times the mean of |a|, in the "
-        f"median {number(typical_factor, 2)} times. The mean of the first harmonic differs from "
-        f"that of |a| by "
-        f"a factor of up to {number(harmonic, 2, 'up')}. Max |Z1| and |a| differ by at most "
-        f"{percent(share, 'up')} of the free resonance."
+        "on the damper, the mean of max |Z1| over the band is "
+        f"{between(least_factor, factor, partial(number, digits=2))} times the mean of |a|, in "
+        f"the median {number(typical_factor, 2)} times. The mean of the first harmonic differs "
+        f"from that of |a| by a factor of up to {number(harmonic, 2, 'up')}. Max |Z1| and |a| "
+        f"differ by at most {percent(share, 'up')} of the free resonance."
     )
 
 
@@ -156,9 +142,8 @@ def amplitude_by_mass(
         f"figure 5 is {percent(whole)} of the mean at rm = {number(lightest)}. Each step to a "
         f"larger rm multiplies the mean by at most {number(steps, 3, 'up')}, by (7) by at most "
         f"{number(balance, 3, 'up')}. At W = {number(frequency)}, the design frequency of the "
-        f"paper, rm W^2 "
-        f"d0 is {number(product_a)} in (a), {number(product_b)} in (b) and {number(product_c)} in "
-        "(c), whereas (19) demands 1. For dampers that fulfil (19) max |Z1| at this W and at rm = "
-        f"{number(rule_heaviest)} is {percent(rule)} of its value at rm = "
-        f"{number(rule_lightest)}."
+        f"paper, rm W^2 d0 is {number(product_a)} in (a), {number(product_b)} in (b) and "
+        f"{number(product_c)} in (c), whereas (19) demands 1. For dampers that fulfil (19) max "
+        f"|Z1| at this W and at rm = {number(rule_heaviest)} is {percent(rule)} of its value at "
+        f"rm = {number(rule_lightest)}."
     )

@@ -32,8 +32,7 @@ def release_phase(
     if not math.isnan(quiet_first):
         decides = (
             " Among the frequencies scanned the phase of release of the quiet motion decides "
-            "between both from W = "
-            f"{number(quiet_first, 4)} to {number(quiet_last, 4)}, where "
+            f"between both from W = {number(quiet_first, 4)} to {number(quiet_last, 4)}, where "
             f"{between(quiet_least, quiet_most)} of the phases lead to the non-resonance branch."
         )
     longer = ""
@@ -46,11 +45,10 @@ def release_phase(
     early = ""
     if not math.isnan(by_phase):
         early = (
-            f" The phase of early releases matters at W = {number(frequency)}: of runs that "
-            f"repeat such releases {percent(by_phase)} arrive on the non-resonance branch within "
-            f"350 cycles at the best phase, but {percent(by_hold)} at a random phase after the "
-            f"best "
-            "fixed number of cycles, both after several tries."
+            f" Repeated early releases are a different test: at W = {number(frequency)} "
+            f"{percent(by_phase)} of the runs arrive on the non-resonance branch within 350 "
+            f"cycles if each release is at the best phase, and {percent(by_hold)} if it is at a "
+            "random phase after the best fixed number of cycles."
         )
     return (
         f"Without the damper the period-3 motion exists from W = {number(lower, 5)} to "
@@ -78,16 +76,16 @@ def total_cycles(
     state = ""
     if not math.isnan(by_state):
         state = (
-            f" Released as soon as the state lies in the basin of this branch, {percent(by_state)} "
-            f"({percent(by_state_least)} to {percent(by_state_most)}) do at W = "
-            f"{number(worst, 4)}, and {percent(by_clairvoyant)} with a controller that knows the "
-            "future."
+            " Released as soon as the state lies in the basin of this branch, "
+            f"{percent(by_state)} (95 % interval {percent(by_state_least)} to "
+            f"{percent(by_state_most)}) do at W = {number(worst, 4)}; a controller that tries "
+            "each release in advance by computation, and chooses the best, brings "
+            f"{percent(by_clairvoyant)} there."
         )
     return (
-        "The non-resonance branch is reached within 350 cycles by "
-        f"{shares}, if the damper is released when its motion has settled{longest}.{fixed} At the "
-        f"least favourable W {percent(within)} do in the first way, and {percent(best)} in the "
-        f"better way.{state}"
+        f"The non-resonance branch is reached within 350 cycles by {shares}, if the damper is "
+        f"released when its motion has settled{longest}.{fixed} At the least favourable W "
+        f"{percent(within)} do in the first way, and {percent(best)} in the better way.{state}"
     )
 
 
@@ -101,8 +99,7 @@ def early_release(
     if not math.isnan(later):
         whenever = (
             f" Of releases at any time before the motion has settled {percent(later)} lead to "
-            f"period 3. The "
-            f"difference is in the returns to resonance, {percent(resonance)} and "
+            f"period 3. The difference is in the returns to resonance, {percent(resonance)} and "
             f"{percent(later_resonance)}: of the other releases {percent(of_others)} and "
             f"{percent(later_of_others)} lead to period 3."
         )

@@ -11,10 +11,10 @@ def quiet_contacts(two, skew, **others):
     """Return the finding on claim 5."""
     where = "the whole" if two == 1 else f"no more than {percent(two)} of the"
     return (
-        f"Over {where} suppression band of each damper there are stable quiet orbits, all with two "
-        "contacts a cycle; motions without contact may exist beside them. Half a cycle later the "
-        "state of each is its mirror image: none of Z1, "
-        f"Z1', Z2 and Z2' differs by more than {number(skew, 1, 'up')}, in dimensionless units."
+        f"Over {where} suppression band of each damper there are stable quiet orbits, all with "
+        "two contacts a cycle; motions without contact may exist beside them. Half a cycle later "
+        "the state of each is its mirror image: none of Z1, Z1', Z2 and Z2' differs by more than "
+        f"{number(skew, 1, 'up')}, in dimensionless units."
     )
 
 
@@ -26,7 +26,8 @@ def high_and_chaotic(
     few = ""
     if not fewest > 2:
         few = (
-            f"; but in {in_words(fewest_in)} some stable violent orbits have only {number(fewest)}"
+            f"; but in {in_words(fewest_in)} stable violent orbits exist that have only "
+            f"{number(fewest)}, and are not symmetric"
         )
     apart = "Regions of different contact number overlap by at most"
     if coexisting > 0.005:
@@ -39,9 +40,9 @@ def high_and_chaotic(
         f"Of the violent motions, chaotic ones included, {percent(more)} have more than two "
         f"contacts a cycle{few}. The amplitude |a| of harmonic balance differs from the first "
         f"harmonic of the stable violent orbits by {percent(harmonic)} in the median. {apart} "
-        f"{number(coexisting, 2, 'up')} in W ({in_words(coexisting_in)}). The chaotic ranges are "
-        f"{narrow}: in figure 5 (a) the widest is {number(widest_first, 2)} wide in W, chaotic "
-        f"transients included, and the widest of all is {number(widest, 2)} "
+        f"{number(coexisting, 2, 'up')} in W ({in_words(coexisting_in)}). The chaotic ranges, "
+        f"transients included, are {narrow}: in figure 5 (a) the widest is "
+        f"{number(widest_first, 2)} wide in W, and the widest of all {number(widest, 2)} "
         f"({in_words(widest_in)})."
     )
 
@@ -53,10 +54,10 @@ def first_collisions(literal, within_gap, starts, clearances, beyond_walls, wait
         for share in (literal, within_gap)
     )
     return (
-        f"For the dampers of figure 5, with d0 = {listed(map(number, clearances))}, "
-        f"{ball} in the ball lead to a collision, and {gap} in the part of the ball within the "
-        f"gap. Of the starts in the ball {listed(map(percent, beyond_walls))} lie beyond a wall. "
-        "Starts within the gap have their first collision after at most "
+        f"For the dampers of figure 5, with d0 = {listed(map(number, clearances))}, {ball} in the "
+        f"ball lead to a collision, and {gap} in the part of the ball within the gap. Of the "
+        f"starts in the ball {listed(map(percent, beyond_walls))} lie beyond a wall. Starts "
+        "within the gap have their first collision after at most "
         f"{listed(f'{wait:.0f}' for wait in waits)} cycles."
     )
 
@@ -109,14 +110,14 @@ def reappearance(
     other = "leaves no such motion in its band"
     if low_damping != 0:
         other = (
-            f"leaves such motions at {part_of(low_damping, 'frequencies')} of its band, with up to "
-            f"{percent(low_ratio, 'up')} of the free amplitude"
+            f"leaves such motions at {part_of(low_damping, 'frequencies')} of its band, with up "
+            f"to {percent(low_ratio, 'up')} of the free amplitude"
         )
     return (
         f"For h = 0.215, with rm = 0.12 and 0.25, {within}.{outside} With rm = 0.4 such motions "
         f"exist in the band over {number(heavy, 2)} in W, with at most {percent(ratio, 'up')} of "
-        f"the "
-        f"amplitude of the free subharmonic{below}. For h = 0.107 the damper of figure 8 {other}."
+        f"the amplitude of the free subharmonic{below}. For h = 0.107 the damper of figure 8 "
+        f"{other}."
     )
 
 
@@ -153,13 +154,10 @@ def contact_model(high, low, realised, duration, **others):
     return (
         "With walls that cannot pull, the coefficient of restitution would exceed e by up to "
         f"{percent(high, 'up')} for the e of the figures, and by {percent(low)} for e = 0.3. In "
-        f"the "
-        "quiet motions of figure 10 the ratio of the speeds after and before a contact differs "
-        f"from e by at most {percent(realised, 'up')}. The paper's reason is the longer contact; "
-        f"at e = "
-        f"0.3 a contact is {only}{number(duration)} times as long as at e = 1. The model fails "
-        f"there "
-        "because its walls pull, not because contacts are longer."
+        "the quiet motions of figure 10 the ratio of the speeds after and before a contact "
+        f"differs from e by at most {percent(realised, 'up')}. The paper's reason is the longer "
+        f"contact; at e = 0.3 a contact is {only}{number(duration)} times as long as at e = 1. By "
+        "our criterion the model fails there because its walls pull."
     )
 
 
@@ -173,11 +171,10 @@ def subharmonic_by_damping(
         "Averaged over random starts and W, the damper lowers the amplitude of the subharmonic by "
         f"{percent(relative_low)} of the free amplitude at h = 0.107 and by "
         f"{percent(relative_high)} at h = 0.215, which is {alike}: the ratio is "
-        f"{number(relative, 4)}. In units of Z1 the fall is "
-        f"{number(low, 2)} and {number(high, 2)}, {number(fall)} times as large at h = 0.107, "
-        "because the free amplitude is larger there. Of the starts "
-        f"{percent(starts)} and {percent(starts_high)} still lead to a subharmonic. However few "
-        "they are, a stable one of at least 95 % of the free amplitude remains over "
-        f"{percent(unchanged)} of the free subharmonic's range at h = 0.107, and over "
-        f"{percent(unchanged_high)} at h = 0.215."
+        f"{number(relative, 4)}. In units of Z1 the fall is {number(low, 2)} and "
+        f"{number(high, 2)}, {number(fall)} times as large at h = 0.107, because the free "
+        f"amplitude is larger there. Of the starts {percent(starts)} and {percent(starts_high)} "
+        "still lead to a subharmonic. However few they are, a stable one of at least 95 % of the "
+        f"free amplitude remains over {percent(unchanged)} of the free subharmonic's range at h = "
+        f"0.107, and over {percent(unchanged_high)} at h = 0.215."
     )
