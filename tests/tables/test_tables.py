@@ -4,8 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 from helpers.made_up import matched_sweep, world
+from helpers.made_up_orbits import branch, branches
 
 from impact_damper.claims import extract
+from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.table_files import save_table
 from impact_damper.tables import clearance, design, migration, motions, responses
 
@@ -64,6 +66,33 @@ def test_free_oscillator_without_subharmonic(data):
     free = data["branches"]["free_h215"]
     changed = data | {"branches": {"none": free.assign(branch_period=0 * free.branch_period)}}
     assert responses.subharmonic(changed).branch.iloc[0] == "none"
+
+
+@pytest.mark.parametrize("start", range(8))
+def test_stable_parts_of_a_closed_branch_do_not_depend_on_its_first_orbit(start):
+    frequency = np.roll([1.0, 1.1, 1.2, 1.3, 1.25, 1.2, 1.1, 1.05], start)
+    stable = np.roll([True, True, False, False, False, True, False, True], start)
+    made = orbit_columns(frequency, stable)
+    table = responses.orbits({"branches": {"closed": made}})
+    assert table.loc[0, "stable W"] == "1 to 1.1, 1.2 to 1.2"
+
+
+def orbit_columns(frequency, stable):
+    """Return the dataset of one closed branch, as `tables.responses.orbits` reads it."""
+    frequency, stable = np.append(frequency, frequency[0]), np.append(stable, stable[0])
+    made = branches(branch(frequency, 1.0), parameters={"damping": 0.1})
+    stability = [flag("orbit_stability", "stable" if each else "unstable") for each in stable]
+    nothing = np.zeros(len(frequency))
+    data = {
+        "orbit_stability": np.array(stability),
+        "orbit_status": nothing.astype(int),
+        "orbit_residual": nothing,
+        "liouville_error": nothing,
+        "branch_end": np.full((1, 2), flag("branch_end", "closed")),
+        "branch_met": np.full((1, 2), -1),
+        "branch_events_lost": np.zeros(1, int),
+    }
+    return made.assign(dataset(data, {}, {}, "made up").variables)
 
 
 def test_motions_without_contact_are_told_from_others(data):

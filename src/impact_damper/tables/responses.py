@@ -204,7 +204,7 @@ def orbits(datasets) -> pd.DataFrame:
                     "near grazing": int(grazing.sum()),
                     "from W": value.min(),
                     "to W": value.max(),
-                    "stable W": _stable_ranges(value, stable),
+                    "stable W": _stable_ranges(value, stable, closed="closed" in ends),
                     "largest max |Z1|": float(part["orbit_displacement"].max()),
                     "one end": ends[0],
                     "other end": ends[1],
@@ -236,10 +236,17 @@ def _branches(datasets):
         yield name, parameter_columns(data, "damping", *DAMPER), data
 
 
-def _stable_ranges(value, stable):
-    """Return the ranges of W of the stable parts of a branch, as text."""
+def _stable_ranges(value, stable, *, closed):
+    """Return the ranges of W of the stable parts of a branch, as text, in order of W.
+
+    A closed branch is cut open at an unstable orbit, so that the cut divides no stable part.
+    """
+    if closed:
+        cut = np.argmin(stable)
+        value, stable = np.roll(value, -cut), np.roll(stable, -cut)
     parts = [value[first:last] for first, last in runs_of_true(stable)]
-    return ", ".join(f"{part.min():.5g} to {part.max():.5g}" for part in parts)
+    parts = sorted((part.min(), part.max()) for part in parts)
+    return ", ".join(f"{lower:.5g} to {upper:.5g}" for lower, upper in parts)
 
 
 def bifurcations(datasets) -> pd.DataFrame:
