@@ -49,7 +49,7 @@ span = st.sampled_from(
 span |= st.sampled_from([(math.nan, 3.0), (1.0, math.inf), ("1", "3"), (1.0, 1e9), (1e-9, 3.0)])
 
 motion = {"oscillator": no_oscillator, "damper": no_damper, "frequency": positive}
-# without a radius a search is as wide as the machine
+# None is allowed: without a radius a search is scaled by the free motions.
 radius = positive.filter(lambda value: value is not None)
 search = {"starts": count, "radius": radius, "seed": seed, "workers": count}
 search |= {"settling": no_settling, "oscillator": no_oscillator}

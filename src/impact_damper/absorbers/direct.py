@@ -24,12 +24,16 @@ from impact_damper.motions.smooth_runs import (
     LINK_STIFFNESS,
 )
 
-# First grid of the search. TUNINGS: number of natural frequencies of the absorber, which go from
-# LOWEST times the lowest frequency of the band to its highest frequency. DAMPINGS: ratios of the
-# damping to 2 m w, with the middle frequency w of the band. CUBICS: ratios of the cubic stiffness
-# to `tuned_cubic`. A second grid, if the machine has a linear stiffness, combines stiffness and
-# damping that are best for a linear spring (`exact_absorber`) with each of CUBICS. COARSE and FINE:
-# numbers of forcing frequencies on the grids, and in the refinement of the best grid points.
+# First grid of the search:
+# TUNINGS   number of natural frequencies of the absorber, which go from LOWEST times the lowest
+#           frequency of the band to its highest frequency
+# DAMPINGS  ratios of the damping to 2 m w, with the mass m of the absorber and the geometric mean w
+#           of the ends of the band
+# CUBICS    ratios of the cubic stiffness to `tuned_cubic`
+# If the machine has a linear stiffness, a second grid combines the stiffness and damping that are
+# best for a linear spring (`exact_absorber`) with each of CUBICS.
+# COARSE    number of forcing frequencies on both grids
+# FINE      number of forcing frequencies in the refinement of the best grid points
 TUNINGS, LOWEST = 16, 0.3
 DAMPINGS = np.geomspace(0.03, 0.5, 5)
 CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)

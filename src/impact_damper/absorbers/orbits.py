@@ -55,7 +55,7 @@ class Orbits(NamedTuple):
             return self.converged & (np.abs(self.multipliers).max(axis=1) < 1)
 
     def take(self, chosen) -> "Orbits":
-        """Return the orbits with the indices, or in the mask, `chosen`."""
+        """Return the orbits that `chosen`, an array of indices or a mask, selects."""
         return Orbits(*(each[chosen] for each in self))
 
     def joined(self, more) -> "Orbits":

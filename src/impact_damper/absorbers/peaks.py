@@ -9,9 +9,9 @@ from impact_damper.absorbers.problems import problems_of
 from impact_damper.absorbers.seeds import harmonic_seeds
 from impact_damper.motions.smooth_runs import FORCE
 
-# A peak of the grid is refined by POINTS frequencies between its two neighbours, and the interval
-# is narrowed ROUNDS times. At a fold the peak is the last stable orbit before the fold. Peaks of
-# the grid below LOWER times the highest peak are not refined.
+# A peak of the grid of frequencies is refined: POINTS frequencies divide the interval between its
+# two neighbours on the grid, and the interval is narrowed ROUNDS times. At a fold the peak is the
+# last stable orbit before the fold. Peaks below LOWER times the highest peak are not refined.
 POINTS = 9
 ROUNDS = 4
 LOWER = 0.7

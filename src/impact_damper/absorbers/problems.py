@@ -18,9 +18,10 @@ from impact_damper.motions.smooth_runs import (
     STIFFNESS,
 )
 
-# Longest integration step, as a phase (radian) of the fastest vibration: COARSE in the search for
-# an orbit, FINE in the last corrections of the orbit. LEAST_STEPS: smallest number of steps in a
-# forcing cycle.
+# COARSE       longest integration step in the search for an orbit, as a phase (radian) of the
+#              fastest vibration
+# FINE         longest integration step in the last corrections of the orbit, in the same unit
+# LEAST_STEPS  smallest number of steps in a forcing cycle
 COARSE, FINE = 0.7, 0.35
 LEAST_STEPS = 8
 
@@ -108,7 +109,7 @@ def steps_for(problems, states, longest):
         # The largest displacement X is given by X^2 = 4 energy/(stiffness + root).
         fastest = fastest + stiffness + 3 * np.maximum(root - stiffness, 0.0)
     least = 2 * np.pi * np.sqrt(fastest) / longest
-    # For a motion that has escaped any number of steps will do.
+    # After an escape a state is not finite, and the number of steps does not matter.
     return np.ceil(
         np.where(np.isfinite(least), np.maximum(least, LEAST_STEPS), LEAST_STEPS)
     ).astype(int)

@@ -235,5 +235,7 @@ def _not_possible(shape):
 def _increasing(name, values):
     values = np.asarray(values, float)
     if len(values) == 0 or np.any(np.diff(values) <= 0):
-        raise ValueError(f"{name} = {shown(values.tolist())}: must be increasing, and at least one")
+        raise ValueError(
+            f"{name} = {shown(values.tolist())}: must be increasing, and at least one value"
+        )
     return values

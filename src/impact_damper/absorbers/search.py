@@ -112,9 +112,9 @@ def _stable(orbits) -> Orbits:
 
 
 def _neighbours(index, shape):
-    """Return the grid neighbours of the problems in `index`.
+    """Return the grid neighbours of the problems in `index`, and the places of these problems.
 
-    For each neighbour also the place in `index` of the problem beside it is returned.
+    The second array holds, for each neighbour, the place in `index` of the problem that it adjoins.
     """
     frequency, force = np.unravel_index(index, shape)
     there = [(frequency + i, force + j) for i, j in NEIGHBOURS]
@@ -140,7 +140,7 @@ def _with_neighbours(problems, orbits, first, shape):
 
 
 def _with_wandering(problems, ends, shape, sizes):
-    """Return `ends` with runs added that begin at motions without a period of grid neighbours."""
+    """Add to `ends` runs that begin at motions without a period, found at neighbouring problems."""
     tried = np.zeros(len(problems), bool)
     first = 0
     for _ in range(ROUNDS):
@@ -159,7 +159,10 @@ def _with_wandering(problems, ends, shape, sizes):
 
 
 def _summary(ends, count, starts) -> Search:
-    """Return the summary of each problem; shares refer to the first `starts` runs of a problem."""
+    """Return the summary of each problem.
+
+    The first `starts` runs of a problem begin at random starts. Shares refer to these runs only.
+    """
     orbits = ends.orbits
     displacement = orbits.largest[:, 0]
     settled, wandering = ends.orbit >= 0, ends.orbit == WANDERING

@@ -31,9 +31,9 @@ from impact_damper.motions.smooth_runs import (
 )
 
 # Largest imaginary part, as a fraction of the real part, with which a root y = scale/q (see
-# `_solutions`) counts as real. REAL allows for rounding errors.
-# Near a fold, exact motions may exist although two roots of the balance have just become complex.
-# Therefore the first guesses come from all roots within NEARLY_REAL.
+# `_solutions`) counts as real. REAL allows for rounding errors. Near a fold, exact motions may
+# exist although two roots of the balance have just become complex. Therefore the first guesses come
+# from all roots within NEARLY_REAL.
 REAL, NEARLY_REAL = 1e-5, 0.1
 
 

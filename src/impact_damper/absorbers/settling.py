@@ -9,8 +9,9 @@ from impact_damper.absorbers.orbits import Orbits, find_orbits
 from impact_damper.absorbers.problems import COARSE, FINE, active_size, springs, steps_for
 from impact_damper.motions.smooth_runs import DAMPING, SIZE, run
 
-# Random starts. SPREAD: size of the largest start over the largest known motion. SMALLEST: size of
-# the smallest start over the largest start.
+# Random starts:
+# SPREAD    size of the largest start divided by the size of the largest known motion
+# SMALLEST  size of the smallest start divided by the size of the largest start
 SPREAD, SMALLEST = 3.0, 0.01
 # The runs are inspected every STRETCH forcing cycles. STRETCH is a multiple of each of PERIODS.
 # After the fraction SEARCHED of all inspections, Newton's method searches for orbits of the periods
@@ -22,11 +23,12 @@ SEARCHED = 0.75
 # below NEAR. In this test the size of an orbit is at least SMALL times the largest known motion
 # under the same force.
 NEAR, SMALL = 0.02, 0.1
-# A run may be near no orbit after a time in which a linear vibration of the machine alone decays by
-# exp(-DECAY), or after LONGEST inspections. Such a run is watched for WATCHED further inspections,
-# which are divided into quarters. A quantity falls if its mean decreases from each quarter to the
-# next, and in total below FALLEN times the first mean. If the distance from an orbit falls, the run
-# approaches this orbit. Otherwise, if the largest displacement falls, the run is unsettled.
+# Runs end after the time in which a linear vibration of the machine alone decays by exp(-DECAY),
+# but after LONGEST inspections at the latest. A run that is then near no orbit is watched for
+# WATCHED further inspections, which are divided into quarters. A quantity falls if its mean
+# decreases from each quarter to the next, and in total below FALLEN times the first mean. If the
+# distance from an orbit falls, the run approaches this orbit. Otherwise, if the largest
+# displacement falls, the run is unsettled.
 DECAY, LONGEST = 9.0, 40
 WATCHED, FALLEN = 20, 0.95
 # A run has escaped when it exceeds OUTSIDE times the largest known motion.
@@ -61,7 +63,7 @@ class Settled(NamedTuple):
     state: np.ndarray
 
     def joined(self, later) -> "Settled":
-        """Return these results and those of later runs, which began with the orbits of these."""
+        """Return these results followed by those of later runs, whose orbits include these."""
         pairs = zip(self[1:], later[1:], strict=True)
         return Settled(later.orbits, *(np.concatenate(pair) for pair in pairs))
 
@@ -138,7 +140,7 @@ def settle(problems, orbits, problem, starts, sizes) -> Settled:
 
 
 def _watch(problems, orbits, problem, state, sizes, bound):
-    """Watch runs that are near no orbit after the limit of `settle`.
+    """Watch runs that are near no orbit at the end of `settle` (see WATCHED).
 
     Return their results (`Settled.orbit`), the largest |x| of WANDERING runs, and the last states.
     A run has escaped if a component of its last state is not below `bound`.

@@ -20,11 +20,15 @@ from impact_damper.literature.nonlinear_absorber import tuned_cubic
 from impact_damper.literature.tuned_mass_damper import Tuning, den_hartog, exact_optimum
 from impact_damper.system.bounds import shown
 
-# Grid on which the optimum is found before it is refined. Its tunings are the tuning of the closed
-# form and STEPS tunings on each side of it; their logarithms differ from that of the closed form by
-# NARROW times the width of the resonance up to WIDE. Its damping ratios are DAMPINGS times the
-# damping ratio of the closed form. For a band also PLACES tunings in the band and the damping
-# ratios BAND_DAMPINGS belong to the grid.
+# Grid on which the optimum is found before it is refined. It lies around the closed form
+# `exact_optimum`:
+# STEPS          number of tunings on each side of the tuning of the closed form
+# NARROW, WIDE   smallest and largest difference of the logarithms of these tunings from the closed
+#                form; NARROW in units of the square root of the mass ratio, the resonance's width
+# DAMPINGS       damping ratios divided by the damping ratio of the closed form
+# For a band the grid also has:
+# PLACES         number of tunings, spread evenly over the band
+# BAND_DAMPINGS  damping ratios
 STEPS, NARROW, WIDE = 10, 0.1, 0.4
 DAMPINGS = np.geomspace(0.3, 10, 12)
 PLACES = 9

@@ -32,8 +32,9 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.system.packed import CUBIC, FREQUENCY
 
-# STEPS: steps in a forcing cycle in the proof. FACTOR: required contraction. HALVINGS: bisections
-# that determine the size r0 of the ellipse.
+# STEPS     number of steps in a forcing cycle in the proof
+# FACTOR    largest ratio |R| r(P)/r0 that is accepted as a contraction
+# HALVINGS  number of bisections that determine the size r0 of the ellipse
 STEPS = 256
 FACTOR = 0.98
 HALVINGS = 30

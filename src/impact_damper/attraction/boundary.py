@@ -19,19 +19,22 @@ from impact_damper.system.packed import DAMPING, FREQUENCY
 
 # Distance from the saddle at which the segment begins, in units of Z1 and Z1'.
 NEAR = 1e-5
-# Largest number of forcing cycles over which a curve is computed. Largest number of points on each
-# side of the saddle, within the window and in total.
+# MOST_PERIODS  largest number of forcing cycles over which a curve is computed
+# MOST_POINTS   largest number of points within the window, on each side of the saddle
+# MOST_IN_ALL   largest number of points within the reach, on each side of the saddle
 MOST_PERIODS = 60
 MOST_POINTS = 40_000
 MOST_IN_ALL = 100_000
-# Number of points on the first segment, and largest number of halvings of an interval between two
-# neighbouring points.
+# FIRST_POINTS   number of points on the first segment
+# MOST_HALVINGS  largest number of halvings of an interval between two neighbouring points
 FIRST_POINTS = 33
 MOST_HALVINGS = 12
-# Largest distance of neighbouring points outside the window, divided by the reach.
+# Largest distance of neighbouring points outside the window, divided by the argument `reach` of
+# `stable_manifold`.
 OUTSIDE = 0.01
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
+# Number of states in one call of the kernel. Ctrl-C waits for the end of the call.
 CHUNK = 4096
 
 

@@ -21,8 +21,8 @@ from impact_damper.system.packed import DASHPOT, FREQUENCY, pack
 # and "fair" if it is at most FAIR.
 CLOSE, FAIR = 0.01, 0.05
 SIZES = ("smallest", "largest")
-# If an orbit cannot be followed to the wanted dashpot coefficient, the coefficient at which the
-# stable orbit ends is located to within RESOLUTION.
+# `without_pull` follows an orbit to another dashpot coefficient. If the stable orbit ends before,
+# the coefficient at its end is located to within RESOLUTION.
 RESOLUTION = 1e-6
 # Largest number of contacts that are logged.
 LARGEST_LOG = 10**5

@@ -22,9 +22,9 @@ from impact_damper.contact.rigid_impacts import MOST_IMPACTS, rigid_map
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE, DASHPOT, pack
 
-# IMPACTS: number of impacts of an orbit in a forcing cycle. ITERATIONS: largest number of steps of
-# Newton's method. SAME_SPEED: an orbit counts as symmetric if the approach speeds of its impacts
-# differ relatively by at most this number.
+# IMPACTS     number of impacts of an orbit in a forcing cycle
+# ITERATIONS  largest number of steps of Newton's method
+# SAME_SPEED  largest relative difference of the approach speeds of the impacts of a symmetric orbit
 IMPACTS = 2
 ITERATIONS = 12
 SAME_SPEED = 1e-6

@@ -1,4 +1,8 @@
-"""The best clearance for migration and for suppression, at each mass ratio."""
+"""The best clearance for migration and for suppression, at each mass ratio.
+
+Suppression keeps the damper on, so that the motion stays small. Migration switches the damper on
+and off, until the motion without damper stays small by itself. This motion is called the goal.
+"""
 
 import numpy as np
 
@@ -6,9 +10,10 @@ import numpy as np
 def best_clearances(one):
     """Return the best clearances for two purposes.
 
-    The best clearance for migration has the largest share of trials in which release by state
-    reaches the goal; among equal shares, the smallest median of the cycles decides. The best
-    clearance for suppression has the smallest quiet motion.
+    The best clearance for migration has the largest share of trials that reach the goal, if the
+    damper is switched off as soon as the measured state leads there (the policy "state"). Among
+    equal shares, the smallest median of the cycles decides. The best clearance for suppression has
+    the smallest quiet motion.
 
     Parameters
     ----------

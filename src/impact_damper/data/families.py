@@ -1,4 +1,4 @@
-"""Motions of a sweep, each with all values of the parameter at which it was found."""
+"""Motions of a sweep, each with all values of the swept parameter at which it was found."""
 
 from typing import NamedTuple
 
@@ -19,9 +19,10 @@ class Family(NamedTuple):
     period : int
         In cycles; 0 for a motion without a period.
     places : numpy.ndarray of bool, shape (value, motion)
-        Its places in the tables of the sweep, at most one for each value.
+        Entries of the sweep's arrays that belong to the motion, at most one for each value of the
+        swept parameter.
     starts : int
-        Random starts that lead to it, at all values together.
+        Number of random starts, at all values together, that lead to the motion.
     """
 
     outcome: str

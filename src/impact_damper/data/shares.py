@@ -53,7 +53,7 @@ def starts_needed(share) -> int:
 
 
 def failures_allowed(share, total) -> int:
-    """Return the largest number of failures with which Wilson's interval lies above a share.
+    """Return how many of `total` trials may fail if Wilson's interval shall lie above a share.
 
     Return -1 if `total` trials are too few even without a failure.
     """

@@ -5,11 +5,12 @@ import os
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-# What the workflow adds to a BrokenFileError about one of its results.
+# Advice that the workflow appends to a BrokenFileError about one of its results.
 DELETE = "delete it and run the same command again"
 
-# A NetCDF-4 file is an HDF5 file, which begins with SIGNATURE. If one of VERSIONS follows, the
-# bytes at LENGTH state the length of the file.
+# A NetCDF-4 file is an HDF5 file, which begins with SIGNATURE and a superblock. VERSIONS are the
+# first bytes of superblocks of version 2 and 3 with addresses of 8 bytes. In these the bytes at
+# LENGTH state the length of the file.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)
@@ -61,8 +62,8 @@ def whole_netcdf(path):
 def _reason(folder, error):
     """Return in one line why a file could not be written, and what to do.
 
-    To know the reason a trial file is written, since the errors of the NetCDF library are vague,
-    and wrong for a full disk.
+    The function writes a trial file to learn the reason from the operating system. The errors of
+    the NetCDF library are vague, and wrong if the disk is full.
     """
     trial = folder / f".trial-{os.getpid()}"
     try:

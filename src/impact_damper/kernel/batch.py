@@ -17,7 +17,8 @@ from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.system import packed
 
 LANES = 16
-# Trajectories in a pool. With this number the longest queue nearly always fills all lanes.
+# Largest number of trajectories in a pool. With this number the longest queue nearly always fills
+# all lanes.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
@@ -142,7 +143,7 @@ def choose(pool, chosen):
 def gather(pool, chosen, kind):
     """Copy the chosen trajectories into the lanes.
 
-    Parameters are copied only into lanes that hold those of another trajectory.
+    Parameters are copied only if the lane held another trajectory before.
     """
     for lane in range(LANES):
         m = chosen[lane]
@@ -161,7 +162,7 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy the trajectories back into the pool and queue those that have not reached their ends.
+    """Copy trajectories from the lanes into the pool and queue those before their end time.
 
     Return the number of trajectories at their ends; `arrived` receives their indices. A trajectory
     that has escaped (`equation.no_return`) counts as at its end and keeps the state at the escape.

@@ -18,11 +18,15 @@ from impact_damper.system import packed
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            further arguments of the step, and its result LENGTH
 # SCRATCH         intermediate results
-# SERIES          coefficients of Z1 (X), of the penetration (Q), of the acceleration that does not
-#                 come from a wall (G), of 3 k3 Z1^2 for tangents (U); then the coefficients that
-# are
-#                 the same in all steps of a trajectory: those of the forcing without its factor
-#                 cosine or sine (E), h/k (H) and D/k (D), with the dashpot coefficient D
+# SERIES          coefficients of these series:
+#                 X  Z1
+#                 Q  penetration of the wall
+#                 G  acceleration without the force of the wall
+#                 U  3 k3 Z1^2, for tangents
+#                 and coefficients that are the same in all steps of a trajectory:
+#                 E  forcing without its factor cosine or sine
+#                 H  h/k, with the damping h
+#                 D  D/k, with the dashpot coefficient D
 # The array of a tangent has the tangent's STATE, and then the TANGENT_SERIES with the coefficients
 # of its Z1 (DX) and of its penetration (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()

@@ -98,7 +98,7 @@ def unload(y, tangents, a, d):
 
 @kernel_only
 def step_loaded(count, t, longest, a, d):
-    """Do `step` for a trajectory and `count` tangents that are in the workspace already."""
+    """Integrate one step as `step` does, with trajectory and `count` tangents in the workspace."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:

@@ -89,8 +89,8 @@ def write(function, builder, pointers):
     lines.lanes, lines.width = lanes, min(lanes, WIDTH)
     lines.arithmetic = Arithmetic(builder, lines.width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
-    # If one vector holds all lanes, no loop is written, because LLVM would move stores behind the
-    # end of the loop.
+    # If one vector holds all lanes, no loop is written. LLVM would move the stores of a loop behind
+    # its end, which is slower.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         for statement in loop.body:

@@ -33,7 +33,8 @@ from impact_damper.system.bounds import plain
 from impact_damper.system.checks import check_frequency
 from impact_damper.system.parameters import check_damper, check_oscillator
 
-# Number of times in a flight. Turning points (zeros of a velocity) are searched for between them.
+# Number of times in a flight at which a velocity is computed. Its changes of sign bracket the
+# turning points.
 SAMPLES = 200
 
 

@@ -21,14 +21,16 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.literature.tuned_mass_damper import exact_optimum
 
-# HARMONICS: odd harmonics of the balance. SAMPLES: number of samples of a period in the balance.
-# FINE: number of samples of a period whose maximum is the largest displacement. FREQUENCIES: grid
-# on which peaks are found before they are refined.
+# HARMONICS    odd harmonics of the balance
+# SAMPLES      number of samples of a period in the balance
+# FINE         number of samples of a period, whose maximum is the largest displacement
+# FREQUENCIES  grid on which peaks are found before they are refined
 HARMONICS = np.array([1, 3, 5, 7])
 SAMPLES, FINE = 64, 2048
 FREQUENCIES = np.linspace(0.75, 1.4, 131)
-# Newton's method. CONVERGED: largest relative size of the last correction. ITERATIONS: largest
-# number of corrections.
+# Newton's method:
+# CONVERGED   largest relative size of the last correction
+# ITERATIONS  largest number of corrections
 CONVERGED = 1e-12
 ITERATIONS = 30
 

@@ -9,10 +9,10 @@ divided by the clearance d0, forces by the spring's force at the displacement d0
 the natural frequency. The unit of time is 1/(natural frequency).
 
 The primary mass moves as a sine of amplitude x and frequency W. The loose mass flies from wall to
-wall with speed w in half a period. Its speed is stated as the ratio t = pi w/(2 W d0), which is no
-time. At an impact the primary mass has the displacement t - 1, which follows from the flight, and
-the velocity -q t W, which follows from the restitution e. The resulting relation between x and t is
-the slow invariant manifold, along which motions change slowly:
+wall with speed w in half a period. Its speed is stated as the dimensionless ratio
+t = pi w/(2 W d0). At an impact the primary mass has the displacement t - 1, which follows from the
+flight, and the velocity -q t W, which follows from the restitution e. The resulting relation
+between x and t is the slow invariant manifold, along which motions change slowly:
 
     x^2 = (t - 1)^2 + (q t)^2,      q = (2/pi) (1 - e)/(1 + e).
 
@@ -20,8 +20,8 @@ The derivative of the map from impact to impact has the determinant e^2 and the 
 2 e - (1 + e)^2 (pi^2/4) (t - 1)/t. The manifold is therefore stable for
 1/(1 + q^2) < t < pi^2/(pi^2 - 4). The impulses on the primary mass have the first harmonic
 (8 rm/pi^2) W^2 t, in phase with the impacts. The balance of first harmonics gives the force F that
-drives a motion with ratio t at frequency W. For given t the smallest force is in phase with
-the velocity of the primary mass; then
+drives a motion with ratio t at frequency W. For given t the smallest force is in phase with the
+velocity of the primary mass; then
 
     W^2 = x^2/(x^2 + c t (t - 1)),    F = 2 z W x + c W^2 q t^2/x,    c = 8 rm/pi^2.
 """
@@ -123,7 +123,7 @@ class VibroImpactAbsorber:
         return 2 * self.damping_ratio * turning * size + absorbed
 
     def activation(self) -> Threshold:
-        """Return the smallest force on the stable part; smaller forces do not drive the mass."""
+        """Return the smallest force on the stable part; smaller forces sustain no impacts."""
         return self._extreme(1)
 
     def upper_threshold(self) -> Threshold:

@@ -1,4 +1,4 @@
-"""Functions of the dimensionless equations, called with a machine and in SI units."""
+"""Let functions that take an `Oscillator` also take a `Machine`, with all arguments in SI units."""
 
 import inspect
 import re
@@ -20,8 +20,9 @@ NOTE = """
 With a `Machine` in place of the oscillator, and a `MachineDamper` in place of the damper, all
 arguments and the result are in SI units: see `Machine`.
 """
-# Numbers in errors and warnings of the dimensionless functions: the name of each, its name for a
-# machine, and its quantity. Mass ratios stay ratios.
+# Numbers that are converted to SI units in errors and warnings of the dimensionless functions.
+# Keyed by the name in the message; the values are the name for a machine and the quantity. Mass
+# ratios are not converted.
 TOLD = {inner: (name, kind) for name, (inner, kind) in FOLLOWED.items() if inner != "mass_ratio"}
 TOLD |= {
     "frequencies": ("frequencies", "frequency"),
@@ -50,7 +51,7 @@ def takes_machine(function):
     Parameters
     ----------
     function : callable
-        Its first argument is `oscillator`; it returns a dataset or a clearance.
+        Its first argument is `oscillator`. It returns a dataset or a clearance.
     """
     signature = inspect.signature(function)
 
@@ -132,7 +133,7 @@ def _span(machine, parameter, span):
         raise ValueError(f"parameter = {shown(parameter)}: must be one of {allowed}")
     name, quantity = FOLLOWED[parameter]
     if np.ndim(span) != 1:
-        raise TypeError(f"span = {shown(span)}: must be least and greatest value")
+        raise TypeError(f"span = {shown(span)}: must be two numbers, least and greatest")
     ends = _each("span", span, lambda place, end: si_value(place, end, quantity))
     return {"parameter": name, "span": tuple(machine.scales.from_si(end, quantity) for end in ends)}
 

@@ -66,9 +66,9 @@ class MachineDamper:
     def check_for(self, machine):
         """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
-        The gap must be larger than the static play. This is the compression of the contacts on both
-        sides under the force that accelerates the loose mass together with the machine when the
-        static force acts on both.
+        The gap must be larger than the static play: the sum of the compressions of both contacts
+        under the force with which the machine, driven by its static force, accelerates the loose
+        mass.
         """
         scales = machine.scales
         clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")

@@ -17,8 +17,8 @@ from impact_damper.machine.units import QUANTITIES
 # Quantities of the components of a state.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
-# Parameters in which branches of orbits are followed, keyed by the name for a machine: the name in
-# the equations, and the quantity.
+# Parameters that may vary along a branch of orbits. Keyed by the name for a machine; the values are
+# the name in the dimensionless equations, and the quantity.
 FOLLOWED = {
     "frequency": ("frequency", "frequency"),
     "damping": ("damping", "damping"),

@@ -8,7 +8,7 @@ from impact_damper.motions.matching import SIMILAR, size_ratio
 # Motions of equal period and contacts are the same if max |Z1| differs relatively by less than
 # SAME. A motion is symmetric if its asymmetry is below SAME.
 SAME = 1e-6
-# Differences of max |Z1| below ROUNDING are rounding errors, for a machine that has come to rest.
+# Differences of max |Z1| below ROUNDING are rounding errors; they matter for motions near rest.
 ROUNDING = 1e-11
 # All motions with the same one of these outcomes are the same motion, because their displacement is
 # infinite or 0.
@@ -28,6 +28,7 @@ class Catalogue:
     Attributes
     ----------
     records : list of records.MOTION
+        One record for each motion.
     numbers : list of int
         Numbers of the motions, unique over the sweep.
     origins : list of int

@@ -1,8 +1,8 @@
-"""Envelopes of transients: largest |Z1| and contacts in windows, each with its own parameters.
+"""Envelopes of transients: largest |Z1| and number of contacts in successive windows of time.
 
-The kernel of a step requires a fixed forcing frequency. In a sweep the frequency is fixed in each
-forcing cycle and changes at the strobe, where the force is zero. Therefore neither the phase of the
-forcing nor the force jumps.
+Each window has its own parameters. The kernel of a step requires a fixed forcing frequency. In a
+sweep the frequency is fixed in each forcing cycle and changes at the strobe, the phase W T = pi/2,
+where the force is zero. Therefore neither the phase of the forcing nor the force jumps.
 """
 
 import numpy as np
@@ -14,8 +14,8 @@ from impact_damper.kernel.single import X, side_of, step, workspace
 from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import strobe_time
 
-# Number of windows in one call of the kernel. The call takes a few milliseconds, because Ctrl-C
-# waits for its end.
+# Number of windows in one call of the kernel. Ctrl-C waits for the end of the call, so a call must
+# be short; it takes a few milliseconds.
 AT_ONCE = 1024
 
 

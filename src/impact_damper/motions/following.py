@@ -2,8 +2,8 @@
 
 The functions step towards a given value of the parameter and stop at folds. By contrast,
 `orbits.continuation` steps along the branch and passes folds. A step predicts the state at the next
-value of the parameter and corrects it by Newton's method, which is a function of the caller. A step
-that fails is halved.
+value of the parameter and corrects it by Newton's method, which the caller passes as a function. A
+step that fails is halved.
 """
 
 import math
@@ -16,9 +16,10 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_sooner
 
+# Factor by which a step grows after success.
 GROWTH = 1.5
-# Stable orbits. REACH: largest correction of a predicted state. NUDGE: largest correction of the
-# first state.
+# Largest corrections of a stable orbit (`follow_stable`): REACH of a predicted state, NUDGE of the
+# first state. A larger correction could lead to another orbit.
 REACH, NUDGE = 0.03, 1e-3
 # Accuracy, in units of the parameter, to which the end of a branch of stable orbits is located.
 RESOLUTION = 1e-8
@@ -166,7 +167,7 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
     orbit : StrobeOrbit
         The last orbit. Its multiplier is NaN if no orbit was found near the given state.
     """
-    # For an integer of two bytes numba would compile the kernels again.
+    # Records hold periods as two-byte integers; for these numba would compile the kernels again.
     periods = int(periods)
     p, first = p.copy(), np.array(state, float)
     _, _, multiplier = polish(p, first, periods, NUDGE, POLISH_TOLERANCE)

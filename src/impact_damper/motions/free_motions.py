@@ -15,8 +15,8 @@ from impact_damper.theory.free_oscillator import balance_amplitudes, maximum_res
 
 # Number of phases at which starts with the amplitudes of harmonic balance are placed.
 PHASES = 6
-# SAMPLES: number of samples in a forcing cycle, from which the largest speed of a motion is taken.
-# MOST_STATES: limit on the states stored of one motion, because a chaotic motion has no period.
+# SAMPLES      number of samples in a forcing cycle, which give the largest speed of a motion
+# MOST_STATES  largest number of states stored of one motion; a chaotic motion has no period
 SAMPLES = 256
 MOST_STATES = 5
 

@@ -8,7 +8,8 @@ import math
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 
-# BLOCK: forcing cycles of a batch. RECENT: number of last batches in which the tangent must grow.
+# BLOCK   forcing cycles of a batch
+# RECENT  number of last batches in which the tangent must grow
 BLOCK = 10
 RECENT = 5
 

@@ -20,7 +20,7 @@ from impact_damper.system.packed import FREQUENCY
 
 # Z1 and Z1' of the first state of a run differ by at most APART from the state of the motion.
 APART = 1e-4
-# A transient ends when its distance from an orbit falls below CAPTURE.
+# A transient ends when the distance of its state from an orbit falls below CAPTURE.
 CAPTURE = 0.1
 # A run that has not ended is continued for CHECKED forcing cycles, to decide whether it is still
 # chaotic.

@@ -23,17 +23,17 @@ SAME = 1e-6
 
 
 def add_orbits(catalogues, loose, settling, workers) -> None:
-    """Enter the orbits that are found beside the motions known at each value of a parameter.
+    """Enter the orbits that `stable_orbits` finds into the catalogues of known motions.
 
     Parameters
     ----------
-    catalogues : list of sweep.Catalogue
-        Motions known at each value.
+    catalogues : list of catalogue.Catalogue
+        Motions known at each value of the swept parameter.
     loose : list of numpy.ndarray
-        States of the loose mass at each value, as of `stable_orbits`.
+        Argument `loose` of `stable_orbits` at each value.
     settling : Settling
     workers : int
-        Threads; the result does not depend on it.
+        Number of threads. The result does not depend on it.
     """
     found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
 
@@ -62,11 +62,12 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     motions : array, shape (m, 2)
         Z1 and Z1' of known motions at the strobe.
     loose : array, shape (n, 2)
-        Z2, and velocity Z1' - Z2' of the loose mass, of the starts. The known motions take turns.
+        Z2, and velocity Z1' - Z2' of the loose mass, of each start. The primary mass of start k is
+        on known motion k modulo m.
     tolerance : float
-        Local error allowed in a step of the integrator.
+        Largest local error of a step.
     stop : array of bool, shape (1,)
-        Set to true by another thread, it ends the search.
+        Another thread may set this flag to end the search.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

@@ -15,7 +15,7 @@ from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# A reference harmonic below PHASELESS times the harmonic of Z1 is a rounding error without a phase.
+# A harmonic below PHASELESS times the harmonic of Z1 is a rounding error, so it has no phase.
 PHASELESS = 1e-9
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64

@@ -1,4 +1,8 @@
-"""Kernels of multiple shooting: runs over segments of an orbit, and products of derivatives."""
+"""Kernels of multiple shooting: runs over segments of an orbit, and products of derivatives.
+
+In multiple shooting an orbit is a chain of segments. Each segment begins in a state of its own, and
+Newton's method makes the end of each segment equal to the beginning of the next.
+"""
 
 import numpy as np
 
@@ -24,10 +28,11 @@ def largest_displacement(p, states, times, tolerance):
     p : array, shape (packed.COUNT,)
         Packed parameters.
     states : array, shape (m, 4)
-        States at the beginnings; replaced by those at the ends.
+        States at the beginnings of the segments, replaced by the states at their ends.
     times : array, shape (m + 1,)
+        Beginnings of the segments, and end of the last one.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     """
     work, none, largest = workspace(), np.empty((0, 4)), 0.0
     for k in range(len(states)):
@@ -52,9 +57,10 @@ def flow_all(p, states, tangents, times, tolerance):
     states : array, shape (m, 4)
         States at the beginnings of the segments, replaced by the states at their ends.
     tangents : array, shape (m, 0, 4) or (m, 4, 4)
-        Solutions of the variational equations at the beginnings, replaced by those at the ends.
+        Solutions of the variational equations, from the beginnings of the segments to their ends;
+        also replaced.
     times : array, shape (m + 1,)
-        Ends of the segments.
+        Beginnings of the segments, and end of the last one.
     tolerance : float
         Largest local error of a step.
     """
@@ -113,25 +119,25 @@ def sweep(factors, basis, triangles):
 
 @kernel
 def separate(factors, apart, sweeps, settled, blocks, cuts):
-    """Separate the eigenvalues of a product of matrices by modulus; return how many groups.
+    """Separate the eigenvalues of a product of matrices by modulus; return the number of groups.
 
-    Orthogonal iteration makes the product block triangular. Its diagonal blocks hold the
-    eigenvalues of one group each.
+    Orthogonal iteration makes the product block triangular. Each diagonal block has the eigenvalues
+    of one group.
 
     Parameters
     ----------
     factors : array, shape (m, n, n)
-        The last factor is leftmost in the product.
+        Factors of the product, the rightmost factor first.
     apart : float
-        Groups are separated where moduli differ by more than this factor.
+        Two neighbouring moduli belong to different groups if their ratio exceeds this number.
     sweeps : int
         Largest number of iterations.
     settled : float
-        They end once the basis of each group changes by less.
+        The iteration ends once the subspaces of the groups turn by less than this (radian).
     blocks : array, shape (n, n)
-        Gets the diagonal blocks.
+        Receives the diagonal blocks.
     cuts : array of int, shape (n + 1,)
-        Gets the first row of each group, then n.
+        Receives the first row of each group, then n.
     """
     m, n = factors.shape[:2]
     basis, first, turned = np.zeros((n, n)), np.empty((n, n)), np.empty((n, n))

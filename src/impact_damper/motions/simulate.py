@@ -27,6 +27,7 @@ from impact_damper.system.checks import check_numbers
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
+# Largest number of samples of a motion, which stay in memory.
 MOST_SAMPLES = 10**7
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 
@@ -52,7 +53,7 @@ def check_state(state, damper):
     if units != "1":
         raise ValueError(f"state = {shown(state.values)}: must be dimensionless, not in {units}")
     if hasattr(state, "coords"):
-        state = np.squeeze(state.values)  # the only point of a dataset
+        state = np.squeeze(state.values)  # a dataset of one motion has dimensions of length 1
     values = check_numbers("state", state)
     allowed = "four finite numbers Z1, Z1', Z2, Z2'"
     if damper is None:
@@ -144,7 +145,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     check_number("radius", radius, **RADIUS_RANGE)
     if damper is not None and within_gap:
         most = MOST_RADIUS * damper.clearance
-        check_number("radius", radius, above=0.0, most=most, why="hardly a draw is within the gap")
+        check_number("radius", radius, above=0.0, most=most, why="few states lie within the gap")
     for value in np.atleast_1d(seed):
         check_count("seed", value, **SEED_RANGE)
     generator = np.random.default_rng(seed)
@@ -221,7 +222,7 @@ def simulate(
     y = check_state(state, damper)
     check_number("periods", periods, above=0.0, most=PERIODS_RANGE["most"])
     most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
-    check_count("samples", samples, least=2, most=most, why=f"{MOST_SAMPLES} in all")
+    check_count("samples", samples, least=2, most=most, why=f"at most {MOST_SAMPLES} samples")
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)
     start = start_of(state, start, float(p[FREQUENCY]))
     length = periods * 2 * np.pi / p[FREQUENCY]

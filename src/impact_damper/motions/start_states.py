@@ -36,16 +36,19 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# SPREAD: size of the largest random start over the largest free motion. SMALLEST: size of the
-# smallest random start over the largest.
+# SPREAD    size of the largest random start divided by the size of the largest free motion
+# SMALLEST  size of the smallest random start divided by the size of the largest
 SPREAD = 3.0
 SMALLEST = 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the larger of two
-# speeds: the speed of the free motion, and the speed that crosses the gap in half a forcing cycle.
+# Placed starts:
+# PLACES      Z2 divided by the clearance
+# VELOCITIES  Z2' divided by the larger of two speeds: the largest speed of the free motions, and
+#             the speed that crosses the gap in half a forcing cycle
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
-# LOOSE_STATES: number of states of the loose mass from which Newton's method searches for orbits.
-# LOOSE_SPEED: largest |Z2'| of these states, divided by the same speed as in VELOCITIES.
+# Search for orbits by Newton's method:
+# LOOSE_STATES  number of states of the loose mass from which the search begins
+# LOOSE_SPEED   largest |Z2'| of these states, divided by the same speed as in VELOCITIES
 LOOSE_STATES = 240
 LOOSE_SPEED = 2.0
 # With a softening spring a random start has at most WITHIN times the displacement of the barrier
@@ -54,9 +57,12 @@ LOOSE_SPEED = 2.0
 # without forcing.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps. STEP: relative change of a parameter in one step. PERIODS: forcing cycles of a step. BELOW:
-# first frequency of an upward ramp over the lowest fold, and highest fold over the first frequency
-# of a downward ramp. RAISED: first force over last force.
+# Ramps:
+# STEP     relative change of a parameter in one step
+# PERIODS  forcing cycles of a step
+# BELOW    an upward ramp begins at most at BELOW times the frequency of the lowest fold, a downward
+#          ramp at least at the frequency of the highest fold divided by BELOW
+# RAISED   first force of a ramp divided by its last force
 STEP = 0.0125
 PERIODS = 20
 BELOW = 0.9
@@ -81,8 +87,8 @@ class Search(NamedTuple):
     displacement, speed : numpy.ndarray, shape (n,)
         Largest |Z1| and |Z1'| of a random start.
     free_displacement, free_speed : numpy.ndarray, shape (n,)
-        Largest |Z1| and |Z1'| of the free motions. If a radius is given, they are those of harmonic
-        balance.
+        Largest |Z1| and |Z1'| of the free motions. If a radius is given, both are computed by
+        harmonic balance.
     """
 
     random: np.ndarray
@@ -178,14 +184,14 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
         warnings.warn(
             f"radius = {radius:g}: smaller than the free motion at frequency = {worst:g}, with "
             f"displacement = {most:.3g} and speed = {fastest:.3g} by harmonic balance; motions "
-            "may be missed, without a radius a search is as wide as the machine",
+            "may be missed; without a radius the search is scaled by the free motions",
             stacklevel=4,
         )
     return {w: (size, size * w) for w, size in sizes.items()}
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the fields of `Search` for one system, in their order, without a radius."""
+    """Return the fields of `Search` for one system, in their order. No radius is given."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -253,7 +259,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
         for velocity in VELOCITIES
     ]
     try:
-        # The solutions are used as starts only, so those for elastic contact serve all dampers.
+        # The solutions are used as starts only, so the solutions for elastic contact suffice.
         solutions = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     except ArithmeticError:
         return np.array(rows)

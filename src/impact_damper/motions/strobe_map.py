@@ -15,8 +15,10 @@ from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MA
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2
-# Newton's method. ITERATIONS: largest number of corrections. CONVERGED: the method has converged
-# once a correction is below this. REGULAR: smallest determinant of a matrix that counts as regular.
+# Newton's method:
+# ITERATIONS  largest number of corrections
+# CONVERGED   the method has converged once a correction is below this size
+# REGULAR     smallest determinant of a matrix that counts as regular
 ITERATIONS = 10
 CONVERGED = 1e-9
 REGULAR = 1e-12
@@ -44,7 +46,7 @@ def speed_weight(p, side):
     """Return the weight of Z2' in `distance`.
 
     The weight is 1 in flight. In contact it is nearly 1/w with the natural frequency w of the
-    contact.
+    contact, so that a velocity counts as the penetration that it causes.
     """
     if side == 0:
         return 1.0
@@ -137,7 +139,7 @@ def largest_modulus(values):
 
 @kernel
 def dominant(values):
-    """Return the value with the largest modulus; its imaginary part is replaced by its modulus."""
+    """Return the value with the largest modulus, conjugated if its imaginary part is negative."""
     best = values[0]
     for value in values:
         if abs(value) > abs(best):

@@ -23,9 +23,12 @@ from impact_damper.motions.orbit_search import add_orbits
 from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.strobe_map import STROBE
 
-# Events at the end of a branch. CRITICAL: smallest modulus of a multiplier at a bifurcation.
-# COMPLEX: a multiplier is complex if its imaginary part exceeds this. CLOSE: largest difference in
-# max |Z1| between a symmetric motion and the asymmetric motion that branches off.
+# Events at the end of a branch:
+# CRITICAL  smallest modulus of a multiplier that shows a bifurcation; the last orbit before the
+#           bifurcation may have a modulus slightly below 1
+# COMPLEX   a multiplier is complex if its imaginary part exceeds this
+# CLOSE     largest difference in max |Z1| between a symmetric motion and the asymmetric motion that
+#           branches off
 CRITICAL = 0.98
 COMPLEX = 1e-3
 CLOSE = 0.05
@@ -60,9 +63,9 @@ def _end_event(record, multiplier, beyond):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of the catalogue `source` to the next value of the parameter.
 
-    The motions there are entered in the catalogue `target`. Pairs of numbers of motions on the same
-    branch are appended to `links`, and a dictionary for each branch that ends between the two
-    values is appended to `ends`.
+    Motions found at the next value are entered in its catalogue `target`. For two motions on the
+    same branch the pair of their numbers is appended to `links`. For each branch that ends between
+    the two values a dictionary is appended to `ends`.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])

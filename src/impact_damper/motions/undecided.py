@@ -31,8 +31,9 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Largest number of forcing cycles of the first block.
 FIRST = 1500
-# Smallest growth of the tangent of a chaotic motion in a block, as a logarithm. The growth is
-# smaller for a motion that leaves an unstable orbit from a distance of rounding errors, 1e-16.
+# Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. A motion
+# that leaves an unstable orbit grows too, but only from a rounding error of 1e-16 to a size of
+# order 1, by ln(1e16) = 37.
 GROWN = 40.0
 # Number of batches of a block, from which the standard error of the exponent is computed.
 BATCHES = 30
@@ -44,7 +45,8 @@ LONGEST = 256
 REACH = 1e-2
 # A motion lies on known closed curves if its distance from them is below NEIGHBOUR.
 NEIGHBOUR = 1e-3
-# Fields that are copied to the record of such a motion from the record of the known motion.
+# If a motion lies on known closed curves, these fields are copied from the record of the known
+# motion.
 TORUS = (
     "outcome",
     "lyapunov_exponent",

@@ -34,25 +34,30 @@ from impact_damper.motions.strobe_map import (
 )
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# LONGEST_PERIOD: longest period of an orbit that is searched for, in forcing cycles. RING: number
-# of strobe states that are stored for this search.
+# LONGEST_PERIOD  longest period of an orbit that is searched for, in forcing cycles
+# RING            number of strobe states that are stored for this search
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# A motion is chaotic if its Lyapunov exponent is positive by CONFIDENCE standard errors. The
-# exponent is weak if it is below WEAK per unit of time.
+# A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. The exponent is
+# weak if it is below WEAK per unit of time.
 CONFIDENCE = 4.0
 WEAK = 0.05
-# Distance from an orbit at which Newton's method is first tried, and smallest distance at which it
-# is tried.
+# NEAR     distance from an orbit at which Newton's method is first tried
+# NEAREST  smallest distance at which Newton's method is tried
 NEAR = 1e-4
 NEAREST = 1e-9
 # Without forcing a motion is at rest once its energy is below REST times the first energy.
 REST = 1e-9
-# Data of one motion while it runs. index: its number. strobes: number of strobes so far. untouched:
-# number of successive forcing cycles without contact. near: distance from an orbit at which
-# Newton's method is tried next. energy: without forcing, the energy at the first strobe. The other
-# fields belong to the growth of a small change of the state (`growth`): number of cycles, growth in
-# the present batch, and mean, sum of squares and last values of complete batches.
+# Data of one motion while it runs:
+# index      number of the motion
+# strobes    number of strobes so far
+# untouched  number of successive forcing cycles without contact
+# near       distance from an orbit at which Newton's method is tried next
+# energy     without forcing, the energy at the first strobe
+# The other fields describe the growth of a small change of the state (`growth`):
+# periods    number of cycles
+# batch      logarithm of the growth in the present batch
+# mean, squares, recent: mean, sum of squares and last values of complete batches
 SEEN = np.dtype(
     [
         ("index", "i8"),
@@ -118,7 +123,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the exponent of the run before an orbit by the exponent of the orbit."""
+    """Replace the Lyapunov exponent, measured on the way to an orbit, by the orbit's own."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -180,21 +185,19 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       REST times the energy at the first strobe. An unforced motion is stopped only for this reason,
       after an escape or divergence, or at `limit`;
     - with the outcome non_colliding if it has settled without contacts, or if the primary mass is
-      on
-      an orbit, the loose mass has touched no wall for `patience` cycles, and it would drift by less
-      than 1 % of the clearance until `limit`;
+      on an orbit, the loose mass has touched no wall for `patience` cycles, and the loose mass
+      would drift by less than 1 % of the clearance until `limit`;
     - with the outcome drifting at `limit` if the primary mass is on an orbit, the loose mass has
       touched no wall for `patience` cycles, and it drifts farther;
-    - with the outcome chaotic after `patience` cycles if the largest Lyapunov exponent is positive
-      by
+    - with the outcome chaotic after `patience` cycles if the largest Lyapunov exponent exceeds
       CONFIDENCE standard errors and the growth continues in the last batches. (Otherwise a chaotic
       transient may just have ended.) With an exponent below WEAK the motion is stopped only at
       `limit`, because a slow spiral can look like weak chaos for some time.
 
-    The exponent is computed from one tangent in the second half of `patience` and later. For a
-    motion on an orbit it is computed from the dominant multiplier, because the run before is a
-    transient. In the same time `reach` is computed, the largest (Z1^2 + (Z1'/W)^2)^(1/2) at a
-    strobe.
+    The exponent is computed from the growth of one tangent after `patience`/2 cycles. In the same
+    cycles `reach` is computed, the largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe. For a motion on an
+    orbit the exponent is computed from the dominant multiplier, because the run before is a
+    transient.
 
     Outcome, period, residual, dominant multiplier, periods_run, reach and the exponent per unit of
     time are written to the record `out`. y is moved onto the orbit if there is one.

@@ -36,17 +36,18 @@ MOST_STIFF = 1e6
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`. All but the tolerance are in forcing cycles.
-TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "below, rounding prevails"}
-PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "fewer cycles decide nothing"}
+TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "rounding errors exceed smaller ones"}
+PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "motions rarely settle in fewer cycles"}
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 FURTHER_RANGE = {"least": 0, "most": 10**7}
-# Number of runs whose records are in memory at the same time.
+# Largest number of runs that one call computes; the results of all are in memory at the same time.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# PERIODS_RANGE: forcing cycles of a run. LIFETIME_RANGE: forcing cycles of a run that measures the
-# lifetime of a chaotic transient. Such a run counts the ends of transients after its first LEAD
-# cycles, in which it reaches the transient.
+# PERIODS_RANGE        forcing cycles of a run LIFETIME_RANGE       forcing cycles of a run that
+# measures the lifetime of a chaotic transient LEAD                 first cycles of such a run, in
+# which it reaches the transient; runs that end in                      these cycles are not counted
+# SCAN_LIFETIME_RANGE  LIFETIME_RANGE for runs at many frequencies, which may be shorter
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 LEAD = 20
@@ -61,9 +62,11 @@ HARMONIC_RANGE = {"least": 1, "most": 2**14}
 POINTS_RANGE = {"least": 2, "most": 10**5}
 # Largest load (constant acceleration during a contact, see `contact.contact_law`) of the load map.
 LOAD_RANGE = {"above": 0.0, "most": 1e3}
-# Settings of the comparison of integrators: the tolerance, the number of steps in a forcing cycle,
-# and the largest number of steps in a forcing cycle at which a stable step is searched for.
-METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "below, rounding prevails"}
+# Settings of the comparison of integrators:
+# METHOD_TOLERANCE_RANGE  tolerance
+# STEPS_RANGE             steps in a forcing cycle
+# MOST_STEPS_RANGE        most steps in a forcing cycle that the search for a stable step size tries
+METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "rounding errors exceed smaller ones"}
 STEPS_RANGE = {"least": 1, "most": 10**5}
 MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
 

@@ -17,7 +17,7 @@ from impact_damper.system.bounds import (
 def check_numbers(name, values, **bounds):
     """Return a number or a sequence of numbers as an array, shape (m,).
 
-    Each number is checked by `check_number`, which `bounds` are passed to.
+    `check_number` checks each number; `bounds` are its keyword arguments.
 
     Raises
     ------
@@ -53,7 +53,8 @@ def check_increasing(name, values, least="one"):
     numbers = check_numbers(name, values)
     if len(numbers) < {"one": 1, "two": 2}[least] or np.any(np.diff(numbers) <= 0):
         text = shown(numbers.tolist())
-        raise ValueError(f"{name} = {text}: must be increasing, and at least {least}")
+        number = f"{least} value{'s' * (least == 'two')}"
+        raise ValueError(f"{name} = {text}: must be increasing, and at least {number}")
     return numbers
 
 
@@ -70,11 +71,11 @@ def check_starts(starts, points, least=1):
     Raises
     ------
     TypeError, ValueError
-        If `starts` is not a whole number, is below `least`, or would make more than MOST_RUNS runs
-        whose records are in memory at the same time.
+        If `starts` is not a whole number, is below `least`, or makes more than MOST_RUNS runs at
+        all points together.
     """
     most = max(least, MOST_RUNS // points)
-    check_count("starts", starts, least=least, most=most, why=f"at {points} points: memory")
+    check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
 
 def check_span(name, span, **bounds) -> tuple:
@@ -89,5 +90,5 @@ def check_span(name, span, **bounds) -> tuple:
     """
     ends = check_numbers(name, span, **bounds)
     if ends.shape != (2,) or not ends[0] < ends[1]:
-        raise ValueError(f"{name} = {shown(span)}: must be least and greatest value")
+        raise ValueError(f"{name} = {shown(span)}: must be two numbers, least and greatest")
     return float(ends[0]), float(ends[1])

@@ -43,7 +43,7 @@ COUNT = len(NAMES)
     DASHPOT,
 ) = range(COUNT)
 # DESIGN: parameters with respect to which `design_slopes` differentiates; linear_stiffness is
-# omega_l^2. SIMPLE: those of them that stand in the array unchanged, each with its index.
+# omega_l^2. SIMPLE: the parameters among these that the array holds unchanged, each with its index.
 SIMPLE = {
     "damping": DAMPING,
     "linear_stiffness": STIFFNESS,

@@ -3,7 +3,8 @@
 import numpy as np
 
 # Solutions at neighbouring frequencies can belong to one branch only if their distance is below
-# JUMP times the size of the largest solution.
+# JUMP times the size of the largest solution. Between neighbouring points of the usual grids a
+# branch moves by less than this.
 JUMP = 0.25
 
 
@@ -12,8 +13,8 @@ def branches_over(rows) -> list[np.ndarray]:
 
     Two solutions at neighbouring values of the parameter belong to the same branch if each is the
     nearest one to the other and their distance is below JUMP times the size of the largest
-    solution. Any other solution begins a new branch. Two branches that meet at a fold are not
-    confused, because each of them moves less from value to value than their distance.
+    solution. Any other solution begins a new branch. Two branches that meet at a fold are told
+    apart if each moves less from value to value than the distance between them.
 
     Parameters
     ----------

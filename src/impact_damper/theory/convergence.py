@@ -36,19 +36,21 @@ from scipy.integrate import solve_ivp
 from impact_damper.kernel.equation import forcing_amplitude
 from impact_damper.system.packed import CUBIC, DAMPING, FREQUENCY, STIFFNESS
 
-# MEASURES: error of max |Z1|, root mean squares of the errors of the retained and of the omitted
-# harmonics of Z1, and error of a Floquet multiplier. ELASTIC and INELASTIC: powers of 1/N of these
-# errors, without and with a dashpot. ANALYTIC: rates of the errors per harmonic without contacts,
-# in units of s W.
+# MEASURES   error of max |Z1|; root mean squares of the errors of the retained harmonics of Z1 and
+#            of the omitted harmonics of Z1; error of a Floquet multiplier
+# ELASTIC    powers of 1/N of these errors for elastic contacts
+# INELASTIC  powers of 1/N of these errors for contacts with a dashpot
+# ANALYTIC   rates of exponential decrease of these errors without contacts, in units of s W
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Search for a singularity (`singularity_distance`). STARTS: number of start times in half a forcing
-# cycle. LARGE: |Z1| at which an integration towards the singularity stops, in units of
-# x = (f/|k3|)^(1/3). LAST_CHANGE: largest change of the estimated position in the last iteration,
-# in units of 1/(x sqrt|k3|). CLOSE: fraction of the estimated distance that the next integration
-# covers.
+# Search for a singularity (`singularity_distance`), with x = (f/|k3|)^(1/3):
+# STARTS       number of start times in half a forcing cycle
+# LARGE        |Z1| at which an integration towards the singularity stops, in units of x
+# LAST_CHANGE  largest change of the estimated position in the last iteration, in units of
+#              1/(x sqrt|k3|)
+# CLOSE        fraction of the estimated distance that the next integration covers
 STARTS = 12
 LARGE = 30.0
 LAST_CHANGE = 1e-6

@@ -91,7 +91,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return those of `free_solutions` on the main part of the curve, through the peak.
+    """Return the solutions of `free_solutions` on the main part of the curve, through the peak.
 
     With a linear or hardening spring these are all solutions.
 

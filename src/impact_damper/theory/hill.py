@@ -7,11 +7,11 @@ r1 M p + c (d/dT + lambda)(M p), with M = 1 in contact and 0 elsewhere. The time
 contains Dirac impulses at the beginning and end of each contact. The impulses represent the jumps
 of the dashpot force at the displaced ends of the contact, so that no saltation matrix is needed.
 
-In the infinite problem each exponent has copies at distances of i s. Let nu be the base frequency
-of the motion. For a symmetric motion only odd harmonics of p are used and s = 2 nu; otherwise s =
-nu. In the truncated problem the copies near the middle of the spectrum are accurate and the copies
-near its ends are not. The copies in the strip -s/2 < Im lambda <= s/2 are returned. If their number
-is not the dimension of the state, the status is "not_separated".
+In the infinite problem each exponent has copies at distances of i s, with the imaginary unit i. Let
+nu be the base frequency of the motion. For a symmetric motion only odd harmonics of p are used and
+s = 2 nu; otherwise s = nu. In the truncated problem the copies near the middle of the spectrum are
+accurate and the copies near its ends are not. The copies in the strip -s/2 < Im lambda <= s/2 are
+returned. If their number is not the dimension of the state, the status is "not_separated".
 
 Lazarus and Thomas, C. R. Mecanique 338, 510 (2010), discuss how to choose among the copies.
 """
@@ -40,11 +40,11 @@ class Exponents(NamedTuple):
     Attributes
     ----------
     values : numpy.ndarray of complex, shape (4,)
-        Per unit time T, by ascending real part; NaN unless the status is "found". Without a
-        damper shape (2,).
+        Per unit time T, by ascending real part; NaN unless the status is "found". Without a damper
+        the shape is (2,).
     status : str
-        "found"; "not_separated" if the strip |Im lambda| < s/2 holds another number of
-        eigenvalues; "not_converged" if the iteration for the eigenvalues near zero failed.
+        "found"; "not_separated" if the strip |Im lambda| < s/2 holds another number of eigenvalues;
+        "not_converged" if the iteration for the eigenvalues near zero failed.
     """
 
     values: np.ndarray
@@ -86,9 +86,9 @@ def exponents(solution) -> Exponents:
 def _near_zero(stiffness, damping, inertia):
     """Return the eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
 
-    With at most DENSE unknowns all eigenvalues are returned. They are the reciprocals of the
-    largest eigenvalues of the inverse of the first-order form. To apply this inverse, only
-    `stiffness` needs to be factorised.
+    With at most DENSE unknowns all eigenvalues are returned. The eigenvalues nearest zero are the
+    reciprocals of the largest eigenvalues of the inverse problem, written as a first-order system.
+    To apply this inverse, only `stiffness` needs to be factorised.
     """
     size = len(stiffness)
     factors = factorised(stiffness)

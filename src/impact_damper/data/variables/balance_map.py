@@ -1,9 +1,11 @@
 """Harmonic balance compared with exact motions, in maps over frequency and another parameter.
 
 A cell of a map is one frequency and one value of the other parameter; a row is one value of the
-other parameter. Two solutions of (7) are compared with motions in each cell. The quiet solution has
-the smallest |a|, below half of the free resonance. The high solution has the largest |a|, at least
-this half (`theory.map_cells`). The quiet run and the high run are simulations that start from them.
+other parameter. In each cell two solutions of the harmonic balance, equation (7) of the paper, are
+compared with motions. The quiet solution has the smallest amplitude |a| of the primary mass, below
+half of the resonance amplitude without damper. The high solution has the largest |a|, at least this
+half (`theory.map_cells`). The quiet run and the high run are simulations that start from these two
+solutions.
 """
 
 from impact_damper.data.variables.variable import OUTCOME, Variable

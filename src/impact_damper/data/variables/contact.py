@@ -1,8 +1,9 @@
 """The contact model in closed form, contacts of simulated motions, and the rigid limit.
 
-The load g/(omega_n v0) is the dimensionless acceleration that all forces except the force of the
-wall cause. The realised restitution is the ratio of departure to approach speed
-(`contact.contact_law`). A "mended" rigid orbit is an orbit between corrected rigid walls
+The load g/(omega_n v0) is the relative acceleration g that all forces except the force of the wall
+cause, made dimensionless with the natural frequency omega_n of the contact and the approach speed
+v0. The realised restitution is the ratio of departure to approach speed (`contact.contact_law`). A
+"mended" rigid orbit is an orbit between corrected rigid walls
 (`contact.rigid_orbits.mended_walls`).
 """
 

@@ -1,4 +1,8 @@
-"""Design of a damper: screening, comparison of gaps, cliff, deviations, masses, motions."""
+"""Design of a damper: screening, comparison of gaps, cliff, deviations, masses, motions.
+
+The cliff is the end of the range of gaps with quiet motions. Deviations are errors of the built
+machine and damper.
+"""
 
 from impact_damper.data.variables.variable import Variable
 

@@ -1,4 +1,9 @@
-"""Policies of migration, rules that say when to switch the damper off, and their success."""
+"""Policies of migration, rules that say when to switch the damper off, and their success.
+
+Migration leads the motion from the resonance to the goal, the small motion without damper, by
+switching the damper on and off. The release set holds the states from which the motion reaches the
+goal after the damper is switched off.
+"""
 
 from impact_damper.data.variables.variable import Variable
 
@@ -74,7 +79,7 @@ VARIABLES = {
         (*DISTURBED, "bound"),
         "median of the cycles until the goal in spite of a disturbance",
     ),
-    # of the stage release_dampers
+    # of the stage release_dampers; along a cut only the restitution of the damper varies
     "cut_restitution": Variable(("cut_restitution",), "coefficient of restitution", "e"),
     "resonance_displacement": Variable(
         ("frequency",), "max |Z1| of the free resonance motion", quantity="displacement"

@@ -82,7 +82,7 @@ def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
     If there is such a time, MODE becomes MET and WALL the wall that is met. If there is certainly
-    none, MODE becomes MISSED and T does not change. In either case END_Z1 and END_Z1_SLOPE receive
+    none, MODE becomes MISSED and T keeps its value. In either case END_Z1 and END_Z1_SLOPE receive
     Z1 and its slope at T. Before the call, Z1 and its slope at T must be known, and a T below
     LENGTH means that `expect_contact` expects a contact at T; the contact may lie slightly later.
 
@@ -91,8 +91,7 @@ def find_contact(a):
     wall "ahead" is the wall to which the loose mass moves at the beginning of the flight.
 
     - `clear`: over [0, T], Z1 and therefore Z2 deviate from their chords by at most SAG CHANGE T.
-      If
-      the distance to the wall ahead exceeds this deviation at both ends, this wall is not met.
+      If the distance to the wall ahead exceeds this deviation at both ends, this wall is not met.
     - `left`: the chord gives one lower bound on the distance to the wall behind, and the initial
       speed minus CHANGE gives another. If the mean of the bounds is positive, this wall is not met.
     - `certain`: the speed at each end of the flight gives a lower bound on the speed within it. If

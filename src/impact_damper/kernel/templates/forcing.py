@@ -13,7 +13,7 @@ from impact_damper.kernel.equation import forcing_amplitude
 
 LANES: int
 
-# pi/2 as the sum of two numbers. The first has so few digits that its multiples are exact.
+# pi/2 as the sum of two numbers. The first has few digits, so its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
 # If COSINE and SINE are known for a phase that differs by less than NEAR, the new values follow
@@ -71,8 +71,8 @@ def forcing(a):
 def look_ahead(a):
     """With one lane, compute COSINE and SINE at T, the expected end of the step.
 
-    The processor does this while it waits for other results of the step. With several lanes it does
-    not wait, and the function does nothing.
+    With one lane the processor does this while it waits for other results of the step. With several
+    lanes it does not wait, and the function does nothing.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

@@ -5,8 +5,7 @@ In contact f is the penetration, and its root is the separation. Each search is 
 modes, whose number stands in the row MODE:
 
     MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
-    vanish.
-              The search advances by such times, so that it never passes the first root.
+              vanish. The search advances by such times, so that it never passes the first root.
     BRACKET   at most one root is possible. A safeguarded iteration of third order finds it.
     ENDING    the search has reached the end of the step in mode MARCH without a root.
     MET       the root has been found.
@@ -23,11 +22,14 @@ from impact_damper.kernel.compiling import kernel_only
 
 LANES: int
 
+# Relative rounding error of an event function, 4 units in the last place.
 ROUNDING = 2.0**-50
 # The iteration for a root ends once (move / bending time)^3 is below LAST_MOVE times the tolerance.
-# The bending time is |f'/f''|. The cube is the size of the first term of f' that is neglected.
+# The bending time is |f'/f''|, in which f' changes by its own size. The cube is the size of the
+# first term that the iteration neglects. LAST_MOVE is a margin.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED = 0.0, 1.0, 2.0, 3.0, 4.0
+# TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
 TINY = 1e-300
 FAR = 1e200
 

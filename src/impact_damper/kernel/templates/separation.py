@@ -15,9 +15,9 @@ LANES: int
 
 # Longest step while the penetration grows and while it shrinks, in natural periods of the contact.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
-# Largest relative increase of the rate at which the phase of the contact turns. With this margin
-# the phase turns by less than 3/4 or 1/2 of a turn in the two kinds of steps, so that a step
-# contains at most one separation.
+# Largest relative increase of the rate at which the phase of the contact turns (`find_separation`).
+# With this margin the phase turns by less than 0.55 * 1.25 < 3/4 of a turn while the penetration
+# grows, and by 0.4 * 1.25 = 1/2 while it shrinks. A step thus contains at most one separation.
 PHASE_MARGIN = 0.25
 
 

@@ -29,12 +29,13 @@ EARLY: int
 SIZE: int
 TANGENT_SIZE: int
 
+# Bits of the float 1.0.
 ONE = 1023 << 52
 # The last terms of the series may reach SAFETY times the tolerance. Contacts amplify local errors;
 # with this factor the error of settled motions stays below 10 times the tolerance.
 SAFETY = 0.05
-# Because the length of a flight is only predicted, the last terms may exceed `largest_tail` by the
-# factor EXCESS before the flight is shortened.
+# A flight is shortened only if its last terms exceed `largest_tail` by the factor EXCESS. Its
+# length is a prediction, and without this margin many flights would be computed twice.
 EXCESS = 4.0
 
 
