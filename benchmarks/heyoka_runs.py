@@ -17,12 +17,11 @@ from impact_damper.kernel.equation import forcing_amplitude
 from impact_damper.system.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
-    CUBIC,
     DAMPING,
     DASHPOT,
     FREQUENCY,
     INVERSE_MASS_RATIO,
-    STIFFNESS,
+    cubic_spring,
 )
 
 FASTEST = {"fast_math": True, "force_avx512": True}
@@ -83,9 +82,10 @@ class Motions:
         if not linear_forcing and amplitude != 1:
             forcing = number(amplitude) * forcing
         cube = x**3 if power else x * x * x
-        free = forcing - damping * v - (cube if p[CUBIC] == 1 else number(p[CUBIC]) * cube)
-        if p[STIFFNESS] != 0:
-            free -= number(p[STIFFNESS]) * x
+        stiffness, cubic = cubic_spring(p)
+        free = forcing - damping * v - (cube if cubic == 1 else number(cubic) * cube)
+        if stiffness != 0:
+            free -= number(stiffness) * x
         system, events = [(x, v), (v, free)], []
         if self.damped:
             depth = z - heyoka.par[1]

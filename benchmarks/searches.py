@@ -162,7 +162,7 @@ def table(systems, count) -> pd.DataFrame:
         found = frequency_response(oscillator, damper, [frequency])
         spent = time.process_time() - begin
         reaches = [[WIDER * float(found[key][0]) for key in ("start_displacement", "start_speed")]]
-        if oscillator.cubic < 0:
+        if oscillator.softens:
             reaches.append(barrier(oscillator))
         wide = wide_search(oscillator, damper, frequency, reaches, count)
         sizes = found["maximum_displacement"].values

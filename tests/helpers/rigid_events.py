@@ -1,7 +1,10 @@
 """Rigid impacts located by SciPy's events, as an independent reference."""
 
 import numpy as np
+from references import equation
 from scipy.integrate import solve_ivp
+
+from impact_damper.system.packed import pack
 
 TIGHT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
 
@@ -9,10 +12,10 @@ TIGHT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
 def flight_rate(oscillator, frequency):
     """Return the function (t, y) -> y' of the state y = (Z1, Z1', x2, x2') in flight."""
 
+    p = pack(oscillator, None, frequency)
+
     def rate(t, y):
-        force = oscillator.forcing_amplitude(frequency) * np.cos(frequency * t)
-        spring = oscillator.linear_frequency**2 * y[0] + oscillator.cubic * y[0] ** 3
-        return [y[1], force - oscillator.damping * y[1] - spring, y[3], 0.0]
+        return [y[1], equation.flight(p, y[0], y[1], np.cos(frequency * t)), y[3], 0.0]
 
     return rate
 

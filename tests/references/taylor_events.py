@@ -10,6 +10,7 @@ import heyoka
 import numpy as np
 
 from impact_damper.system import packed
+from references import equation
 
 # Clearance in place of a larger one. heyoka's tolerance is relative to the largest term of the
 # events, so a distant wall would make the integration inaccurate.
@@ -37,13 +38,10 @@ class Reference:
 
     def __init__(self, longest=math.inf):
         x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
-        names = [heyoka.par[i] for i in range(packed.COUNT + 1)]
-        frequency, damping, stiffness, cubic, force, unbalance, shaker, *contact, side = names
-        clearance, spring, inverse_mass, dashpot = contact
-        amplitude = force + unbalance * frequency**2 + shaker / frequency**2
-        drive = amplitude * heyoka.cos(frequency * heyoka.time)
-        free = drive - damping * v - stiffness * x - cubic * x * x * x
-        force = spring * (z - side * clearance) + dashpot * w
+        *p, side = [heyoka.par[i] for i in range(packed.COUNT + 1)]
+        free = equation.flight(p, x, v, heyoka.cos(p[packed.FREQUENCY] * heyoka.time))
+        force = equation.contact(p, side, z, w)
+        clearance, inverse_mass = p[packed.CLEARANCE], p[packed.INVERSE_MASS_RATIO]
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
         entries = [
             heyoka.t_event(z - clearance, direction=rising),

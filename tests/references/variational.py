@@ -10,35 +10,19 @@ import math
 import heyoka
 import numpy as np
 
-from impact_damper.system.packed import CLEARANCE, COUNT
+from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY, INVERSE_MASS_RATIO
+from references import equation
 from references.taylor_events import BEYOND_ALL_MOTIONS, PARAMETERS
 
 
 def _fields():
     x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
-    pars = [heyoka.par[i] for i in range(COUNT + 1)]
-    free, force, inverse_mass = _forces(pars, (x, v, z, w), heyoka.cos(pars[0] * heyoka.time))
+    *p, side = [heyoka.par[i] for i in range(COUNT + 1)]
+    free = equation.flight(p, x, v, heyoka.cos(p[FREQUENCY] * heyoka.time))
+    force, inverse_mass = equation.contact(p, side, z, w), p[INVERSE_MASS_RATIO]
     flight = [(x, v), (v, free), (z, w), (w, free)]
     contact = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
-    return flight, contact, z, pars[CLEARANCE], pars[COUNT]
-
-
-def _forces(pars, state, cosine):
-    """Return acceleration in flight, force of the contact, and primary mass over loose mass."""
-    frequency, damping, stiffness, cubic, amplitude, unbalance, shaker, *contact, side = pars
-    clearance, spring, inverse_mass, dashpot = contact
-    x, v, z, w = state
-    amplitude = amplitude + unbalance * frequency**2 + shaker / frequency**2
-    free = amplitude * cosine - damping * v
-    free = free - stiffness * x - cubic * x * x * x
-    return free, spring * (z - side * clearance) + dashpot * w, inverse_mass
-
-
-def field(pars, state, t, touching):
-    """Return the vector field at a state, in flight or in contact."""
-    free, force, inverse_mass = _forces(pars, state, math.cos(pars[0] * t))
-    force *= touching
-    return np.array([state[1], free - force, state[3], free - force - inverse_mass * force])
+    return flight, contact, z, p[CLEARANCE], side
 
 
 class Variational:
@@ -89,7 +73,7 @@ class Variational:
                 beyond = math.inf
             pars[COUNT] = before[COUNT] = wall
             full[2] = wall * pars[CLEARANCE]
-            fields = [field(before, full[:4], t, touching) for touching in (False, True)]
+            fields = [np.array(equation.rates(before, each)(t, full[:4])) for each in (0, wall)]
             old, new = fields if not side else fields[::-1]
             tangents = full[4:].reshape(4, 4)
             tangents += np.outer(new - old, tangents[2]) / old[2]

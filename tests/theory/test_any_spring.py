@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 from helpers.springs import SPRINGS
 from numpy.testing import assert_allclose
+from references import equation
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from impact_damper.data.datasets import flag
 from impact_damper.stages.harmonic_balance import optimum_clearance
 from impact_damper.stages.suppression_band import suppression_band
+from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.theory import hill
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
@@ -284,17 +286,13 @@ def test_many_harmonics_are_the_motion_that_scipy_integrates(name, frequency):
     balances = [Balance(oscillator, None, frequency, n) for n in (1, 3, 7, 15, 31)]
     solution = refine(balances, single_term(oscillator, None, frequency))[-1]
     assert solution.status == "converged"
-    force = oscillator.force + oscillator.unbalance * frequency**2
-    force += oscillator.shaker / frequency**2
+    p = pack(oscillator, None, frequency)
     begin, period = 0.5 * np.pi / frequency, 2 * np.pi / frequency
 
-    def rates(time, y):
-        spring = oscillator.linear_frequency**2 * y[0] + oscillator.cubic * y[0] ** 3
-        return y[1], force * np.cos(frequency * time) - oscillator.damping * y[1] - spring
-
     def end(state):
-        span = begin, begin + period
-        return solve_ivp(rates, span, state, "DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+        span, both = (begin, begin + period), np.tile(state, 2)
+        run = solve_ivp(equation.rates(p), span, both, "DOP853", rtol=1e-12, atol=1e-13)
+        return run.y[:2, -1]
 
     state = state_of(solution)[:2]
     assert_allclose(end(state), state, atol=1e-8)

@@ -30,7 +30,7 @@ from impact_damper.data.datasets import is_settled
 from impact_damper.kernel.single import advance, workspace
 from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
-from impact_damper.system.packed import CUBIC, FREQUENCY
+from impact_damper.system.packed import FREQUENCY, cubic_spring
 
 # STEPS     number of steps in a forcing cycle in the proof
 # FACTOR    largest ratio |R| r(P)/r0 that is accepted as a contraction
@@ -158,7 +158,7 @@ def neighbourhood(p, state, periods):
     forward = matrices @ vectors
     gain = np.linalg.norm(forward[:, 0], axis=1)
     kick = np.linalg.norm(np.linalg.inv(forward)[:, :, 1], axis=1)
-    cubic = abs(p[CUBIC])
+    cubic = abs(cubic_spring(p)[1])
     coefficients = np.array(
         [3 * cubic * kick * np.abs(displacement) * gain**2, cubic * kick * gain**3]
     )

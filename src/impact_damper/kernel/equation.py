@@ -3,17 +3,21 @@
     Z1'' = (F + U W^2 + V/W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
 This is equation (3) of the paper with four more parameters k3, F, U and V, which are fields of
-`parameters.Oscillator`. Kernels that evaluate the equation call the functions of this module. The
-module `recurrence` has the Taylor series of the equation.
+`parameters.Oscillator`. Kernels that evaluate the equation call the functions of this module, and
+the variations of a motion call its derivatives. The module `recurrence` has the Taylor series of
+the equation.
 """
 
 import math
 from functools import partial
 
+import numpy as np
+
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.system.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
+    COUNT,
     CUBIC,
     DAMPING,
     FORCE,
@@ -71,6 +75,48 @@ def spring_slope(p, x, lane=0, lanes=1):
 def acceleration(p, y, t):
     """Return Z1'', which in flight is also Z2'', at the state y = (Z1, Z1', Z2, Z2') and time t."""
     return external_force(p, t) - p[DAMPING] * y[1] - spring(p, y[0])
+
+
+def acceleration_by_parameters(p, x, v, cosine):
+    """Return the derivatives of `acceleration` with respect to the packed parameters.
+
+    The phase W T of the forcing is held fixed.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+    x, v, cosine : arrays, shape (n,)
+        Z1, Z1' and cos(W T).
+
+    Returns
+    -------
+    numpy.ndarray, shape (COUNT, n)
+    """
+    frequency = p[FREQUENCY]
+    slopes = np.zeros((COUNT, len(x)))
+    slopes[DAMPING], slopes[STIFFNESS], slopes[CUBIC] = -v, -x, -(x**3)
+    slopes[FORCE], slopes[UNBALANCE] = cosine, frequency**2 * cosine
+    slopes[SHAKER] = cosine / frequency**2
+    growth = p[UNBALANCE] * frequency - p[SHAKER] / frequency**3
+    slopes[FREQUENCY] = 2 * growth * cosine
+    return slopes
+
+
+def spring_slope_changes(p, x, change, parameters):
+    """Return the changes of `spring_slope` along k directions, to first order, shape (k, n).
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+    x : array, shape (n,)
+        Z1.
+    change : array, shape (k, n)
+        Changes of Z1.
+    parameters : array, shape (COUNT, k)
+        Changes of the packed parameters.
+    """
+    bent = np.outer(parameters[CUBIC], x) + 2 * p[CUBIC] * change
+    return parameters[STIFFNESS][:, None] + 3 * x * bent
 
 
 @kernel

@@ -33,14 +33,30 @@ last. The lines use these names:
 """
 
 
+def coefficients(at):
+    """Yield the lines that load the coefficients of the spring's nonlinear terms.
+
+    The function `at` of a name in `packed.NAMES` returns the expression for the parameter.
+    """
+    yield f"cubic = {at('CUBIC')}"
+
+
+def beginning(at):
+    """Yield the lines before those of `motion`, from x0 and `at`, which is as in `coefficients`."""
+    yield from coefficients(at)
+    yield "double = 2.0 * cubic"
+    yield "s0 = cubic * x0 * x0"
+    yield f"stiffness = {at('STIFFNESS')} + s0"
+    yield "linear = stiffness + 2.0 * s0"
+
+
 def motion(order, phase, constants):
     """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
 
     Before these lines the following names must have values:
 
-    - x0, x1 and s0 = k3 x0^2; in contact also q0 and q1;
+    - x0, x1 and the names of `beginning`; in contact also q0 and q1;
     - `cosine` and `sine`, those of the forcing's phase times the amplitude of the forcing;
-    - `cubic` = k3, `double` = 2 k3, `stiffness` = omega_l^2 + s0, `linear` = omega_l^2 + 3 s0;
     - in contact `r1` and `mobility` = 1 + 1/rm.
 
     The function `constants` of k returns the lines for the coefficients that are the same in all
@@ -76,8 +92,8 @@ def tangent(order, phase, constants):
 def squares(count):
     """Yield the lines for the first `count` coefficients u0, u1, ... of 3 k3 x^2.
 
-    Before these lines x0, x1, ... and `cubic` = k3 must have values. Each product x[i] x[j] with
-    i < j is computed once and counted twice.
+    Before these lines x0, x1, ... and the names of `coefficients` must have values. Each product
+    x[i] x[j] with i < j is computed once and counted twice.
     """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"

@@ -22,7 +22,7 @@ from impact_damper.system import packed
 #                 X  Z1
 #                 Q  penetration of the wall
 #                 G  acceleration without the force of the wall
-#                 U  3 k3 Z1^2, for tangents
+#                 U  slope of the spring's nonlinear force, for tangents
 #                 and coefficients that are the same in all steps of a trajectory:
 #                 E  forcing without its factor cosine or sine
 #                 H  h/k, with the damping h
@@ -143,11 +143,7 @@ class Writer:
             # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector. The two were stored
             # separately, and the load of a vector would wait until both stores are complete.
             f"x1 = {self.at('Y1')} + 0.0",
-            f"cubic = {self.at('CUBIC')}",
-            "double = 2.0 * cubic",
-            "s0 = cubic * x0 * x0",
-            f"stiffness = {self.at('STIFFNESS')} + s0",
-            "linear = stiffness + 2.0 * s0",
+            *recurrence.beginning(self.at),
             *self._factors(phase),
         ]
         if phase == "contact":
@@ -162,7 +158,7 @@ class Writer:
     def squares(self, phase):
         """Return a kernel that fills U, for the tangents, from the series of a step."""
         count = self.orders[phase] - 1
-        lines = [f"cubic = {self.at('CUBIC')}"]
+        lines = list(recurrence.coefficients(self.at))
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
         lines += self._stored(recurrence.squares(count), "U")
         return self.function(f"{phase}_squares", lines)

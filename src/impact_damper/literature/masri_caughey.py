@@ -29,7 +29,6 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from impact_damper.system.bounds import plain
 from impact_damper.system.checks import check_frequency
 from impact_damper.system.parameters import check_damper, check_oscillator
 
@@ -154,10 +153,7 @@ class Family:
 
     def __init__(self, oscillator, damper, frequency):
         check_oscillator(oscillator)
-        if oscillator.cubic != 0:
-            raise ValueError(
-                f"cubic = {plain(oscillator.cubic)}: must be 0 (closed form of a linear spring)"
-            )
+        oscillator.check_linear("(closed form of a linear spring)")
         check_damper(damper)
         self.oscillator, self.damper = oscillator, damper
         self.frequency = check_frequency(frequency)

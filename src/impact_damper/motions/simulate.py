@@ -243,7 +243,7 @@ def simulate(
         "approach_velocity": log[:, 3],
         "departure_velocity": log[:, 4],
     }
-    if oscillator.cubic < 0:
+    if oscillator.softens:
         escaped = np.isnan(states[:, 0])
         data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
     parameters = describe(oscillator, damper) | {

@@ -228,7 +228,7 @@ def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple
     crossing = 0.0 if damper is None else _crossing_speed(damper, frequency)
     length = free.displacement or (1.0 if damper is None else damper.clearance)
     most = np.array([length, free.speed or max(length * frequency, crossing)]) * SPREAD
-    if oscillator.cubic < 0:
+    if oscillator.softens:
         most = np.minimum(most, WITHIN * np.array(barrier(oscillator)))
     size = 2 if damper is None else 3
     direction = generator.standard_normal((count, size))

@@ -23,21 +23,22 @@ from functools import cached_property
 
 import numpy as np
 
-from impact_damper.kernel.equation import forcing_amplitude
+from impact_damper.kernel.equation import (
+    acceleration_by_parameters,
+    forcing_amplitude,
+    spring,
+    spring_slope,
+    spring_slope_changes,
+)
 from impact_damper.orbits.paths import INTEGRALS, POINTS, Path
 from impact_damper.system.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     COUNT,
-    CUBIC,
     DAMPING,
     DASHPOT,
-    FORCE,
     FREQUENCY,
     INVERSE_MASS_RATIO,
-    SHAKER,
-    STIFFNESS,
-    UNBALANCE,
 )
 
 
@@ -99,12 +100,7 @@ class Variations:
         p, (x, v, _, w) = self.path.p, self.path.states
         walls, depth = self.path.contacts
         frequency, cosine = p[FREQUENCY], np.cos(p[FREQUENCY] * self.path.times)
-        free = np.zeros((COUNT, len(x)))
-        free[DAMPING], free[STIFFNESS], free[CUBIC] = -v, -x, -(x**3)
-        free[FORCE], free[UNBALANCE] = cosine, frequency**2 * cosine
-        free[SHAKER] = cosine / frequency**2
-        growth = p[UNBALANCE] * frequency - p[SHAKER] / frequency**3
-        free[FREQUENCY] = 2 * growth * cosine
+        free = acceleration_by_parameters(p, x, v, cosine)
         wall = np.zeros((COUNT, len(x)))
         wall[CLEARANCE] = -p[CONTACT_STIFFNESS] * walls
         wall[CONTACT_STIFFNESS], wall[DASHPOT] = depth, np.abs(walls) * w
@@ -115,11 +111,7 @@ class Variations:
         rates = both[:, None] * free - pushed[:, None] * wall
         for k, share in self._along(INVERSE_MASS_RATIO):
             rates[:, k] -= share * loose * force
-        drive = (
-            forcing_amplitude.py_func(p) * cosine
-            - p[DAMPING] * v
-            - (p[STIFFNESS] + p[CUBIC] * x * x) * x
-        )
+        drive = forcing_amplitude.py_func(p) * cosine - p[DAMPING] * v - spring.py_func(p, x)
         moving = self._inverse[:, 0] * v + self._inverse[:, 2] * w
         later = (moving + both * drive - pushed * force) / frequency
         for k, share in self._along(FREQUENCY):
@@ -176,15 +168,13 @@ class Variations:
 
         touching = np.abs(self.path.contacts[0])
         x = self.path.states[0]
-        stiff = parameters[STIFFNESS][:, None] + 3 * x * (
-            np.outer(parameters[CUBIC], x) + 2 * p[CUBIC] * change
-        )
+        stiff = spring_slope_changes(p, x, change, parameters)
         bent = integral(both, stiff[:, None] * tangents[0]).reshape(4, -1, 4).swapaxes(0, 1)
         drag = integral(both, tangents[1])
         spring, dashpot = (integral(touching * pushed, tangents[i]) for i in (2, 3))
         wall = p[CONTACT_STIFFNESS] * tangents[2] + p[DASHPOT] * tangents[3]
         lighter = integral(touching * loose, wall)
-        own = integral(both, (p[STIFFNESS] + 3 * p[CUBIC] * x * x) * tangents[0])
+        own = integral(both, spring_slope.py_func(p, x) * tangents[0])
         whole = integral(inverse[:, 0], tangents[1]) + integral(inverse[:, 2], tangents[3])
         whole -= own + p[DAMPING] * drag + integral(touching * pushed, wall)
         parts = np.stack([drag, spring, dashpot, lighter, whole / p[FREQUENCY]])
@@ -211,7 +201,7 @@ class Variations:
     def _jacobian(self, point, touching):
         """Return the Jacobian A at a point, in flight or in contact, shape (4, 4)."""
         p = self.path.p
-        stiffness = p[STIFFNESS] + 3 * p[CUBIC] * self.path.states[0, point] ** 2
+        stiffness = spring_slope.py_func(p, self.path.states[0, point])
         free = np.array([-stiffness, -p[DAMPING], 0.0, 0.0])
         wall = touching * np.array([0.0, 0.0, p[CONTACT_STIFFNESS], p[DASHPOT]])
         unit = np.eye(4)

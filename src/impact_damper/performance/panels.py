@@ -81,10 +81,7 @@ def sampled(p, state, begin, end) -> Panels:
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)
     walls[1::2] = log[:, 0]
-    farthest = np.nanmax(np.abs(states[:, 0]))
-    # For a hardening and for a softening spring, the slope is steepest at Z1 = 0 or at the farthest
-    # Z1.
-    steepest = np.max(np.abs(spring_slope.py_func(p, np.array([0.0, farthest]))))
+    steepest = np.nanmax(np.abs(spring_slope.py_func(p, np.append(states[:, 0], 0.0))))
     fastest = np.sqrt(steepest) + p[FREQUENCY]
     contact = np.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
     rates = np.where(walls, fastest + contact, fastest)

@@ -14,7 +14,7 @@ from impact_damper.motions.envelopes import envelope
 from impact_damper.performance.swept_sine import EQUIPMENT, TOLERANCE
 from impact_damper.system.bounds import FARTHEST
 from impact_damper.system.families import FORCING
-from impact_damper.system.packed import CUBIC, STIFFNESS, pack
+from impact_damper.system.packed import cubic_spring, pack
 
 # A ring-down ends when the energy has fallen to the energy at REST times the first displacement, or
 # after MOST_WINDOWS periods of the unforced vibration.
@@ -114,7 +114,7 @@ def _decay(p, displacement):
 
 def _window(p, left):
     """Return the length of a window that begins with the energy `left`."""
-    stiffness, cubic = p[STIFFNESS], p[CUBIC]
+    stiffness, cubic = cubic_spring(p)
     period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
     if cubic >= 0:
         return period

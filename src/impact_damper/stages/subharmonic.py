@@ -103,7 +103,7 @@ def subharmonic_suppression(
     settling = check_settling(settling)
     check_damper(damper)
     check_oscillator(oscillator)
-    if oscillator.cubic == 0:
+    if oscillator.is_linear:
         raise ValueError(
             "cubic = 0: must not be 0 (without the damper a linear spring has no subharmonic)"
         )

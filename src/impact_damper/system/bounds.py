@@ -14,11 +14,6 @@ from dataclasses import field, fields
 
 FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "runs are counted in forcing cycles"}
 DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
-LINEAR_FREQUENCY_RANGE = {"least": 0.0, "most": 100.0}
-CUBIC_RANGE = {"least": -1e6, "most": 1e6}
-FORCE_RANGE = {"least": 0.0, "most": 1e6}
-UNBALANCE_RANGE = {"least": 0.0, "most": 1e6}
-SHAKER_RANGE = {"least": 0.0, "most": 1e6}
 MASS_RATIO_RANGE = {"least": 1e-6, "most": 10.0}
 CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
 RESTITUTION_RANGE = {

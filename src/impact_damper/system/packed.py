@@ -109,6 +109,11 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     return p
 
 
+def cubic_spring(p) -> tuple:
+    """Return omega_l^2 and k3, for closed forms of a spring with these two terms alone."""
+    return p[STIFFNESS], p[CUBIC]
+
+
 def design_slopes(p) -> np.ndarray:
     """Return the derivatives of packed parameters with respect to the parameters DESIGN.
 

@@ -12,20 +12,21 @@ from dataclasses import dataclass, fields
 
 from impact_damper.system.bounds import (
     CLEARANCE_RANGE,
-    CUBIC_RANGE,
     DAMPING_RANGE,
-    FORCE_RANGE,
-    LINEAR_FREQUENCY_RANGE,
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
-    SHAKER_RANGE,
     STIFFNESS_RANGE,
-    UNBALANCE_RANGE,
     check_parameters,
     parameter,
+    plain,
     shown,
 )
 from impact_damper.system.names import names_arguments
+
+# Fields of `Oscillator` that are 0 for a linear spring, and the highest power of Z1 in the force of
+# the spring.
+NONLINEAR = ("cubic",)
+SPRING_POWER = 3
 
 
 def check_oscillator(oscillator):
@@ -83,29 +84,58 @@ class Oscillator:
 
     damping: float = parameter(DAMPING_RANGE, "h", "damping")
     linear_frequency: float = parameter(
-        LINEAR_FREQUENCY_RANGE, "omega_l", "0 for a purely cubic spring", default=0.0
+        {"least": 0.0, "most": 100.0}, "omega_l", "0 for a purely cubic spring", default=0.0
     )
-    cubic: float = parameter(CUBIC_RANGE, "k3", "coefficient of the cubic spring", default=1.0)
-    force: float = parameter(FORCE_RANGE, "F", "amplitude of the external force", default=1.0)
+    cubic: float = parameter(
+        {"least": -1e6, "most": 1e6}, "k3", "coefficient of the cubic spring", default=1.0
+    )
+    force: float = parameter(
+        {"least": 0.0, "most": 1e6}, "F", "amplitude of the external force", default=1.0
+    )
     unbalance: float = parameter(
-        UNBALANCE_RANGE, "U", "adds U W^2 to the amplitude of the force", default=0.0
+        {"least": 0.0, "most": 1e6}, "U", "adds U W^2 to the amplitude of the force", default=0.0
     )
     shaker: float = parameter(
-        SHAKER_RANGE, "V", "adds V/W^2 to the amplitude of the force", default=0.0
+        {"least": 0.0, "most": 1e6}, "V", "adds V/W^2 to the amplitude of the force", default=0.0
     )
 
     def __post_init__(self):
         check_parameters(self)
-        if self.shaker and self.cubic:
-            raise ValueError(
-                f"cubic = {self.cubic:g}: must be 0 with shaker = {self.shaker:g} (on a moving "
-                "base the force of a cubic spring is not harmonic)"
+        if self.shaker:
+            self.check_linear(
+                f"with shaker = {self.shaker:g} (on a moving base the force of a nonlinear spring "
+                "is not harmonic)"
             )
+
+    def check_linear(self, why):
+        """Raise ValueError if the spring is not linear; `why` ends the message."""
+        for name in NONLINEAR:
+            value = getattr(self, name)
+            if value != 0:
+                raise ValueError(f"{name} = {plain(value)}: must be 0 {why}")
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether the spring is linear."""
+        return not any(getattr(self, name) for name in NONLINEAR)
+
+    @property
+    def softens(self) -> bool:
+        """Whether the spring pushes outward at large |Z1|, so that a motion may escape."""
+        return self.cubic < 0
 
     @property
     def hardening(self) -> float:
         """Coefficient of a^3 in the first harmonic of the spring's force under Z1 = a cos t."""
         return 0.75 * self.cubic
+
+    def nonlinear_force(self, displacement):
+        """Return the force of the spring without its linear part, at displacements Z1."""
+        return self.cubic * displacement**3
+
+    def nonlinear_slope(self, displacement):
+        """Return the derivative of `nonlinear_force` with respect to Z1."""
+        return 3 * self.cubic * displacement**2
 
     def forcing_amplitude(self, frequency):
         """Return the amplitude F + U W^2 + V/W^2 of the force at forcing frequencies W."""

@@ -34,7 +34,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from impact_damper.kernel.equation import forcing_amplitude
-from impact_damper.system.packed import CUBIC, DAMPING, FREQUENCY, STIFFNESS
+from impact_damper.system.packed import DAMPING, FREQUENCY, cubic_spring
 
 # MEASURES   error of max |Z1|; root mean squares of the errors of the retained harmonics of Z1 and
 #            of the omitted harmonics of Z1; error of a Floquet multiplier
@@ -125,7 +125,7 @@ def singularity_distance(p, state) -> float:
     float
         In units of T; infinite for a linear spring, NaN if no singularity is found.
     """
-    frequency, cubic = p[FREQUENCY], p[CUBIC]
+    frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
         return np.inf
     force = forcing_amplitude.py_func(p)
@@ -135,7 +135,7 @@ def singularity_distance(p, state) -> float:
     def rates(time, y):
         x, v = y
         drive = force * np.cos(frequency * time)
-        return np.array([v, drive - p[DAMPING] * v - p[STIFFNESS] * x - cubic * x**3])
+        return np.array([v, drive - p[DAMPING] * v - stiffness * x - cubic * x**3])
 
     def integrate(y, begin, end):
         """Return time and state at the end of a line in complex time, or where |Z1| is LARGE."""

@@ -13,9 +13,9 @@ c) times coefficient k of f. f is continuous even where the contact force jumps.
 The contacts begin and end at the roots of |Z2| = d0, which are located to rounding. These roots
 give the coefficients of M in closed form, and a convolution with M gives the coefficients of f. The
 derivative of f with respect to Z2 is M, because f vanishes at both ends of a contact. The contact
-force is not sampled and has no aliasing error. The cubic force is sampled at enough points to be
-exact. In the alternating frequency-time method (Cameron and Griffin, J. Appl. Mech. 56, 149, 1989),
-by contrast, the contact force is sampled too.
+force is not sampled and has no aliasing error. The force of the spring, a polynomial of Z1, is
+sampled at enough points to be exact. In the alternating frequency-time method (Cameron and Griffin,
+J. Appl. Mech. 56, 149, 1989), by contrast, the contact force is sampled too.
 """
 
 from dataclasses import dataclass
@@ -24,6 +24,7 @@ import numpy as np
 
 from impact_damper.system.bounds import HARMONIC_RANGE, check_count
 from impact_damper.system.packed import pack
+from impact_damper.system.parameters import SPRING_POWER
 from impact_damper.theory import fourier
 
 
@@ -117,11 +118,11 @@ class Balance:
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
-        count = fourier.product_samples(k, 3)
-        cube = np.fft.rfft(own.cubic * fourier.samples(first, k, count) ** 3)[k] / count
+        count = fourier.product_samples(k, SPRING_POWER)
+        bent = np.fft.rfft(own.nonlinear_force(fourier.samples(first, k, count)))[k] / count
         spring = rate**2 + own.damping * rate + own.linear_frequency**2
         forcing = 0.5 * own.forcing_amplitude(self.frequency)
-        balance = spring * first + cube - forcing * (k == self.period)
+        balance = spring * first + bent - forcing * (k == self.period)
         if self.damper is None:
             return balance[None]
         by_value, by_conjugate = _convolution(self._contact_indicator(rows), k)
@@ -153,8 +154,8 @@ class Balance:
         spring = (own.damping * rate + own.linear_frequency**2, own.damping, 0)[power]
         first = _real(unit * (inertia + spring), 0 * unit)
         if power == 0:
-            count = fourier.product_samples(k, 3)
-            slope = 3 * own.cubic * fourier.samples(coefficients[0], k, count) ** 2
+            count = fourier.product_samples(k, SPRING_POWER)
+            slope = own.nonlinear_slope(fourier.samples(coefficients[0], k, count))
             first += _real(*_convolution(np.fft.rfft(slope) / count, k))
         if self.damper is None:
             return first[np.ix_(self.kept, self.kept)]
