@@ -178,7 +178,7 @@ def test_an_unknown_key_is_answered_with_the_nearest_known_one(path, told):
         ("points/simulated", 45.0, "a whole number"),
         ("scenes/many_contacts/tolerance", "1e-9", "a finite number"),
         ("settling/scene", "quiet", "must be one of design"),
-        ("scenes/chaos/accuracy/quantity", "state", "a chaotic motion is asked"),
+        ("scenes/chaos/accuracy/quantity", "state", "the motion is chaotic"),
         ("settling/limit", 200, "at least settling.patience = 300"),
         ("oscillators/h215/damping", -0.1, "at least 1e-09"),
         ("oscillators/h215/frequencies/first", 3, "less than last = 2.6"),

@@ -42,9 +42,11 @@ ORBIT_LOOKS = {
 }
 # Marker and line of integrators, by whether they locate contacts.
 LOOKS = {True: ("^", "-"), False: ("v", ":")}
-# Marker and line of Taylor series of further orders.
+# Marker and line of Taylor series of other orders than the package uses.
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
+# Values of the flag `run_status` of complete runs.
 ENDED = ("ok", "missed_contacts", "invented_contacts")
+# Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
     "state": ("state_error", "Error of the state at the end"),
@@ -54,7 +56,7 @@ QUANTITIES = {
     "displacement": ("displacement", r"Relative error of mean max $|Z_1|$"),
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
-FINEST = 1e-16
+FINEST = 1e-16  # smallest error drawn: below the rounding error of a double
 DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 
@@ -135,7 +137,11 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the complete runs of one method; runs with wrong contacts have open markers."""
+    """Draw the complete runs of one method; doubtful ones have open markers.
+
+    `good` and `bad` are masks of the runs with a right and with a wrong number of contacts. `bars`
+    holds the standard errors of a chaotic case, otherwise None.
+    """
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

@@ -26,9 +26,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-(a) Smallest solution of (7): its stability by the slow flow (17) against the stability of the exact
-quiet orbit. Dots: a start at the solution leads to chaos. (b) Largest stable solution of (7)
-against the motion to which a start there leads. Near: within 20 % of the amplitude.
+(a) Solution of (7) with the smallest amplitude: stability by the slow flow (17) against stability
+of the exact quiet orbit. Dots: a run from this solution becomes chaotic. (b) Largest stable
+solution of (7) against the motion to which a run from it leads. Near: within 20 % in amplitude.
 """
 
 PARAMETERS = {
@@ -126,7 +126,8 @@ def _draw_classes(axes, data, name, classes):
 
 
 def _draw_edge(axes, verdict):
-    """Draw the boundary of the cells with a stable solution of harmonic balance."""
+    """Draw the boundary of the cells with a stable solution of harmonic balance; `verdict` a
+    flag."""
     stable = verdict == flag(verdict.name, "stable")
     if stable.any() and not stable.all():
         line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}

@@ -26,12 +26,12 @@ CAPTION = """
 Each state of the primary mass has the colour of the motion to which it leads (circle); percentages
 are shares of the states. Without a damper: crosses are unstable orbits, black lines their stable
 manifolds, computed independently. With the damper the loose mass starts at rest at five places; the
-shade is the share of these that lead to the smallest motion.
+shade is the share of places that lead to the smallest motion.
 """
 
 # Colours of attractors in the order of rising max |Z1|; the largest attractor has the last colour.
-# Then the colours of chaos, and of states that lead to no attractor or to several.
 COLOURS = (SKY, VERMILION, PURPLE, "#F7E7A6")
+# Colours of states that lead to chaos, and of states that lead to no attractor or to several.
 CHAOS, NONE = ORANGE, PALE
 POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": BLACK, "markersize": 4.5}
 SADDLES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5}
@@ -119,7 +119,8 @@ def fill(axes, data, values, **look):
 
 
 def draw_shares(axes, data):
-    """Colour each state by the share of places of the loose mass that lead to the first motion."""
+    """Colour each state by the share of places of the loose mass that lead to the smallest
+    motion."""
     shades = LinearSegmentedColormap.from_list("shares", [WHITE, SKY])
     drawn = fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"

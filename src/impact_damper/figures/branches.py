@@ -1,4 +1,8 @@
-"""Branches of exact periodic orbits, stable and unstable, with their bifurcations."""
+"""Branches of exact periodic orbits, stable and unstable, with their bifurcations.
+
+A branch is a sequence of periodic orbits along the forcing frequency. An event is a bifurcation or
+a change of the contacts on it. Free means without the damper.
+"""
 
 import numpy as np
 
@@ -20,12 +24,13 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Largest displacement of the exact periodic orbits against forcing frequency. The branches are
-continued from every settled motion found. Grey and black: without the damper. Markers: bifurcations
-and changes of contact, large ones beside a stable orbit, small ones between unstable orbits of
-period 1. Plus: a contact appears, or two merge. Cross: a branch was not followed further.
+Largest displacement of the exact periodic orbits against forcing frequency. Each settled motion
+found is continued to a branch. Grey and black: without the damper. Markers: bifurcations and
+changes of contact; large next to a stable orbit, small between unstable orbits of period 1. Plus: a
+contact appears, or two merge. Cross: the branch continues, but was not followed further.
 """
 
+# Kind of event -> label, marker, colour.
 EVENTS = {
     "fold": ("fold", "o", BLACK),
     "symmetry_breaking": ("loss of symmetry or doubling", "s", VERMILION),
@@ -34,11 +39,13 @@ EVENTS = {
     "grazing": (None, "P", SKY),
     "merging": (None, "P", SKY),
 }
-# An inset at the upper right: its place and the size of the part that it shows, as fractions of the
-# axes. It is drawn if that part has at least CROWD events.
-INSET, MAGNIFIED, CROWD = (0.76, 0.52, 0.225, 0.45), (0.15, 0.2), 4
+# An inset magnifies a part of the axes with many events. All lengths are fractions of the axes.
+INSET = (0.76, 0.52, 0.225, 0.45)  # left, bottom, width and height of the inset
+MAGNIFIED = (0.15, 0.2)  # width and height of the part that it shows
+CROWD = 4  # least number of events in this part
 # Sizes of markers of events next to stable orbits, and of others.
 LARGE, SMALL = 3.0, 1.2
+# Reasons for the end of a branch that continues in truth.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {
     "marker": "x",
@@ -48,7 +55,7 @@ OPEN = {
     "zorder": 2.5,
 }
 
-# Label, colour, opacity of unstable orbits, and periods.
+# Label, colour, opacity of unstable orbits, and test of the period.
 PERIODS = [
     ("period 1", BLUE, 1.0, lambda period: period == 1),
     ("period 3", PURPLE, 1.0, lambda period: period == 3),
@@ -189,7 +196,8 @@ def mark_open_ends(axes, data):
 
 
 def mark_events(axes, data):
-    """Mark events of period 1 and, with large markers, all those beside stable orbits."""
+    """Mark events of period 1 and, with large markers, events of any period next to stable
+    orbits."""
     beside = _next_to_stable(data)
     plain = data["branch_period"].values[data["event_branch"].values] == 1
     kinds = data["event_kind"].values

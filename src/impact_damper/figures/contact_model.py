@@ -1,6 +1,7 @@
 """Accuracy of the contact model against restitution and load (figure kind `contact_model`).
 
-The load on a contact is the acceleration that all forces except the contact force cause.
+The contact model is a spring and a damper in the wall, chosen for an intended restitution. The load
+on a contact is the acceleration that all forces except the contact force cause.
 """
 
 import numpy as np
@@ -22,16 +23,18 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Error of the restitution of a contact against the intended restitution e and the load g: the
-acceleration that presses the primary mass against the wall, over natural frequency and speed of
-approach. Left: contact ends at zero penetration (appendix B); right: at zero force. Markers:
+Error of the restitution of a contact against the intended restitution e and the load: the
+acceleration g that presses the masses together, divided by natural frequency of the contact and
+approach speed. Left: contact ends at zero penetration (appendix B); right: at zero force. Markers:
 contacts in simulated motions.
 """
 
+# Rules for the end of a contact, and titles of their panels.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
-LINES = {0.01: "solid", 0.05: "dotted"}
+LINES = {0.01: "solid", 0.05: "dotted"}  # error -> line of its contour
 # The load axis is linear below this value and logarithmic above.
 LINEAR = 1e-3
+# Looks of the contacts of motions, in the order of the coordinate `size` of the dataset.
 MOTIONS = (
     {"color": BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
     {"color": VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},

@@ -1,4 +1,7 @@
-"""Optimum clearances of the exact motion, and rules for them (figure kind `design_rules`)."""
+"""Optimum clearances of the exact motion, and rules for them (figure kind `design_rules`).
+
+A rule gives the product rm W^2 d0 of mass ratio, squared frequency and clearance at the optimum.
+"""
 
 import numpy as np
 
@@ -20,11 +23,12 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Above: clearance at which max |Z1| of the exact quiet orbit is smallest. Points: stable orbits;
-crosses: unstable ones; lines: straight flight between the walls, with corrections. Below: share of
-all optima that each rule predicts within a given error. The explicit formula is for elastic
-contact.
+crosses: unstable ones. Lines: model of flight at constant speed between the walls, with
+corrections. Below: share of optima that each rule predicts within a given error. The explicit
+formula is for elastic contact.
 """
 
+# Parameters that a dataset can sweep, with the scale of their axis.
 SWEPT = {
     "restitution": "linear",
     "contact_stiffness": "log",

@@ -4,8 +4,8 @@ from impact_damper.figures.branches import draw_free_orbits
 from impact_damper.figures.style import axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement of the periodic orbits without a damper against forcing frequency, on every
-branch with a settled motion. Triangles: period of three cycles. Short vertical lines: other
+Largest displacement of the periodic orbits without a damper against forcing frequency. Drawn is
+every branch with a settled motion. Triangles: period of three cycles. Short vertical lines: other
 periods.
 """
 

@@ -1,6 +1,6 @@
 """Responses by harmonic balance, with and without a damper: figure 3.
 
-Figure kind `harmonic_balance`.
+Figure kind `harmonic_balance`. (7) is the paper's system of equations for solutions with contact.
 """
 
 import numpy as np
@@ -60,7 +60,7 @@ def draw_balance(axes, balance):
 
 
 def draw_amplitudes(axes, balance, name, chosen, role):
-    """Draw |a| of the chosen solutions; `role` has the keywords of `plot`, as in `style.ROLES`."""
+    """Draw |a| of the solutions where the mask `chosen` is True; `role` is a value of `ROLES`."""
     size = np.where(chosen, abs(balance[name].values), np.nan)
     for branch in size.T[np.isfinite(size).any(axis=0)]:
         axes.plot(balance["frequency"].values, branch, **role)

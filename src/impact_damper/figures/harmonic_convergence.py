@@ -22,9 +22,9 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Error of harmonic balance with harmonics 1, 3, ... N against the exact orbit: (a) largest
-displacement; (b) root mean square of the harmonics of Z1 up to N; (c) Floquet multiplier by Hill's
-method. (d) Result of Newton's method started from one harmonic. Dashed grey: decrease predicted
-from the smoothness of the force, times 3.
+displacement; (b) root mean square over the harmonics of Z1 up to N; (c) Floquet multiplier by
+Hill's method. (d) Result of Newton's method started from the solution with one harmonic. Dashed
+grey: predicted decrease, drawn 3 times too high.
 """
 
 PANELS = {
@@ -32,8 +32,10 @@ PANELS = {
     "retained": "Error of $Z_1$ in harmonics up to $N$",
     "multiplier": "Error of a Floquet multiplier (Hill)",
 }
-ROUNDING, FLOOR = 1e-12, 1e-16  # smallest error fitted, and smallest error drawn
+ROUNDING = 1e-12  # smallest error fitted: smaller ones are dominated by rounding
+FLOOR = 1e-16  # smallest error drawn
 GUIDE = {"color": GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
+# Result of a cold start -> legend text and marker.
 COLD = {
     "same_motion": ("(d): finds the same motion", {"marker": "o", "markerfacecolor": "none"}),
     "another_motion": ("(d): finds another motion", {"marker": "s", "markersize": 4.4}),
@@ -85,9 +87,10 @@ def draw_errors(axes, harmonics, measure):
 
 
 def guide(data, at):
-    """Return the line of the predicted decrease, through three times the mean of the errors.
+    """Return harmonics and values of the line of predicted decrease: two arrays, or empty lists.
 
-    The mean is the geometric one.
+    The line is three times as high as the fit of the predicted decrease to the errors, so that it
+    does not hide them.
     """
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)

@@ -12,7 +12,8 @@ COLOURS = "cividis_r"
 
 
 def mesh(axes, x, y, values, norm):
-    """Draw cells coloured by value; cells with NaN show a hatched background."""
+    """Draw cells coloured by value, and return the mesh; cells with NaN show a hatched
+    background."""
     axes.set_facecolor(PALE)
     axes.patch.set(hatch="////", edgecolor=GREY, linewidth=0)
     return axes.pcolormesh(
@@ -46,7 +47,7 @@ def hatch(axes, x, y, where, **look):
 
 
 def contours(axes, x, y, values, level, line):
-    """Draw the contour lines of one level, if any value exceeds the level and another does not."""
+    """Draw the contour lines of one level, if there are values above and below it."""
     if np.nanmin(values) < level < np.nanmax(values):
         axes.contour(x, y, values, [level], colors=BLACK, linewidths=0.8, linestyles=line)
 

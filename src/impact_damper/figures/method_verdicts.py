@@ -27,11 +27,12 @@ from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 from impact_damper.rivals.words import CASES
 
 CAPTION = """
-Whether an integrator, started near a periodic orbit, ends on the motion that Floquet multipliers
-prove right; the table of verdicts lists the test cases. White: not run. Fixed steps, and methods
-marked kink, do not locate contacts.
+Whether an integrator, started near a periodic orbit, ends on the right motion, known from Floquet
+multipliers. The table of verdicts lists the test cases. White: not run. Methods with fixed steps or
+marked kink do not locate contacts.
 """
 
+# Verdict -> colour and legend text.
 ROLES = {
     "not_run": (WHITE, "not run"),
     "right": (PALE_SKY, "right"),

@@ -1,4 +1,8 @@
-"""A run of migration control against time: figures 13, 15 and 16 (figure kind `migration`)."""
+"""A run of migration control against time: figures 13, 15 and 16 (figure kind `migration`).
+
+Migration takes the oscillator from its resonance to its small motion, the goal, by switching the
+damper on and off. A release switches it off.
+"""
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -15,9 +19,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Displacement against time, (a) in the whole run, if long by its envelope, and (b) around the last
-release. Shaded: damper on, with the loose mass at first at a random place. Drawn is the first run
-that reaches the goal with the median number of switchings; if none does, the first run.
+Displacement against time, (a) in the whole run, (b) around the last release. Of a long run (a)
+shows the envelope. Shaded: damper on; the loose mass starts at a random place. Drawn is the first
+run that reaches the goal with the median number of switchings; if none does, the first run.
 """
 
 # Number of cycles above which the envelope of a run is drawn instead of its course.
@@ -56,7 +60,7 @@ def draw_migration(*, migration):
 
 
 def draw_run(axes, run, span, width):
-    """Draw a run of the controller within a span of time, with its switchings."""
+    """Draw a run of the controller within `span` (first and last time), with its switchings."""
     time, displacement = run["time"].values, run["displacement"].values
     inside = (time >= span[0]) & (time <= span[1])
     time, displacement = time[inside], displacement[inside]

@@ -77,7 +77,7 @@ def time_panel(axes, traced):
 
 
 def in_contact(traced, wall):
-    """Return which times lie in a contact with a wall.
+    """Return a mask of the times in contact with a wall (1 or -1), shape (time,).
 
     A contact whose end is not recorded lasts to the last time.
     """

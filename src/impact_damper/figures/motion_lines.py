@@ -1,14 +1,14 @@
-"""Lines that join the motions of a response which belong to one branch.
+"""Lines through the motions of a frequency response that belong to one branch.
 
-The datasets list the motions at each frequency by size, so one motion may have different places in
-the lists of neighbouring frequencies.
+A branch is one motion over a range of frequencies. The datasets list the motions at each frequency
+by size, so one motion may have different places in the lists of neighbouring frequencies.
 """
 
 import numpy as np
 
 
 def lines(x, y, group):
-    """Join the entries of a table into lines, from row to row within each group.
+    """Join the entries of a table into lines, from row to row within each group of entries.
 
     Parameters
     ----------
@@ -49,7 +49,8 @@ def lines(x, y, group):
 def branch_lines(response, chosen):
     """Return lines through chosen motions of a response, extended to the ends of their branches.
 
-    A branch whose period changes gives one line for each period.
+    A branch whose period changes gives one line for each period. The dataset holds the ends, which
+    lie between two frequencies.
 
     Parameters
     ----------

@@ -20,10 +20,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Largest displacement of the quiet motion against clearance (points), and amplitude of its first
-harmonic by (7) (lines; with inelastic contact lines only join the points). Star: smallest
+Largest displacement of the quiet motion against clearance. Points: exact motion. Lines: amplitude
+of the first harmonic by (7); with inelastic contact the lines only join the points. Star: smallest
 displacement of the exact orbit. Bar: range of clearances in which the displacement is at most 10 %
-larger. Larger motions that coexist are not drawn.
+larger. Larger coexisting motions are not drawn.
 """
 
 BALANCE = "lines: $|a|$ by equations (7)"
@@ -80,9 +80,10 @@ def sweeps_panel(axes, sweeps):
 
 
 def line_of(sweep, elastic):
-    """Return clearances, and |a| by (7) or with inelastic contact max |Z1|.
+    """Return clearances and ordinates of the line of a sweep, its optimum inserted.
 
-    The optimum is inserted as a further clearance.
+    The ordinates are the amplitude |a| by (7), which holds for elastic contact only; with inelastic
+    contact they are max |Z1| of the exact motion.
     """
     if elastic:
         names, least = ("analytical_amplitude", "analytical_optimum"), 0

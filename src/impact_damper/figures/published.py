@@ -7,8 +7,8 @@ from impact_damper.figures.style import BLACK, BLUE, PALE, VERMILION, figure, le
 
 CAPTION = """
 Relative difference between each number computed here and the published one, one band for each
-publication. Tick: the difference expected from contact stiffness, mass ratio, the standard error of
-a share, or a linear spring in place of Hertz's contact. Open: extrapolated to rigid walls.
+publication. Tick: difference expected from finite contact stiffness or mass ratio, from sampling of
+starts, or from a linear spring in place of Hertz's contact. Open: extrapolated to rigid walls.
 Differences below 1e-12 stand at the left edge.
 """
 
@@ -23,7 +23,7 @@ GROUPS = {
     "brennan": "jumps\nBrennan et al. 2008",
     "hertz": "elastic impact\nHertz, in Johnson 1985",
 }
-LEAST = 1e-12
+LEAST = 1e-12  # left edge of the plot
 # Fraction of the height of a band in which its points lie.
 FILLED = 0.8
 OURS = {"color": BLUE, "marker": ".", "markersize": 4, "label": "ours"}

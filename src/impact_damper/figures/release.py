@@ -8,11 +8,11 @@ from impact_damper.figures.style import ROLES, axis_label, figure, legend, lette
 
 CAPTION = """
 States of the primary mass at which the damper is switched off; a marker shows the motion on which
-the free oscillator then settles. Panels: releases before the damped motion has settled, then from
-each settled motion. Their scales differ.
+the free oscillator then settles. Panels: releases before the motion with damper has settled, then
+from each settled motion. The scales of the panels differ.
 """
 
-# Role of each destination, and title of the panel of each damped motion.
+# Role (key of `style.ROLES`) of each destination, and title of the panel of each damped motion.
 DESTINATIONS = {
     "non_resonance": "non_resonance",
     "subharmonic": "subharmonic",
@@ -50,7 +50,7 @@ def draw_release(*, migration):
         draw_releases(axes, runs.isel(damped=row))
     for axes in panels[len(sources) :]:
         axes.remove()
-    # breaks the title, because the titles of three panels in a row would overlap
+    # of three panels in a row only the middle one has a label: three labels would overlap
     for axes in panels[1::3] if columns == 3 else panels[: len(sources)]:
         axes.set_xlabel(axis_label(migration[0]["release_displacement"]))
     drawn.supylabel(axis_label(migration[0]["release_velocity"]), fontsize="medium")

@@ -1,4 +1,9 @@
-"""Dampers compared for migration and for suppression (figure kind `release_dampers`)."""
+"""Dampers compared for migration and for suppression (figure kind `release_dampers`).
+
+Migration takes the oscillator from its resonance to its small motion, the goal: the damper is
+switched on, and off again at a moment that a policy chooses. Suppression leaves the damper on; the
+quiet motion with damper is then small.
+"""
 
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -17,12 +22,13 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-(a) to (f): median of the cycles until the goal, and max |Z1| of the quiet motion over the free
-resonance. Hatched: above 350 cycles, or no quiet motion. Circle: best gap for suppression; cross:
-for migration by state. (g), (h): damper of figure 13 at other restitutions e.
+(a) to (f): median cycles until the goal by two policies, and max |Z1| of the quiet motion over the
+free resonance. Hatched: above 350 cycles, or no quiet motion. Circle: best gap for suppression;
+cross: for migration by state. (g), (h): damper of figure 13 at other restitutions e.
 """
+# Colour scales of the cycles and of the displacements.
 CYCLES, DISPLACEMENTS = LogNorm(8, 350), LogNorm(0.02, 0.5)
-# Words and ticks of the colour bars.
+# Labels and ticks of the colour bars.
 SCALES = (
     ("Median of the cycles", [10, 30, 100, 300]),
     ("max $|Z_1|$ / resonance", [0.02, 0.05, 0.1, 0.2, 0.5]),
@@ -75,7 +81,7 @@ def draw_release_dampers(*, release_dampers):
 
 
 def draw_maps(panels, one):
-    """Draw the three maps for one restitution, and return their images."""
+    """Draw the three maps for one restitution, and return the three coloured meshes."""
     x, y = one["clearance"].values, one["mass_ratio"].values
     cycles = one["damper_cycles"].sel(bound="share")
     cycles = cycles.where(np.isfinite(cycles))

@@ -1,4 +1,8 @@
-"""Noise, delay and a wrong model in the release by state (figure kind `release_disturbances`)."""
+"""Noise, delay and a wrong model in the release by state (figure kind `release_disturbances`).
+
+A release switches the damper off. The policy by state releases when the measured state lies in the
+basin of the free small motion, at least a margin away from its boundary.
+"""
 
 from impact_damper.figures.release_policies import case_label, draw_bounded
 from impact_damper.figures.style import (
@@ -12,13 +16,13 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Horizontal: margin inside the basin, as a fraction of the size of the resonance motion. Above: share
-of trials that reach the non-resonance motion within 350 cycles. Below: median of the cycles. Noise
-is relative to the resonance motion; h and force are those the controller assumes. Bars: 95 %
-intervals. Dotted, with grey area: bound if state and future are known.
+Horizontal: least distance of a release from the basin's boundary, over the size of the resonance
+motion. Above: share of trials that reach the non-resonance motion within 350 cycles. Below: median
+number of cycles. Noise is relative to the resonance motion; h and force are values assumed by the
+controller. Bars: 95 % intervals. Dotted, grey area: bound if state and future are known.
 """
 
-# Disturbances that are drawn, with their labels; the table holds further ones.
+# Disturbances that are drawn, with their labels; the table holds further disturbances.
 WORDS = {
     "none": "none",
     "noise 10 %": "noise of 10 %",
@@ -26,8 +30,8 @@ WORDS = {
     "h -5 %, force +1 %": "h 5 % too low, force 1 % too high",
     "noise 3 %, delay 1/8, h +5 %, force -1 %": "noise of 3 %, 1/8 period late, wrong h and force",
 }
-# Distance of the curves from each other along the margin, and the look of their intervals.
-ASIDE, THIN = 0.0012, {"elinewidth": 0.5}
+ASIDE = 0.0012  # distance in margin between the curves, so that their intervals do not overlap
+THIN = {"elinewidth": 0.5}  # look of the intervals
 
 
 @style({"axes.titley": None})
@@ -66,7 +70,10 @@ def draw_release_disturbances(*, release_policies):
 
 
 def draw_disturbances(axes, values, bound):
-    """Draw success or median against the margin for each disturbance, and the clairvoyant bound."""
+    """Draw success or median against the margin for each disturbance, and the bound.
+
+    `bound` belongs to a controller that knows the future, called clairvoyant.
+    """
     if "quantile" in bound.dims:
         bound = bound.sel(quantile=0.5)
     share, lower, upper = (float(bound.sel(bound=name)) for name in ("share", "lower", "upper"))
@@ -75,5 +82,4 @@ def draw_disturbances(axes, values, bound):
     for k, (disturbance, words) in enumerate(WORDS.items()):
         look = curve(k) | {"marker": CURVES[k][2], "label": words}
         one = values.sel(disturbance=disturbance).transpose("margin", "bound").values
-        # side by side, so that intervals do not hide each other
         draw_bounded(axes, values["margin"].values + ASIDE * (k - 2), one, look | THIN)

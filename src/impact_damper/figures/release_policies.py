@@ -1,4 +1,8 @@
-"""Policies of migration compared (figure kind `release_policies`)."""
+"""Policies of migration compared (figure kind `release_policies`).
+
+Migration takes the oscillator from its resonance to its small motion: the damper is switched on,
+and off again (the release) at a moment that a policy chooses.
+"""
 
 import numpy as np
 
@@ -16,9 +20,10 @@ from impact_damper.figures.style import (
 from impact_damper.tables.policies import POLICIES
 
 CAPTION = """
-Above: share of trials that reach the non-resonance motion within 350 cycles, by four rules of
-release, whose parameters were chosen in separate trials. Below: median of the cycles. Bars: 95 %
-intervals. Dotted, with grey area: bound of a controller that knows state and future.
+Above: share of trials that reach the non-resonance motion within 350 cycles, by four policies of
+release. The parameters of the policies were chosen in separate trials. Below: median number of
+cycles. Bars: 95 % intervals. Dotted, with grey area: bound for a controller that knows state and
+future.
 """
 
 
@@ -80,7 +85,11 @@ def draw_case(above, below, one):
 
 
 def draw_bounded(axes, places, values, look):
-    """Draw values and their bounds, shape (n, 3); an infinite upper bound leaves the panel."""
+    """Draw values with their intervals.
+
+    `values` has the shape (n, 3): value, lower and upper end. An infinite upper end is drawn as a
+    bar that leaves the panel.
+    """
     values = values[:, 0], values[:, 1], np.minimum(values[:, 2], 1e6)
     middle = np.where(np.isfinite(values[0]), values[0], np.nan)
     spread = middle - values[1], values[2] - middle

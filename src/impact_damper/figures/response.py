@@ -1,4 +1,8 @@
-"""Frequency responses with and without a damper: figures 5, 8, 10 (figure kind `response`)."""
+"""Frequency responses with and without a damper: figures 5, 8, 10 (figure kind `response`).
+
+A role is a key of `style.ROLES`, the colour and marker of a kind of motion. Free means without the
+damper.
+"""
 
 import numpy as np
 
@@ -9,10 +13,10 @@ from impact_damper.figures.motion_lines import branch_lines, draw_lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement against forcing frequency of all motions found from random starts and by
-following. Lines join the settled motions of a branch; dotted lines, and motions without damper, are
-exact orbits. Chaos is a transient if it ended in a longer run. Harmonic balance gives the first
-harmonic.
+Largest displacement against forcing frequency. Motions with damper were found from random starts
+and by following. Lines join settled motions of a branch. Dotted lines, and all motions without
+damper, are exact orbits. Transient chaos ended in a longer run. Harmonic balance gives the
+amplitude of the first harmonic.
 """
 
 JOINED = {"linestyle": "-", "linewidth": 0.5}
@@ -122,9 +126,9 @@ def draw_motions(axes, motions, prefix):
 
 
 def draw_unsettled(axes, motions, roles):
-    """Draw the motions that have not settled on an orbit as points; a role for each outcome.
+    """Draw the motions that have not settled on an orbit as points; `roles` maps outcomes to roles.
 
-    If `roles` has a role for chaotic transients, chaos that ended in one of the runs gets it.
+    Chaos that ended in one of the runs gets the role `chaotic_transient`, if `roles` has it.
     """
     for status, role in roles.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
@@ -155,7 +159,7 @@ def prefix_of(data):
 
 
 def draw_settled(axes, motions, roles, prefix=""):
-    """Draw settled motions with contacts; those whose period is a multiple of 3 as subharmonic."""
+    """Draw settled motions with contacts; periods that are multiples of 3 count as subharmonic."""
     period = motions["period"].values
     colliding = is_settled(motions) & (motions["contacts"].values > 0)
     chosen = {

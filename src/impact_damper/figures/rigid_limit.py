@@ -1,4 +1,7 @@
-"""Errors of rigid impacts against contact stiffness and frequency (figure kind `rigid_limit`)."""
+"""Errors of rigid impacts against contact stiffness and frequency (figure kind `rigid_limit`).
+
+Rigid impacts are instantaneous; the exact system has contacts of stiffness r1.
+"""
 
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -25,13 +28,14 @@ Corrected walls stand v tc e/(1 + e) farther out, with speed of approach v and t
 """
 
 SMALLEST = 1e-4  # lower end of the colour scale
-THRESHOLDS = ("solid", "dotted")
+THRESHOLDS = ("solid", "dotted")  # lines of the contours at the thresholds of the dataset
+# Line at the stiffness r1 of the damper.
 OWN = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (6, 3))}
 
 
 @style()
 def draw_rigid_limit(*, rigid_limit):
-    """Draw maps of the error of max |Z1|, and its order in r1.
+    """Draw maps of the error of max |Z1|, and the power of r1 with which the error falls.
 
     Parameters
     ----------
@@ -79,7 +83,7 @@ def draw_map(axes, data, norm):
 
 
 def draw_orders(axes, rigid_limit):
-    """Draw errors of max |Z1| against stiffness at the design frequency, with lines of slope."""
+    """Draw errors of max |Z1| against stiffness at the design frequency, with lines of powers."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, line = data["stiffness"], curve(index)

@@ -37,7 +37,7 @@ def stroke(axes, points, width="outline", **changes):
 
 
 def filled(color, width="detail"):
-    """Return the keywords of an outlined, filled patch."""
+    """Return the matplotlib keywords of an outlined, filled patch."""
     return {"facecolor": color, "edgecolor": BLACK, "linewidth": STROKES[width]}
 
 
@@ -84,7 +84,7 @@ def dashpot(axes, start, end, y, height=0.18):
 
 
 def ground(axes, start, end, depth=0.09, spacing=0.09):
-    """Draw a fixed line, hatched on the right of the direction from start to end."""
+    """Draw a fixed line, hatched on the right-hand side as seen from `start` towards `end`."""
     start, end = np.array(start), np.array(end)
     length = np.hypot(*(end - start))
     along = (end - start) / length
@@ -107,7 +107,7 @@ def wheels(axes, centres, rail, radius=0.08):
 
 
 def dimension(axes, left, right, y, symbol, low):
-    """Draw the symbol of a length between two extension lines that rise from `low`."""
+    """Draw a dimension arrow with its symbol at height y, and extension lines from `low`."""
     for x in (left, right):
         stroke(axes, [(x, low), (x, y + 0.06)], "fine", color=GREY)
     arrow(axes, (left, y), (right, y), "fine", "<|-|>")

@@ -32,7 +32,7 @@ from impact_damper.figures.style import (
     style,
 )
 
-CAPTION = ""  # the caption of a schematic is its title and its remark
+CAPTION = ""  # a schematic has no more than the title and the remark of the configuration
 
 
 def carriage(axes):
@@ -101,9 +101,9 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Return sheet coordinates, shape (n, 2), of points of a horizontal plane in perspective.
+    """Return sheet coordinates in inches, shape (n, 2), of points of a plane in perspective.
 
-    u points to the right, v into the page; `level` is the height of the plane.
+    u points to the right and v into the page; `level` is the height of this horizontal plane.
     """
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
@@ -122,7 +122,10 @@ def attractor(axes, centre, radius, level, color, **keywords):
 
 
 def approach(axes, start, centre, radius, level, color, rate, **keywords):
-    """Draw a trajectory that spirals from a start onto a circle, with an arrow head."""
+    """Draw a trajectory that spirals from a start onto a circle, with an arrow head.
+
+    `rate` is the decrease of the logarithm of its distance from the circle in a radian.
+    """
     offset = np.subtract(start, centre)
     turned = np.linspace(0, 2 * np.pi, 300)
     angle = np.arctan2(offset[1], offset[0]) + turned
@@ -135,7 +138,19 @@ def approach(axes, start, centre, radius, level, color, rate, **keywords):
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Draw a switching of the damper: a vertical line between the planes, dashed where hidden."""
+    """Draw a switching of the damper: a vertical line between two planes, dashed where hidden.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    low, high : tuple of float
+        Ends of the line, one in each plane; inches.
+    edge : float
+        Height below which the line is visible; inches.
+    words : str
+    upward : bool
+        Direction of the arrow.
+    """
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
@@ -144,7 +159,7 @@ def passage(axes, low, high, edge, words, upward):
 
 
 def state(axes, position, symbol, shift):
-    """Draw a state of the oscillator with its symbol."""
+    """Draw a state of the oscillator as a dot, with its symbol moved by `shift`."""
     axes.add_patch(Circle(position, 0.032, color=BLACK, zorder=4))
     letter(axes, *np.add(position, shift), symbol)
 
@@ -161,7 +176,7 @@ def triad(axes, x, y):
 
 
 def planes(axes, off, on):
-    """Draw the planes of states without the damper, with two basins, and with it, with one."""
+    """Draw the planes of states without the damper (two basins) and with the damper (one)."""
     right = 5.3
     v = np.linspace(0, 2, 100)
     border = 2.5 + 0.22 * np.sin(2.6 * v)

@@ -26,10 +26,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Share of random starts that lead to each motion. A motion keeps its colour: it is followed by
-Newton's method or, if not settled, matched by kind and size. Further motions of a kind are paler.
-Chaos is a transient where it ended in a longer run. Bars: 95 % intervals (Wilson). Titles: bound on
-the share of a motion not seen.
+Share of random starts that lead to each motion. A motion keeps its colour from value to value: it
+is followed by Newton's method or, if not settled, recognised by kind and size. Further motions of a
+kind are paler. Chaos is called transient where it ended in a longer run. Bars: 95 % intervals
+(Wilson). Titles: bound on the share of a motion not found.
 """
 
 # Kinds of motions from below: label, colour and hatching.
@@ -44,6 +44,7 @@ LOOKS = {
     "chaotic": (ORANGE, "...."),
     "others": (BLACK, ""),
 }
+# Kinds of settled motions by period, and of others by outcome.
 PERIODS = {1: "period 1", 2: "period 2", 3: "period 3"}
 OUTCOMES = {
     "quasi_periodic": "quasi-periodic",
@@ -55,7 +56,7 @@ OUTCOMES = {
 PALER = (0.0, 0.45, 0.7)
 EDGE = {"edgecolor": WHITE, "linewidth": 0.4}
 INTERVAL = {"color": BLACK, "linewidth": 0.6}
-# Half width of the column of a single value, as a fraction of the value.
+# Half width of the column of a dataset with a single parameter value, as a fraction of this value.
 HALF_WIDTH = 0.05
 
 
@@ -92,6 +93,7 @@ def draw_clearance_shares(*, optimum):
 
 
 def _draw(datasets, named):
+    """Return a figure with one panel for each dataset; titles hold the parameters `named`."""
     columns = min(len(datasets), 2)
     rows = -(-len(datasets) // columns)
     drawn = figure("double", 0.8 + 2.3 * rows)
@@ -142,7 +144,7 @@ def shares_panel(axes, data):
 
 
 def _edges(places):
-    """Return the edges of columns around increasing values, halfway between them."""
+    """Return the edges of columns around increasing values, halfway between, shape (n + 1,)."""
     if len(places) == 1:
         return places[0] * np.array([1 - HALF_WIDTH, 1 + HALF_WIDTH])
     middle = (places[1:] + places[:-1]) / 2
@@ -160,9 +162,9 @@ def ranked_motions(data):
     Returns
     -------
     list of (str, int, array of bool)
-        For each motion its kind; its rank among the motions of its kind, 0 for the one with most
-        starts; and its places in the tables of the sweep. A chaotic motion that is a transient at
-        some values is listed twice, with the same rank.
+        For each motion its kind; its rank among the motions of its kind, 0 for the motion with most
+        starts; and a mask of its entries in the variables of the sweep, shape (value, motion). A
+        chaotic motion that is a transient at some values is listed twice, with the same rank.
     """
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
@@ -176,7 +178,7 @@ def ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return the places of a motion by kind; chaos is a transient where one of its runs ended."""
+    """Return the mask of a motion by kind; chaos is a transient where one of its runs ended."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0
@@ -184,6 +186,7 @@ def _parts(data, kind, places):
 
 
 def _kind(motion):
+    """Return the key in `LOOKS` of a motion."""
     if motion.outcome == "settled":
         return PERIODS.get(motion.period, "other periods")
     return OUTCOMES.get(motion.outcome, "others")

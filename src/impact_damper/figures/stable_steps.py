@@ -37,7 +37,7 @@ LINES = {
 
 @style()
 def draw_stable_steps(*, stable_steps):
-    """Plot the largest step that keeps the motion over the contact stiffness, a panel a damper.
+    """Draw the largest step that keeps the motion against contact stiffness, a panel per damper.
 
     Parameters
     ----------

@@ -10,9 +10,9 @@ from impact_damper.figures.maps import hatch, mesh, span
 from impact_damper.figures.style import BLACK, ROLES, axis_label, figure, legend, style
 
 CAPTION = """
-Colour: the largest displacement of all motions to which random starts in a cell lead. Hatched: not
-all motions settled; some may be long transients. Line: rule (18). Stars: for each mass ratio the
-clearance with the smallest displacement.
+Colour: the largest displacement of all motions to which random starts lead. Hatched: not all
+motions settled; some may be long transients. Line: rule (18) for the clearance. Stars: for each
+mass ratio the clearance with the smallest displacement.
 """
 
 # Hatching of the cells in which not all motions settled.
@@ -54,6 +54,7 @@ def draw_studies(*, studies):
 
 
 def _draw(axes, data, norm):
+    """Draw one panel, and return its coloured mesh."""
     grid = data["mass_ratio"].values, data["clearance"].values
     shown = mesh(axes, *grid, data["largest_displacement"].values.T, norm)
     settled = data["outcome_count"].sel(counted_outcome=["settled", "non_colliding"])

@@ -1,9 +1,10 @@
 """Common style of all figures: fonts, colours, roles of curves, sizes, labels, saving.
 
-A role names the meaning of a curve, such as `free_stable`. ROLES maps roles to keywords of `plot`.
+A role is the meaning of a curve, such as `free_stable`; ROLES maps roles to keywords of `plot`.
+Free means without the damper.
 
-The palette of Okabe and Ito can be distinguished by colour-blind readers. Roles that occur in the
-same figure also differ in marker or line style, for grey print.
+The colours are the palette of Okabe and Ito, which colour-blind readers can distinguish. Roles that
+occur in the same figure also differ in marker or line style, for print without colours.
 """
 
 import re
@@ -58,10 +59,12 @@ STYLE = {
 
 
 def _line(label, color, **keywords):
+    """Return the role of a line."""
     return {"label": label, "color": color, **keywords}
 
 
 def _points(label, color, marker, filled=False, **keywords):
+    """Return the role of markers, open unless `filled`."""
     face = color if filled else "none"
     return {
         "label": label,
@@ -74,11 +77,12 @@ def _points(label, color, marker, filled=False, **keywords):
 
 
 def _shading(label, color):
+    """Return the role of a shaded range."""
     return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
 
 
-# Keywords of `plot`, keyed by the role of a curve; those of "damper_on" and "band" are keywords of
-# `axvspan`. To change a keyword in one figure: ROLES[name] | {...}.
+# Keywords of `plot` for each role; for "damper_on" and "band" keywords of `axvspan`. To change a
+# keyword in one figure: ROLES[name] | {...}.
 ROLES = {
     "free_stable": _line("free, stable", BLACK, zorder=2.2),
     "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
@@ -200,7 +204,7 @@ def points(index) -> dict:
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 
 
-# Mathtext of symbols that `tex` cannot translate.
+# Mathtext (matplotlib's version of TeX) of symbols that `tex` cannot translate.
 MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
@@ -245,7 +249,8 @@ def letter_panels(panels) -> None:
 
 
 def legend(figure, columns, order=()) -> None:
-    """Add one legend below all axes, in which each label is listed once; those in `order` first."""
+    """Add one legend below all axes that lists each label once; the labels in `order` come
+    first."""
     entries = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):

@@ -1,9 +1,10 @@
-"""The head of a page: advice in a few words, with reasons."""
+"""The head of the page of a machine: advice in a few words, with reasons."""
 
 import json
 
 from impact_damper.tables.machines import named
 
+# Advice for each kind of choice that the design makes.
 ADVICE = {
     "robust": "Build it",
     "needs_tolerance": "Build it, and hold the gap more closely than your tolerance",
@@ -12,7 +13,11 @@ ADVICE = {
 
 
 def advice(data) -> str:
-    """Return the advice on whether to build the damper."""
+    """Return the advice on whether to build the damper; `data` is the dataset of `design_damper`.
+
+    The advice depends on the choice of the gap, and on the promise: a share of starts that lead to
+    quiet motions, tested with new starts.
+    """
     if named(data, "promise") == "broken":
         return "Do not build it: the check failed"
     choice = named(data, "design_choice")
@@ -25,5 +30,5 @@ def advice(data) -> str:
 
 
 def reasons(data) -> list[str]:
-    """Return the conclusion of the design."""
+    """Return the sentences of the conclusion that the design wrote into its dataset."""
     return json.loads(data.attrs["conclusion"])

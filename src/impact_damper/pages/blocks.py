@@ -1,4 +1,7 @@
-"""Parts of a page, laid out by the templates, and numbers as text."""
+"""Parts of a page, laid out by the templates in `templates/`, and numbers as text.
+
+The field `kind` of a part tells the template how to lay it out.
+"""
 
 from typing import NamedTuple
 
@@ -63,7 +66,10 @@ class Page(NamedTuple):
 
 
 def shown(value, unit="", digits=3) -> str:
-    """Return a number with its unit, or words if a motion escapes or nothing was found."""
+    """Return a number with its unit; "escapes" for infinity, "none found" for NaN.
+
+    Displacements are infinite for motions that escape, and NaN if no motion was found.
+    """
     value = float(value)
     if np.isnan(value):
         return "none found"
@@ -85,6 +91,6 @@ def percent(share, digits=3) -> str:
 
 
 def share_with_interval(values) -> str:
-    """Return a share with its 95 % interval, from three numbers."""
+    """Return a share with its 95 % interval, as text, from three numbers: share, lower, upper."""
     share, low, high = (percent(value) for value in values)
     return f"{share} ({low} to {high})"

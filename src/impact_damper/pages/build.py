@@ -11,7 +11,7 @@ from impact_damper.machine.machine import EXCITATIONS
 from impact_damper.pages.blocks import Numbers, Picture, Section, Words, percent, shown
 from impact_damper.tables.machines import named
 
-# Given values of a machine: description, unit shown, and value of this unit in SI units.
+# Field of `Machine` -> description, unit shown, and size of this unit in SI units.
 GIVEN = {
     "mass": ("mass without the loose mass", "kg", 1),
     "linear_stiffness": ("stiffness of the spring", "N/m", 1),
@@ -26,9 +26,9 @@ GIVEN = {
 HOW = (
     "Give the loose mass a straight slot in the machine, along the direction in which the machine "
     "moves, with a hard wall at each end. The gap is the whole free path of the loose mass from "
-    "wall to wall: the length of the slot minus the length of the loose mass. The loose mass must "
-    "slide or roll freely. A wall has the right restitution if the loose mass, dropped on it from "
-    "a height of 1 m, rebounds to {height:.2g} m."
+    "wall to wall, which is the length of the slot minus the length of the loose mass. The loose "
+    "mass must slide or roll freely. A wall has the right restitution if the loose mass, dropped "
+    "on it from a height of 1 m, rebounds to {height:.2g} m."
 )
 WRONG = (
     "The values below belong to the least bad damper found. They are shown so that the "
@@ -53,7 +53,7 @@ def _damper(data, made, asked):
     """Return the rows of the damper."""
     gap, ratio = float(data["design_gap"]), made["damper_mass"] / made["mass"]
     force = float(data["contact_force_by_frequency"].max())
-    # the next row shows a range that is narrower than the tolerance
+    # If the gap must be held more closely than its tolerance, the next row shows the range instead.
     deviation = _deviation(asked, "gap") if named(data, "design_choice") == "robust" else ""
     stiffness = made["contact_stiffness"]
     return [
@@ -83,7 +83,7 @@ def _damper(data, made, asked):
 
 
 def _allowed(data, gap, asked):
-    """Return the range of gaps that is promised, and its source."""
+    """Return the range of gaps for which the promise holds, as text, and its source."""
     tolerance = asked["tolerances"].get("gap", 0.0)
     kind = named(data, "design_choice")
     if kind == "robust":
@@ -96,7 +96,7 @@ def _allowed(data, gap, asked):
 
 
 def _machine(asked):
-    """Return the rows of the machine and of the band that were given."""
+    """Return the rows of the given values: machine and band."""
     machine = asked["machine"]
     deviating = {"damping_ratio": "damping", "linear_stiffness": "stiffness"}
     deviating |= {"damping": "damping", "cubic_stiffness": "stiffness"}

@@ -5,6 +5,7 @@ import numpy as np
 from impact_damper.data.datasets import flag
 from impact_damper.pages.blocks import Numbers, Section, Words, shown
 
+# Variable of the dataset, description, unit.
 COSTS = (
     ("impact_rate_by_frequency", "impacts", "per second"),
     ("contact_force_by_frequency", "largest force in a contact", "N"),
@@ -16,8 +17,8 @@ COSTS = (
 )
 HEAD = (
     "The numbers hold for the largest motion to which starts lead at each frequency; the largest "
-    "value over the band is shown. The noise is only an indicator: the sound of an impact grows "
-    "with the square of its impulse."
+    "value over the band is shown. The noise is only an indicator. It assumes that the sound "
+    "energy of an impact grows with the square of its impulse."
 )
 YIELDS = {
     "no": "No: the walls and the loose mass stay elastic.",
@@ -53,6 +54,7 @@ def section(data) -> Section:
 
 
 def _row(data, frequency, name, words, unit, scale=1.0):
+    """Return the row of the largest value of a variable over the band; `scale` converts units."""
     values = scale * data[name].values
     if not np.isfinite(values).any():
         return words, "none found", name

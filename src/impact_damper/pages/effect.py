@@ -6,7 +6,7 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines import response, transients
 from impact_damper.pages.blocks import Numbers, Picture, Section, shown
 
-# The unforced decay is timed until the displacement has fallen to this fraction.
+# The decay time of an unforced vibration is the time until it has fallen to this fraction.
 DECAY = 0.1
 
 
@@ -27,12 +27,12 @@ def section(data) -> Section:
             "reached_displacement",
         ),
         (
-            "95 % of the peaks of this motion are below",
+            "95 % of the peaks of this largest motion are below",
             shown(data["motion_peak_high"].values[worst], "mm"),
             "motion_peak_high",
         ),
         (
-            "r.m.s. displacement of this motion",
+            "r.m.s. displacement of this largest motion",
             shown(data["motion_rms"].values[worst], "mm"),
             "motion_rms",
         ),
@@ -58,7 +58,7 @@ def section(data) -> Section:
 
 
 def _untouched(data, frequency):
-    """Yield a row on the largest motion without contact, if this motion is not quiet."""
+    """Yield a row on the largest motion without contact, if this motion exceeds the quiet limit."""
     sizes = data["untouched_displacement"].values
     if np.fmax.reduce(sizes) > float(data["displacement_limit"]):
         k = int(np.nanargmax(sizes))
@@ -86,7 +86,7 @@ def _swept(data):
             bare, damped = (shown(sizes.sel(equipment=name), "mm") for name in ("bare", "damped"))
             yield (
                 f"largest displacement while the frequency is swept {direction} {words}, "
-                "without / with it",
+                "without / with the damper",
                 f"{bare} / {damped}",
                 "sweep_envelope, sweep_frequency",
             )
@@ -103,7 +103,8 @@ def _rung(data):
         times.append(shown(time[known][np.argmax(below)] if below.any() else np.nan, "s"))
     first = shown(data["ring_envelope"].sel(equipment="bare").values[0], "mm")
     yield (
-        f"time in which an unforced vibration of {first} decays to a tenth, without / with it",
+        f"time in which an unforced vibration of {first} decays to a tenth, without / with the "
+        "damper",
         " / ".join(times),
         "ring_envelope, ring_time",
     )

@@ -4,14 +4,15 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.pages.blocks import Numbers, Points, Section, Words, shown
 
 NOT_LOOKED_AT = [
-    "Frequencies between those of the grid: {count} from {low} to {high}, resonances among them.",
+    "Frequencies other than the {count} of the grid from {low} to {high}. The grid includes the "
+    "resonances.",
     "Starts larger than three times the motions of the machine without the damper.",
     "Friction and gravity on the loose mass, and air in the gap.",
     "Wear, which widens the gap and changes the restitution.",
     "A restitution that changes with the speed of impact by more than its tolerance.",
     "Motion in other directions, and turning of the loose mass.",
     "Other modes of the machine, which hard impacts may excite.",
-    "Deviations of the absorbers that are compared, except of their springs.",
+    "Deviations of the absorbers from their design, except of the stiffness of their springs.",
 ]
 SOURCES = (
     "Each number above names its source, a variable of the file {file}. A name with a dot is a "
@@ -29,7 +30,10 @@ def missing(data) -> Section:
         texts.append("Tolerances: none were given.")
     lost = int(data["force_edges_lost"]) + int(data["damper_edges_lost"])
     if lost:
-        texts.append(f"{lost} edges of the stability of the quiet orbit in the maps.")
+        texts.append(
+            f"Parts of the lines in the maps on which the quiet orbit loses its stability: {lost} "
+            "could not be followed."
+        )
     return Section("What was not considered", [Points(texts)])
 
 

@@ -13,7 +13,7 @@ from impact_damper.figures.machines import (
 from impact_damper.pages import advice, build, costs, effect, limits, others, sureness
 from impact_damper.pages.blocks import Page
 
-# Functions that draw the figures of a page, keyed by the name of the file.
+# Functions that draw the figures of a page, keyed by the name of the file without its ending.
 FIGURES = {
     "drawing": drawing.draw_drawing,
     "response": response.draw_response,

@@ -20,14 +20,15 @@ ABSORBERS = ("tuned", "nonlinear", "best")
 HEAD = (
     "All absorbers have the same mass as the damper. The tuned absorber has the stiffness and "
     "damping that minimise the largest displacement of a linear machine. The nonlinear absorber "
-    "has a cubic spring in addition. For the optimised absorber a search for this machine found "
-    "stiffness, damping and cubic stiffness. Displacements are the largest of all motions found: "
-    "with absorbers by exact periodic motions, checked by random starts; with the damper by random "
-    "starts and slow changes of the frequency."
+    "has a cubic spring in addition. The stiffness, damping and cubic stiffness of the optimised "
+    "absorber were found by a search for this machine. Displacements are the largest of all "
+    "motions found. With absorbers these are exact periodic motions, checked by random starts. "
+    "With the damper they are motions from random starts and from slow changes of the frequency."
 )
 MASSES = (
-    "Impact dampers of other masses, each with its own gap, by a reduced design. A star marks the "
-    "Pareto front: none of these dampers is better in displacement, force and mass at once."
+    "Impact dampers of other masses, each with its own gap, chosen by a shortened design. A star "
+    "marks a damper on the Pareto front: no other of these dampers is better in displacement, "
+    "force and mass at once."
 )
 SOURCES = (
     "competitor_displacement, reached_displacement (this damper, nominal excitation), "
@@ -54,10 +55,12 @@ def section(data) -> Section:
 
 
 def _sizes(data):
-    """Return displacements (mm) by competitor: over frequency, and largest over the excitation.
+    """Return two dicts of arrays keyed by competitor: largest displacements in mm.
 
-    A motion that escapes has the displacement infinity. Competitors that cannot be built are left
-    out.
+    The first holds the displacement at each frequency and nominal excitation. The second holds the
+    largest displacement over the band at each excitation; its key "share" holds the excitations as
+    multiples of the nominal one. The displacement of a motion that escapes is infinite. Competitors
+    that cannot be built are left out.
     """
     frequency, force = {}, {}
     for name in NAMES:
@@ -157,7 +160,7 @@ def _absorbers(data):
 
 
 def _lighter(data):
-    """Yield a sentence on the lightest loose mass that does as well, if there is one."""
+    """Yield a sentence on the lightest loose mass that is at least as good, if one is lighter."""
     mass, gap, size, share = (
         data[f"other_{name}"].values for name in ("mass", "gap", "displacement", "share")
     )

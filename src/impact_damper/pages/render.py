@@ -9,7 +9,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from impact_damper.data.whole_files import whole
 from impact_damper.figures.style import style
 
-# Dots per inch. A figure is 3.4 inches wide; pages show it with at most 600 pixels.
+# Dots per inch: 748 pixels for a figure of 3.4 inches, so that pages never enlarge it.
 DPI = 220
 
 
@@ -40,7 +40,7 @@ def as_png(figure) -> bytes:
 
 
 def as_text(template, page, pictures) -> str:
-    """Return the text that a template makes of a page.
+    """Return a page as text, laid out by a template.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def as_text(template, page, pictures) -> str:
         "page.html" or "page.md".
     page : blocks.Page
     pictures : dict of str
-        Figures in PNG and base64, keyed by name.
+        Figures as PNG, encoded in base64, keyed by name.
     """
     environment = Environment(
         loader=PackageLoader("impact_damper.pages"),
@@ -63,5 +63,6 @@ def as_text(template, page, pictures) -> str:
 
 
 def _write(path, content):
+    """Write bytes to a file, completely or not at all."""
     with whole(path) as part:
         part.write_bytes(content)

@@ -20,21 +20,22 @@ MEANING = (
     "A damper that works from one start may fail from another, because other motions can exist "
     "beside the quiet one. Therefore motions are run from many random starts, up to three times "
     "as large and as fast as the motions without the damper. A motion is quiet if the machine "
-    "moves at most {limit}. A motion that never repeats is quiet if the machine moves at most "
-    "{chaotic} while it is watched, because later peaks are larger. The share of starts that "
-    "lead to quiet motions is known within a 95 % interval, given in brackets. A gap counts as "
+    "moves at most {limit}. For a motion that never repeats the limit is {chaotic} while it is "
+    "watched, because later peaks may be larger. The share of starts that lead to quiet motions is "
+    "known within a 95 % interval, given in brackets. A gap counts as "
     "quiet if, at every frequency of the band, the lower end of this interval is at least "
     "{share}."
 )
 TIME = (
-    "A share depends on the length of the runs. Comparisons ran motions for at most {hurried} "
-    "cycles of the forcing ({seconds}). Motions that were not quiet then, but decided about a "
-    "candidate, were run for at most {limit} cycles, like all motions after the comparisons. A "
-    "motion that is certainly chaotic was stopped after {early} and {patience} cycles."
+    "A share depends on the length of the runs. Comparisons of gaps ran motions for at most "
+    "{hurried} cycles of the forcing ({seconds}). Motions that were not quiet after this time, but "
+    "decided about a gap, were run for at most {limit} cycles, like all motions after the "
+    "comparisons. A motion that is certainly chaotic was stopped after {early} cycles in "
+    "comparisons, and after {patience} cycles otherwise."
 )
 DEPENDENCE = (
     "Change of the quiet orbit at {frequency} if one value grows by 1 %, by exact derivatives. The "
-    "orbit is stable while the modulus of its largest multiplier is below 1."
+    "orbit is stable as long as its largest Floquet multiplier has a modulus below 1."
 )
 TRAP = (
     "The gap of the smallest stable quiet orbit is {best}, at {frequency}. It is not the gap to "
@@ -89,7 +90,7 @@ def _time(data, asked):
 
 
 def _shares(data, asked):
-    """Yield rows on shares of quiet starts, of starts that chose the gap and of new starts."""
+    """Yield rows on shares of quiet starts: the starts used to choose the gap, and new starts."""
     row = int(np.argmin(np.abs(data["candidate_gap"].values - float(data["design_gap"]))))
     shares = data["start_quiet_share"].values[row]
     k = int(np.argmin(shares))
@@ -169,7 +170,8 @@ def _dependence(data):
 
 
 def _edges(data):
-    """Yield rows on the ends of the quiet gaps and of the stability of the quiet orbit."""
+    """Yield rows on the ends of the range of quiet gaps, and on the stability of the quiet
+    orbit."""
     gap = float(data["design_gap"])
     for k, side in enumerate(("below", "above")):
         edge, beyond, frequency = (

@@ -1,7 +1,8 @@
 """Plots of one's own results, such as `impact_damper.plot.response(data)`.
 
-Each function takes results of the public functions of the package, alone or in a list, draws them
-like the figures of the paper, and returns the Axes. It draws on `ax`, or on a new figure.
+Each function takes one result or a list of results of the package's public functions, draws them
+like the figures of the paper, and returns the matplotlib axes. It draws on `ax`, or on a new
+figure.
 """
 
 from impact_damper.plot.designs import design, sweep

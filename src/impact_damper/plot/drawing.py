@@ -18,14 +18,14 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
     ----------
     data : xarray.Dataset or sequence of xarray.Dataset
     takes : callable
-        Function that returns whether a dataset can be drawn.
+        Maps a dataset to True if it can be drawn.
     words : str
         Names of the functions whose results can be drawn, for messages.
 
     Raises
     ------
     TypeError
-        If there is no dataset, or one cannot be drawn.
+        If there is no dataset, one cannot be drawn, or datasets have different units.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -58,8 +58,8 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 def looks(ax):
     """Return a context with the style of the paper's figures; given axes keep their own style.
 
-    The backend of notebooks is loaded with the first figure and makes matplotlib interactive. This
-    setting must outlive the context; otherwise a notebook would show only the first figure.
+    In a notebook, the first figure loads a backend that makes matplotlib interactive. This setting
+    must outlive the context; otherwise the notebook would show only the first figure.
     """
     if ax is not None:
         yield
@@ -71,7 +71,7 @@ def looks(ax):
 
 
 def axes_for(ax, count=1, height=3.6):
-    """Return the axes to draw on as a list; new axes if `ax` is None.
+    """Return the axes to draw on as a list; new axes, `height` inches high, if `ax` is None.
 
     Raises
     ------

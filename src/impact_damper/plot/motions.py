@@ -22,8 +22,8 @@ def orbit(data, *, ax=None):
     Parameters
     ----------
     data : xarray.Dataset
-        A result of `simulate`, or of `steady_motion` or `periodic_orbit`. For the latter two, one
-        period is simulated from the state in the dataset.
+        A result of `simulate`, `steady_motion` or `periodic_orbit`. For the last two, one period is
+        simulated from the state in the dataset.
     ax : sequence of 2 matplotlib.axes.Axes, optional
 
     Returns
@@ -54,6 +54,7 @@ def orbit(data, *, ax=None):
 
 
 def _is_motion(data):
+    """Return whether a dataset holds a run, a steady motion or a single orbit."""
     run = {"displacement", "velocity", "contact_begin"} <= data.keys() and "time" in data.coords
     single = data["state"].dims == ("component",) if "state" in data else False
     return run or single or data.get("orbit_state", np.empty(0)).shape == (1, 4)

@@ -19,7 +19,7 @@ SETTLED = {
     "markerfacecolor": "none",
     "linewidth": 0.5,
 }
-# Words for the first words of labels in the figures of the paper.
+# First words of legend labels in the figures of the paper, and clearer words for plots.
 PLAIN = {"free": "without damper", "inelastic": "damper with $e < 1$"}
 
 
@@ -78,7 +78,7 @@ def response(data, *, ax=None):
 
 
 def _name_dampers(axes):
-    """Write in the legend which damper a curve belongs to, in place of the words of the paper."""
+    """Replace the first words of legend labels as in `PLAIN`."""
     for artist in axes.get_children():
         words = str(artist.get_label())
         for begin, plain in PLAIN.items():
@@ -87,7 +87,7 @@ def _name_dampers(axes):
 
 
 def _kind(data):
-    """Return the kind of response that a dataset holds, or "" if it holds none."""
+    """Return the kind of response that a dataset holds, a key of `parts` above, or ""."""
     if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
         return "orbits"
     if "free_amplitude" in data:
@@ -102,6 +102,7 @@ def _kind(data):
 
 
 def _stable_orbits(axes, orbits):
+    """Draw the stable parts of the branches of orbits."""
     for value, size, stable in runs(orbits, lambda period: True):
         if stable:
             axes.plot(value, size, color=BLUE, label="stable orbit")
@@ -128,6 +129,7 @@ def _steady(axes, motions):
 
 
 def _frequency_label(data):
+    """Return the label of the frequency axis, with the units of the dataset."""
     if "frequency" in data.coords:
         return axis_label(data["frequency"])
     values = data["followed_value" if "followed_value" in data else "edge_frequency"]
@@ -189,6 +191,7 @@ def branch(data, *, ax=None):
 
 
 def _followed_label(data):
+    """Return the label of the axis of the parameter that varies along a branch."""
     name, units = parameters_of(data)["parameter"], data["followed_value"].attrs["units"]
     if name == "frequency":
         return _frequency_label(data)

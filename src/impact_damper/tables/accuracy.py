@@ -1,7 +1,9 @@
-"""Tables of methods and models on each test case (scene), and of errors of design models.
+"""Tables of the accuracy of methods on test cases (scenes), and of the accuracy of design models.
 
-Work is counted in floating-point operations. The accuracy required on a scene consists of a
-quantity and its largest allowed error.
+A scene is one motion with a required accuracy: a quantity and its largest allowed error. Methods
+are integrators and models that compute a periodic orbit directly (ORBIT_MODELS). Their work is
+counted in floating-point operations. Equation numbers in brackets are those of the paper: (7)
+is harmonic balance with one harmonic, (18) its rule for the clearance d0.
 """
 
 import numpy as np
@@ -50,18 +52,19 @@ SHOWN = {
         "relative error": "relative error",
     },
 }
-# For each column a function from the text of a cell to the text shown. In the cells of other
-# columns underscores become spaces.
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
 CELLS = {"method": method_in_words}
 
 
 def models(datasets) -> pd.DataFrame:
     """Return a row for each method and scene.
 
-    A row holds the setting with the least work that meets the required accuracy or, if none does,
-    the setting with the least error. The column `choice` marks the method with the least work; if
-    this method is a model of orbits, the column also marks the integrator with the least work.
-    Taylor series of further orders are listed, but not chosen.
+    A row holds the setting of the method (tolerance or highest harmonic) that meets the required
+    accuracy with the least work. If no setting does, the row holds the setting with the least
+    error. The column `choice` marks the method with the least work; if this method is a model of
+    orbits, the column also marks the integrator with the least work. Taylor series of other orders
+    than the package uses are listed, but never marked.
     """
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
@@ -96,7 +99,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the cheapest run that meets the accuracy, None if none does.
+    """Return the index of the run with the least work that meets the accuracy, None if none does.
 
     Parameters
     ----------
@@ -114,8 +117,8 @@ def cheapest(data, labels):
 def _most_accurate(data, method):
     """Return the index of the run of a method with the least error of max |Z1|.
 
-    For a chaotic motion the error of the contacts per cycle decides. If no error is known, return
-    the first run; if the method was not run, None.
+    For a chaotic motion, return the run with the least error of the contacts per cycle. If no
+    error is known, return the first run; if the method was not run, None.
     """
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
@@ -128,6 +131,7 @@ def _most_accurate(data, method):
 
 
 def _errors(of):
+    """Return the columns with the errors of a run on a scene with one motion."""
     return {
         "error of the state": float(of.state_error),
         "of contact times": float(of.contact_time_error),
@@ -137,6 +141,7 @@ def _errors(of):
 
 
 def _averages(data, of):
+    """Return the columns with the averages of a run on a chaotic scene, and their references."""
     row = {}
     names = {"contact_rate": "contacts a period", "displacement": "mean max |Z1|"}
     for key, words in (names | {"exponent": "Lyapunov exponent"}).items():
@@ -149,8 +154,9 @@ def _averages(data, of):
 def readings(datasets) -> pd.DataFrame:
     """Return optimum clearances and edges of suppression bands, by models and by the exact motions.
 
-    The lower edge of a band by the motions is known to lie between two frequencies. The error of a
-    model is its distance from this interval.
+    A suppression band is the range of frequencies in which the damper works. The motions are
+    simulated on a grid of frequencies, so that they only bracket the lower edge of a band. The
+    error of a model is its distance from this bracket.
     """
     rows = []
     for sweep in clearance.optimum(datasets).to_dict("records"):
@@ -177,6 +183,7 @@ def readings(datasets) -> pd.DataFrame:
 
 
 def _reading(name, quantity, model, value, least, most):
+    """Return a row: the value of a model, and the exact value between `least` and `most`."""
     nearest = np.clip(value, least, most)
     return {
         "data": name,

@@ -1,4 +1,8 @@
-"""Table of the maps that compare harmonic balance with the exact motions, cell by cell."""
+"""Table of the maps that compare harmonic balance with the exact motions, cell by cell.
+
+A cell is a pair of forcing frequency and another parameter. A quiet motion is small, a high motion
+large compared with the resonance without damper. The quiet solution is the one of harmonic balance.
+"""
 
 import numpy as np
 import pandas as pd
@@ -10,11 +14,13 @@ from impact_damper.data.variables import VARIABLES
 from impact_damper.data.variables.balance_map import BALANCE_VERDICT
 from impact_damper.theory.map_cells import NEAR
 
+# What is asked about each cell, and the variable of the dataset that holds the answer as a flag.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
     "start at the quiet solution": "quiet_run_motion",
     "high motion": "high_verdict",
 }
+# Sizes of the exact quiet orbit with which the amplitude |a| of harmonic balance is compared.
 AMPLITUDES = {
     "max |Z1|": "quiet_orbit_displacement",
     "its first harmonic": "quiet_orbit_harmonic",
@@ -35,8 +41,7 @@ SHOWN = {
         "upper": "upper end of its 95 % interval",
     },
 }
-# For each column a function from the text of a cell to the text shown. In the cells of other
-# columns underscores become spaces.
+# Text shown in Markdown for cells of the column `truth`.
 TRUTHS = {
     "high": "violent",
     "high chaotic": "violent and chaotic",
@@ -45,6 +50,8 @@ TRUTHS = {
     "other low": "another small motion",
     "far": "further off",
 }
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
 CELLS = {
     "question": lambda cell: cell.replace("high motion", "violent motion"),
     "truth": lambda cell: TRUTHS.get(cell, cell),
@@ -54,7 +61,8 @@ CELLS = {
 def balance_map(datasets) -> pd.DataFrame:
     """Return the numbers of map cells with each verdict, with chaos, and with accurate amplitudes.
 
-    The 95 % intervals of the shares of cells hold as if the cells were drawn at random.
+    A verdict compares the answer of harmonic balance with the exact motion. The 95 % intervals of
+    the shares of cells treat the cells of the grid as a random sample.
     """
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
@@ -80,6 +88,7 @@ def _words(variable, value):
 
 
 def _share(count, total):
+    """Return the columns with a count, its total, the share and its Wilson interval."""
     share, lower, upper = wilson(count, total)
     return {"cells": count, "of": total, "share": share, "lower": lower, "upper": upper}
 

@@ -1,4 +1,8 @@
-"""Tables of the optimum clearance: simulated optima, and the accuracy of design rules."""
+"""Tables of the optimum clearance: simulated optima, and the accuracy of design rules.
+
+The optimum clearance d0 gives the smallest quiet motion. (7), (18) and (19) are equations of the
+paper: harmonic balance, and its rules for d0 at the frequency W and at the peak frequency Wp.
+"""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +12,8 @@ from impact_damper.data.datasets import damper_of, flag, oscillator_of, paramete
 from impact_damper.tables.columns import parameter_columns
 from impact_damper.theory.optimum_clearance import RULES, rule_ratios
 
-WITHIN = (1, 2, 5, 10)  # for each of these errors, per cent, the table counts the optima within it
+WITHIN = (1, 2, 5, 10)  # errors in per cent; the table counts the optima predicted within each
+# Text for each rule: the value of rm W^2 d0 that it gives, or the model from which it follows.
 RULE_NAMES = {
     "balance": "(18): 1",
     "gap_harmonic": "pi^2/8",
@@ -76,11 +81,12 @@ def optimum(datasets) -> pd.DataFrame:
 def design_rules(datasets) -> pd.DataFrame:
     """Return the numbers of optima that each rule predicts within 1, 2, 5 and 10 %.
 
-    The table has one row for each group of designs, criterion and rule. A design is a cell of a
-    grid: a damper and a frequency. The groups are each grid, the clearance sweeps of the paper's
-    figures, and the cells of all grids with elastic and with inelastic contact. Stable and unstable
-    optima count. The excess of max |Z1| is the fraction by which max |Z1| at the clearance of the
-    rule exceeds the smallest max |Z1|.
+    The table has one row for each group of designs, criterion and rule. A design is a damper at a
+    frequency: a cell of a grid. The groups are each grid, the clearance sweeps of the paper's
+    figures, and the cells of all grids with elastic and with inelastic contact. The criterion is
+    the quantity that the optimum makes smallest. Optima with stable and with unstable motions both
+    count. The excess is the fraction by which max |Z1| at the rule's clearance exceeds the smallest
+    max |Z1|.
     """
     cells = pd.concat([*_grids(datasets), *_sweeps(datasets)], ignore_index=True)
     grids = cells[cells.group != SWEEPS]
@@ -103,7 +109,10 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield frames as `_grids` does for the clearance sweeps; optima by simulation are stable."""
+    """Yield a frame with the columns of `_grids` for each clearance sweep.
+
+    Simulation finds stable motions only, so all these optima are stable.
+    """
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)

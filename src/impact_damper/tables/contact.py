@@ -1,7 +1,12 @@
 """Tables of the contact model and of the rigid limit, with counts of the cells of their maps.
 
-An exit rule says where a contact ends: at zero penetration, as in the paper, or at zero force. The
-load is the acceleration that all forces except the contact force cause (`contact.contact_law`).
+The contact force is a spring (stiffness r1) and a damper chosen for a restitution e. An exit rule
+says where a contact ends: at zero penetration, as in the paper, or already at zero force. By the
+paper's rule the wall therefore pulls at the end of a contact. The load is the relative acceleration
+that all forces except the contact force cause (`contact.contact_law`).
+
+The rigid limit compares this model with instantaneous impacts on rigid walls. "Mended" means that
+the walls are corrected for the penetration at finite r1.
 """
 
 import numpy as np
@@ -55,17 +60,19 @@ def _counts(name, values):
     return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
 
 
-# For each column a function from the text of a cell to the text shown. In the cells of other
-# columns underscores become spaces.
+# Text shown in Markdown for each exit rule.
 EXITS = {
     "zero_penetration": "at zero penetration, as in appendix B",
     "no_tension": "at zero force, without pull",
 }
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
 CELLS = {"exit": lambda cell: EXITS.get(cell, cell)}
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return for each exit rule the numbers of map cells by verdict, and contacts without load."""
+    """Return for each exit rule the map cells by error of the restitution, and unloaded
+    contacts."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -81,7 +88,8 @@ def contact_model(datasets) -> pd.DataFrame:
 
 
 def _unloaded(data, pulls):
-    """Return the columns of a contact without load; the wall pulls only by the paper's rule."""
+    """Return the columns of a contact without load; `pulls` adds columns on the pull of the
+    wall."""
     realised = float(data.unloaded_restitution)
     row = {
         "damping ratio": float(data.unloaded_damping),
@@ -133,7 +141,10 @@ def contact_motions(datasets) -> pd.DataFrame:
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Return the errors of rigid impacts at the damper's r1, their order in r1, and cell counts."""
+    """Return the errors of rigid walls against contact with the damper's r1, and counts of cells.
+
+    The order is the exponent n with which the error falls as r1^-n.
+    """
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=extract.parameter(data, "frequency"), method="nearest")

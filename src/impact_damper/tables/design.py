@@ -11,15 +11,17 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.tables.columns import SYMBOLS, parameter_columns
 
-# Table of convergence: its parameters, and accuracies with the heads of the harmonics they need.
+# Table of convergence: the parameters listed, and accuracy -> column with the harmonics needed.
 MOTION = ("damping", "frequency", "mass_ratio", "clearance", "restitution", "contact_stiffness")
 ACCURACIES = {0.01: "N for 1 %", 1e-3: "N for 1e-3", 1e-6: "N for 1e-6"}
+# Error measures of the dataset and their columns. N is the highest harmonic of the balance.
 MEASURES = {
     "maximum": "max |Z1|",
     "retained": "up to N",
     "omitted": "beyond N",
     "multiplier": "multipliers",
 }
+# How cold starts end, and their columns.
 COLD_STARTS = {
     "same_motion": "same motion",
     "another_motion": "another motion",
@@ -56,7 +58,7 @@ SHOWN = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Return rule (19), harmonic balance and quiet orbit of each curve at its peak frequency."""
+    """Return the paper's rule (19), harmonic balance and exact orbit of each curve at its Wp."""
     rows = []
     for name, data in extract.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -104,8 +106,9 @@ def _exact_orbit(orbit):
 def harmonic_convergence(datasets) -> pd.DataFrame:
     """Return for each motion the harmonics needed, the decrease of errors, and cold starts.
 
-    The decrease is listed as observed and as predicted. In a cold start Newton's method begins from
-    the solution with one harmonic.
+    Errors decrease with N as a power or an exponential; both the observed and the predicted power
+    or rate are listed. In a cold start Newton's method for N harmonics begins from the solution
+    with one harmonic.
     """
     return pd.DataFrame(
         {"motion": name} | _convergence(data)

@@ -1,4 +1,8 @@
-"""Tables on failures of integrators: missed contacts, largest steps, verdicts on motions."""
+"""Tables on failures of integrators: missed contacts, largest steps, verdicts on motions.
+
+A verdict is right if the motion that an integrator computes is the motion that exists in truth. The
+contact frequency omega_c is the natural frequency of the two masses on the contact spring.
+"""
 
 import numpy as np
 import pandas as pd
@@ -12,7 +16,7 @@ from impact_damper.rivals.words import CASES, method_in_words
 
 
 def _setting(label):
-    """Return the setting of a method: steps in a cycle or tolerance."""
+    """Return the name of a method's setting; `label` is the method with its mode of use."""
     return "steps a cycle" if METHODS[name_and_mode(label)[0]].fixed else "tolerance"
 
 
@@ -46,15 +50,16 @@ SHOWN = {
         for label in COMPARED["method_verdicts"]
     },
 }
-# For each column a function from the text of a cell to the text shown. In the cells of other
-# columns underscores become spaces.
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
 CELLS = {"method": method_in_words, "scene": lambda cell: CASES.get(cell, in_words(cell))}
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
     """Return the contacts that each method finds and misses near grazing, summed over all depths.
 
-    The depth is the distance by which the motion would pass the wall.
+    The depth of a contact is the distance by which the motion would pass the wall if there were no
+    wall. "Unseen" contacts were stepped over; "spurious" ones do not exist in truth.
     """
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
@@ -87,7 +92,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return the largest stable step of each fixed-step method for each accuracy and stiffness."""
+    """Return the largest stable step h of fixed-step methods for each accuracy and stiffness r1."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         for method in data.fixed_method.values:
@@ -122,9 +127,9 @@ def stable_steps(datasets) -> pd.DataFrame:
 def method_verdicts(datasets) -> pd.DataFrame:
     """Return the loosest tolerance, or fewest steps, from which on each method's verdict is right.
 
-    The table has one row for each test case (scene). Where no such tolerance exists, the cell says
-    why: the method was not run on the scene, was never right, or was right, but not at the
-    strictest tolerance.
+    The table has one row for each test case (scene): a motion near an orbit of known stability. If
+    a method has no such tolerance, the cell says why: the method was not run on the scene, was
+    never right, or was right, but not at the strictest tolerance.
     """
     rows = []
     for data in datasets.get("method_verdicts", {}).values():

@@ -1,4 +1,8 @@
-"""Table of the dampers designed for machines; the gap is the full play of the loose mass."""
+"""Table of the dampers designed for machines in SI units.
+
+The gap is the full play of the loose mass. A design promises a share of starts (initial states)
+that lead to a quiet motion, and tests this promise with new starts.
+"""
 
 import json
 
@@ -9,13 +13,13 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.data.design_ranges import quiet_gaps
 from impact_damper.data.variables import VARIABLES
 
-# Text for each choice of the gap.
+# Advice for each kind of choice that the design makes.
 CHOICES = {
     "robust": "build it",
     "needs_tolerance": "build it, with a closer tolerance of the gap",
     "least_worst": "do not build it",
 }
-# Text for each result of the test of the promise with new starts.
+# Text for each result of the test with new starts.
 PROMISES = {
     "robust_kept": "kept within all tolerances",
     "nominal_kept": "kept at nominal values",
@@ -46,6 +50,7 @@ def machines(datasets) -> pd.DataFrame:
 
 
 def _row(name, data):
+    """Return the row of one machine; a corner combines extremes of all tolerances."""
     made, asked = json.loads(data.attrs["machine"]), parameters_of(data)
     sizes = data["competitor_displacement"].sel(force_share=1.0, detuning=0.0).max("frequency")
     absorbers = sizes.drop_sel(competitor="bare").values
@@ -67,7 +72,7 @@ def _row(name, data):
 
 
 def _gap(data, tolerance):
-    """Return the gap with its tolerance, or with a narrower range in which the gap must lie."""
+    """Return the gap as text, with its tolerance or with the narrower range that it must keep."""
     gap = f"{float(data['design_gap']):.3g}"
     if named(data, "design_choice") == "needs_tolerance":
         return f"{gap}, held from {quiet_gaps(data)}"

@@ -1,6 +1,9 @@
 """Tables of migration control: the cases of the paper, and scans of releases by frequency.
 
-A release switches the damper off; the free oscillator then settles on one of its motions.
+Migration takes the oscillator without damper from its resonance to its small motion (the
+non-resonance): the damper is switched on, and off again. Switching it off is called a release; the
+free oscillator (without damper) then settles on one of its motions. A controller run switches the
+damper until the free oscillator arrives at the small motion. A damped motion is one with damper.
 """
 
 import numpy as np
@@ -38,7 +41,11 @@ SHOWN = {
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Return the shares of releases to each free motion, by damped motion, and controller runs."""
+    """Return the shares of releases that lead to each free motion, and results of controller runs.
+
+    The table has one row for each case and each damped motion from which the oscillator is
+    released.
+    """
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
@@ -83,7 +90,7 @@ def migration(datasets) -> pd.DataFrame:
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return the frequencies at which releases of each damped motion lead to each free motion.
+    """Return the frequencies at which releases from each damped motion lead to each free motion.
 
     The table has one row for each set of free motions that occurs at one frequency.
     """
@@ -113,7 +120,7 @@ def release_scan(datasets) -> pd.DataFrame:
 
 
 def _ranges(grid, chosen):
-    """Return chosen values of a grid as text; neighbouring values are joined to a range."""
+    """Return the chosen values of a grid as text; neighbouring values are joined to a range."""
     runs = runs_of_true(np.isin(grid, chosen))
     ends = [dict.fromkeys([f"{grid[first]:.5g}", f"{grid[last - 1]:.5g}"]) for first, last in runs]
     return ", ".join(" to ".join(pair) for pair in ends)

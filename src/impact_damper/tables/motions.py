@@ -1,4 +1,9 @@
-"""Tables of motions: outcomes of starts, quasi-periodic motions, shares, and lives of chaos."""
+"""Tables of motions: outcomes of starts, quasi-periodic motions, shares, and lives of chaos.
+
+A start is a random initial state, and its outcome says how the run from it ended: settled on a
+periodic motion, chaotic, and so on. The share of a motion is the fraction of starts that lead to
+it. The life of chaos is the time until a chaotic motion settles, as transient chaos does.
+"""
 
 import numpy as np
 import pandas as pd
@@ -15,17 +20,17 @@ from impact_damper.tables.columns import parameter_columns
 DAMPER = ("mass_ratio", "clearance", "restitution")
 # Stages whose datasets hold the outcome of each random start and the motion to which it leads.
 SWEPT = ("response", "subharmonic", "optimum")
-# Dimension of the outcomes of a study.
+# Dimension of the outcomes in datasets of studies: planes of two parameters with random starts.
 COUNTED = "counted_outcome"
-# Stages whose datasets match the motions at different values of the parameter.
+# Stages whose datasets say which motions at neighbouring parameter values are the same.
 MATCHED = ("response", "optimum")
 # A motion is listed if at some value of the parameter at least this share of starts leads to it.
 LISTED = 0.05
-# Outcomes that are not counted one by one.
+# Rare outcomes, counted together in the column `other`.
 OTHERS = ("diverged", "escaped", "at_rest")
-# Torus of an orbit of which another multiplier lies outside the unit circle.
+# Flag of a torus that splits off an orbit with a further multiplier outside the unit circle.
 UNSTABLE_ORBIT = "of_unstable_orbit"
-# An exponent within this number of standard errors of 0 may be 0.
+# A Lyapunov exponent within this number of standard errors of 0 counts as 0.
 NEUTRAL = 3.0
 
 
@@ -87,8 +92,7 @@ SHOWN = {
         "not seen, at most": "bound on the share of a motion not seen",
     },
 }
-# For each column a function from the text of a cell to the text shown. In the cells of other
-# columns underscores become spaces.
+# Texts shown in Markdown for cells of the columns `stage` and `torus`.
 STAGES = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -97,13 +101,17 @@ STAGES = {
     "balance_map, high run": "starts at violent solutions of (7)",
 }
 TORI = {"stable": "stable", "unstable": "unstable", "unknown": "not found out"}
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
 CELLS = {"stage": lambda cell: STAGES.get(cell, cell), "torus": lambda cell: TORI.get(cell, cell)}
-# Neimark-Sacker points of two branches that agree so closely are one, met by both.
+# Neimark-Sacker points of two branches are one point if their parameter values differ by less than
+# SAME_VALUE and their max |Z1| by less than SAME_SIZE.
 SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
 
 
 def outcomes(datasets) -> pd.DataFrame:
-    """Return the numbers of random starts with each outcome; unresolved ones also by exponent."""
+    """Return the numbers of starts with each outcome; unresolved ones by sign of the exponent
+    too."""
     rows = []
     for stage in SWEPT:
         for name, data in extract.damped(datasets, stage).items():
@@ -136,7 +144,8 @@ def _row(stage, name, counts):
 
 
 def _reasons(data):
-    """Return the numbers of unresolved motions with a positive, zero and negative exponent."""
+    """Return the numbers of unresolved starts with positive, zero and negative Lyapunov
+    exponent."""
     dims = data.run_motion.dims
     chosen = {"motion": data.run_motion}
     mean, error = data.lyapunov_exponent.isel(chosen), data.lyapunov_error.isel(chosen)
@@ -176,7 +185,11 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def tori(datasets) -> pd.DataFrame:
-    """Neimark-Sacker points at which a stable orbit loses its stability: the torus behind each."""
+    """Return the Neimark-Sacker points at which stable orbits lose their stability, and the tori.
+
+    At such a point a pair of complex multipliers leaves the unit circle, and a torus of
+    quasi-periodic motions splits off. The torus is listed as computed a little beyond the point.
+    """
     rows = []
     for name, data in extract.damped(datasets, "branches").items():
         met = []
@@ -218,7 +231,10 @@ def tori(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return the chaotic motions larger than half of the free resonance, with their mean lives."""
+    """Return the chaotic motions larger than half of the free resonance, with their mean lives.
+
+    Free means without damper.
+    """
     rows = []
     for name, data in extract.damped(datasets, "response").items():
         try:
@@ -248,7 +264,7 @@ def chaos(datasets) -> pd.DataFrame:
 
 
 def shares(datasets) -> pd.DataFrame:
-    """Return the motions to which at least LISTED of the starts lead at some value."""
+    """Return the motions to which at least LISTED of the starts lead at some parameter value."""
     rows = []
     for stage in MATCHED:
         for name, data in extract.damped(datasets, stage).items():
@@ -280,5 +296,6 @@ def shares(datasets) -> pd.DataFrame:
 
 
 def _in_words(motion):
+    """Return the period of a periodic motion, or the outcome of another one, as text."""
     period = f"period {motion.period}" if motion.outcome == "settled" else ""
     return period or motion.outcome.replace("_", " ")

@@ -1,11 +1,18 @@
-"""Tables of policies of migration: success and cost, test of the release set, and disturbances."""
+"""Tables of policies of migration: success and cost, test of the release set, and disturbances.
+
+Migration takes the oscillator from its resonance to its small motion, the goal: the damper is
+switched on, and off at a well-chosen moment (the release). A policy chooses this moment. The
+release set holds the states from which a release leads to the goal. The policy by state releases in
+this set, at least a margin away from its boundary.
+"""
 
 import numpy as np
 import pandas as pd
 
 from impact_damper.data.best_dampers import best_clearances
 
-# Columns of the Markdown tables with their heads; the CSV files have all columns.
+# Columns of the Markdown tables with their heads; the CSV files have all columns. First the columns
+# that several tables share.
 DAMPER = {
     "rm": "mass ratio rm",
     "d0": "clearance d0",
@@ -60,6 +67,7 @@ SHOWN = {
         "answer": "is the best for migration the best for suppression",
     },
 }
+# Text shown in Markdown for each policy.
 POLICIES = {
     "settled": "random phase once settled",
     "hold": "fixed number of cycles",
@@ -67,16 +75,17 @@ POLICIES = {
     "state": "state in the goal's basin",
     "clairvoyant": "future known",
 }
-# For each column a function from the text of a cell to the text shown. In the cells of other
-# columns underscores become spaces.
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
 CELLS = {"policy": lambda cell: POLICIES.get(cell, cell)}
+# Column -> variable of the dataset, without its prefix `case_`.
 SYMBOLS = {"rm": "mass_ratio", "d0": "clearance", "e": "restitution"}
 
 
 def release_policies(datasets) -> pd.DataFrame:
-    """Return success, cycles and cost of each policy and of the clairvoyant bound, by damper and W.
+    """Return success, cycles and cost of each policy, by damper and forcing frequency W.
 
-    The clairvoyant bound is the success of a controller that knows the future.
+    The policy "clairvoyant" knows the future and therefore bounds the success of all others.
     """
     rows = []
     for data, case, damper in _cases(datasets):
@@ -99,11 +108,11 @@ def release_policies(datasets) -> pd.DataFrame:
 
 
 def release_predictions(datasets) -> pd.DataFrame:
-    """Return for each damper and W whether the release set predicts releases rightly.
+    """Return for each damper and W how well the release set predicts where releases lead.
 
     A further column says whether the policy by state takes at most half of the time of the paper's
-    policy. It says "not known" if fewer than half of the trials of one of the policies reach the
-    goal.
+    policy, which releases at a random phase once the motion has settled. It says "not known" if
+    fewer than half of the trials by state reach the goal.
     """
     rows = []
     for data, case, damper in _cases(datasets):
@@ -126,7 +135,7 @@ def release_predictions(datasets) -> pd.DataFrame:
                     "median by state": state,
                     "median by random phase": settled,
                     "state over settled": ratio,
-                    # an infinite median counts as 350 cycles, which it exceeds
+                    # trials end after 350 cycles, so an infinite median is at least that long
                     "at most half": _yes(state <= min(settled, 350) / 2) if known else "not known",
                 }
             )
@@ -134,7 +143,7 @@ def release_predictions(datasets) -> pd.DataFrame:
 
 
 def release_disturbances(datasets) -> pd.DataFrame:
-    """Return the success of the policy by state under disturbances, by margin (none and best)."""
+    """Return the success of the policy by state under disturbances, without and with a margin."""
     rows = []
     for data, case, damper in _cases(datasets):
         for frequency in data.noisy_frequency.values:
@@ -158,8 +167,9 @@ def release_disturbances(datasets) -> pd.DataFrame:
 def release_dampers(datasets) -> pd.DataFrame:
     """Return the best clearances for migration and suppression, by frequency, e and mass ratio.
 
-    The best clearance for suppression is as good for migration if the intervals of the medians of
-    the cycles overlap.
+    Suppression means a small motion with the damper left on. The best clearance for suppression
+    counts as equally good for migration if the confidence intervals of the median numbers of cycles
+    overlap.
     """
     rows = []
     for data in datasets.get("release_dampers", {}).values():
@@ -226,7 +236,7 @@ def release_answers(datasets) -> pd.DataFrame:
 
 
 def best_margin(one):
-    """Return the margin with the largest success; among equal ones that with the least time."""
+    """Return the margin with the largest success; among equals, the margin with the least time."""
     success, cycles = (
         one[name].sel(bound="share").values for name in ("disturbed_success", "disturbed_cycles")
     )
@@ -249,6 +259,6 @@ def _yes(holds):
 
 
 def _bounded(words, value):
-    """Return columns of a share or quantile and the ends of its interval."""
+    """Return columns with a share or quantile and the ends of its confidence interval."""
     names = {"share": words, "lower": f"{words}, at least", "upper": f"{words}, at most"}
     return {name: float(value.sel(bound=bound)) for bound, name in names.items()}

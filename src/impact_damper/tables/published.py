@@ -17,7 +17,7 @@ SOURCES = {
     "brennan": "Brennan, Kovacic, Carrella and Waters, J. Sound Vib. 318(4-5), 1250, 2008",
     "hertz": "Johnson, Contact Mechanics, section 11.4, 1985",
 }
-# Reasons why the two numbers differ, with the one that is right and the evidence.
+# For each reason why the two numbers differ: which one is right, and the evidence.
 REASONS = {
     "contact stiffness": "Both are right: their walls are rigid, ours have r1 = {stiffness:g}. The "
     "difference falls as r1^{order:.2f}; ours extrapolated to rigid walls differs by {limit:.0e}.",
@@ -63,6 +63,7 @@ def published(datasets) -> pd.DataFrame:
 
 
 def _row(each, settings):
+    """Return the row of one comparison; `settings` are the settings of all comparisons."""
     theirs, ours = float(each.published_value), float(each.our_value)
     return {
         "source": SOURCES[extract.meaning("publication", int(each.publication))],

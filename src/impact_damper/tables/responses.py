@@ -1,7 +1,9 @@
 """Tables of frequency responses: suppression bands, subharmonics, branches and bifurcations.
 
 A curve is a frequency response of the configuration; a branch is a sequence of periodic orbits
-along the forcing frequency W. Free means without the damper.
+along the forcing frequency W. Free means without the damper. The suppression band is the range of
+frequencies in which the damper works. A high or violent motion is at least half as large as the
+free resonance.
 """
 
 import numpy as np
@@ -63,8 +65,8 @@ SHOWN = {
         "least speed of contact": "least speed at which a contact begins",
     },
 }
-# For each column a function from the text of a cell to the text shown. In the cells of other
-# columns underscores become spaces.
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
 CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
 
 
@@ -103,7 +105,7 @@ def _balance_band(data):
 
 
 def _existing_band(datasets, name):
-    """Return columns on the band by the motions that exist, and on chaotic violent motions."""
+    """Return columns on the band by the motions found, and on chaotic violent motions."""
     response = datasets["response"][name]
     try:
         free = exact_orbits.free_of(datasets, response)
@@ -165,7 +167,7 @@ def subharmonic(datasets) -> pd.DataFrame:
 
 
 def _stable_part(part):
-    """Return number, period and range of W of the stable part of a branch of subharmonics."""
+    """Return number, period, range of W and size of the stable part of a branch."""
     return {
         "branch": f"{part.branch.iloc[0] + 1}",
         "period": part.period.iloc[0],
@@ -176,7 +178,7 @@ def _stable_part(part):
 
 
 def _free_subharmonic(free):
-    """Return columns on the free one-third subharmonic, if it exists."""
+    """Return columns on the free one-third subharmonic; without one, {"branch": "none"}."""
     try:
         part = exact_orbits.subharmonic(free)
     except Missing:
@@ -220,7 +222,7 @@ def orbits(datasets) -> pd.DataFrame:
 
 
 def _ends_of(data, branch):
-    """Return the reasons for both ends of a branch, with the number of a branch met there."""
+    """Return why a branch ends, at both ends, with the number of the branch that it meets there."""
     ends, met = (data[name].values[branch] for name in ("branch_end", "branch_met"))
     names = [extract.meaning("branch_end", end) for end in ends]
     return [
@@ -250,7 +252,7 @@ def _stable_ranges(value, stable, *, closed):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Return located bifurcations and changes of contact, sorted by branch and frequency."""
+    """Return located bifurcations and changes of the contacts, sorted by branch and frequency."""
     rows = []
     for name, parameters, data in _branches(datasets):
         for k in range(data.sizes["event"]):

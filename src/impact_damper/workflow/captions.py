@@ -1,6 +1,7 @@
-"""Captions of figures, with the parameters as text.
+"""Captions of figures, with the parameters of the datasets drawn as text.
 
-This module imports no NumPy, because Snakemake reads it at every dry run.
+This module imports no NumPy, because Snakemake imports this module at every dry run, and NumPy
+loads slowly.
 """
 
 import re
@@ -10,7 +11,7 @@ from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.system.parameters import SYMBOLS
 
-# For a longer list of values the text gives only the first and the last.
+# Of a list with more values than this the text gives only the smallest and the largest.
 MANY = 3
 
 
@@ -34,7 +35,10 @@ def caption(figure, text) -> str:
 
 
 def cases_in_words(entries, named=False) -> str:
-    """Return the parameters of the entries that a figure draws, first those with common values.
+    """Return the parameters of the entries that a figure draws, as text.
+
+    Parameters with the same value in all entries come first. Then each entry lists its own, or, if
+    the entries differ in one parameter only, this parameter lists its values.
 
     Parameters
     ----------
@@ -70,7 +74,8 @@ def in_words(values) -> dict:
     ----------
     values : dict
         Keyed by the name of the parameter. A value is a number, a list, a range with `first` and
-        `last`, or "rule" for rule (19). Other keys are ignored.
+        `last`, or "rule" for the clearance by the paper's rule (19). Keys that are not parameters
+        are ignored.
     """
     return {
         symbol: _value(values[name])
@@ -97,10 +102,12 @@ def machine_in_words(values) -> dict:
 
 
 def _joined(items):
+    """Return pairs of name and value as text."""
     return ", ".join(f"{name} {value}" for name, value in items)
 
 
 def _value(value):
+    """Return the value of a parameter as text, such as "= 0.215" or "from 1 to 3"."""
     if isinstance(value, dict):
         return f"from {_number(value['first'])} to {_number(value['last'])}"
     if isinstance(value, list) and len(value) > MANY:

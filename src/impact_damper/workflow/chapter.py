@@ -16,8 +16,8 @@ def make_table(name, datasets, path, drawn=()) -> None:
     name : str
         Name of a table in the registry.
     datasets : dict
-        Datasets, keyed by stage and by entry of the configuration. Stages that the table does not
-        read are not passed on.
+        Datasets, keyed by stage and by entry of the configuration. May contain more stages than the
+        table reads.
     path : pathlib.Path
         Name of the files, without suffix.
     drawn : sequence of str
@@ -29,7 +29,7 @@ def make_table(name, datasets, path, drawn=()) -> None:
     module = import_module(f"impact_damper.{table.module}")
     read = {stage: datasets.get(stage, {}) for stage in table.stages}
     frame = getattr(module, name)(read)
-    # A module has its own layout for Markdown, or it names the columns that Markdown shows.
+    # A module has its own function `document` for Markdown, or it lists the columns in `SHOWN`.
     document = getattr(module, "document", None) or partial(
         table_files.for_people,
         title=table.caption.removesuffix("."),
@@ -75,5 +75,6 @@ def draw_figure(figure, datasets, path) -> None:
 
 
 def _write(path, text):
+    """Write a text to a file, completely or not at all."""
     with whole(path) as part:
         part.write_text(text + "\n")

@@ -198,7 +198,10 @@ def report(
 
 
 def read(path):
-    """Return the content of a machine's file."""
+    """Return the content of a machine's YAML file, as `machine_file.read_machine_file` does.
+
+    Here and below modules are imported where they are used, so that `--help` answers fast.
+    """
     from impact_damper.workflow.machine_file import read_machine_file
 
     return read_machine_file(path)
@@ -212,7 +215,8 @@ def machine(given):
 
 
 def hertz_contact(given):
-    """Return the contact after Hertz of a file's content, or None."""
+    """Return the contact of a file's content after Hertz's theory, or None if it has no
+    `contact`."""
     from impact_damper.machine.hertz import HertzContact
 
     ball = given.get("contact")
@@ -254,7 +258,7 @@ def write_report(data, name, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset if a file is given, and return the line that reports it."""
+    """Save a dataset if a file is given; return a list with the line that reports it, or []."""
     if output is None:
         return []
     from impact_damper.data.datasets import save

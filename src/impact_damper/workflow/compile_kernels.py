@@ -1,7 +1,7 @@
-"""Compile and cache every kernel of the package, by calls that compute hardly anything.
+"""Compile and cache every kernel (numba function) of the package, by calls with hardly any work.
 
-A module with steps of the Taylor series compiles them when it is imported. Therefore each function
-below imports the modules that it compiles, so that two processes can share the work.
+Some kernels are compiled when their module is imported. Each function below therefore imports the
+modules whose kernels it calls, so that two processes can share the compilation.
 """
 
 import gc
@@ -17,8 +17,8 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
-# Motions with this damper settle soon at this frequency, so the kernels that follow orbits are
-# compiled too.
+# Motions with this damper settle soon at this frequency. Settled motions are followed by Newton's
+# method, so that its kernels are called, and compiled, too.
 DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
 FREQUENCY = 1.95
 
@@ -31,21 +31,25 @@ def compile_all(processes, orders) -> None:
     processes : int
         Number of processes.
     orders : list of list of int
-        Further pairs of orders of the Taylor series.
+        Orders of the Taylor series in flight and in contact, in addition to the package's own pair:
+        the stage `accuracy` compares them.
     """
-    gc.disable()  # compilation makes little garbage, and collection takes a fifth of its time
-    fork = get_context("fork")  # worker processes inherit this setting
+    # Compilation makes little garbage, and collecting garbage takes a fifth of its time. Forked
+    # processes inherit this setting.
+    gc.disable()
+    fork = get_context("fork")
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
         for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
             half.result()
-        # These functions call kernels that either process compiled.
+        # Starts last, because it needs kernels that the two other processes compile.
         pool.submit(warm_up_rivals, orders).result()
 
 
 def warm_up_orbits() -> None:
     """Call each kernel that processes one motion at a time.
 
-    Kernels that `warm_up_settling` needs too come first. Kernels that need its kernels come last.
+    The kernels that `warm_up_settling` also calls come first, and the kernels that call kernels of
+    `warm_up_settling` come last, so that the two processes rarely compile the same kernel.
     """
     from impact_damper.motions import ensemble, envelopes, records, smooth_runs, strobe_map
 
@@ -110,10 +114,15 @@ def warm_up_settling() -> None:
 def warm_up_rivals(orders=()) -> None:
     """Compile the kernels of all integrators that are compared, by a short run for each stage.
 
-    `orders` are further pairs of orders of the Taylor series. Results of a kernel loaded from the
-    cache can differ in the last digit from those of a kernel compiled in the same process, and a
-    method that integrates through a jump amplifies the difference. All kernels are therefore
-    compiled here, before jobs load them.
+    A kernel loaded from the cache can give results that differ in the last digit from the results
+    of a kernel compiled in the same process. A method that integrates through a jump of the force
+    amplifies this difference. All kernels are therefore compiled here, so that every job loads
+    them.
+
+    Parameters
+    ----------
+    orders : list of list of int
+        As for `compile_all`.
     """
     from impact_damper.motions.strobe_map import strobe_time
     from impact_damper.rivals.methods import COMPARED, METHODS, integrators, name_and_mode

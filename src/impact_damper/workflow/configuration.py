@@ -1,4 +1,7 @@
-"""Validation of the workflow's configuration before any job starts, with a line per problem."""
+"""Validation of the workflow's configuration before any job starts, with a line per problem.
+
+The configuration has sections such as `curves` with freely named entries.
+"""
 
 from pathlib import Path
 
@@ -12,7 +15,7 @@ from impact_damper.workflow.models.values import NUMBER, RANGE
 from impact_damper.workflow.registry import KINDS, section_of
 from impact_damper.workflow.workloads import workloads
 
-# The loader of libyaml, where it is installed, is several times as fast.
+# If the C library libyaml is installed, its loader is used: it is several times as fast.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -23,8 +26,8 @@ class ConfigurationError(ValueError):
 def check_configuration(config) -> None:
     """Raise if the configuration cannot be run.
 
-    First each value is checked by itself. If all are allowed, contradictions between values are
-    checked, and if there are none, the amount of work.
+    First each value is checked by itself. If all are allowed, combinations of values are checked
+    for contradictions, and if there are none, the amount of work is checked.
 
     Parameters
     ----------
@@ -57,8 +60,8 @@ def problems_of(error) -> list:
 def without_left_out(config) -> dict:
     """Return the configuration without the entries that are set to null.
 
-    A second configuration file removes an entry of the first by setting it to null. Figures then
-    draw their other entries; a figure without entries is removed too.
+    A second configuration file removes an entry of the first file by setting it to null. Figures
+    then draw their remaining entries; a figure without remaining entries is removed too.
     """
     kept = {
         key: {name: entry for name, entry in value.items() if entry is not None}

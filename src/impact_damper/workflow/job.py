@@ -1,7 +1,8 @@
 """A job of the workflow: its log, its end, its timing, and its parameters as objects.
 
-Every script first makes a `Job` from the variable `snakemake`. Scripts import this module before
-all others, because it sets the garbage collection such that other imports are faster.
+Every script of `workflow/scripts/` first makes a `Job` from the variable `snakemake`, which
+Snakemake defines. Scripts import this module before all others, because it makes garbage collection
+rarer, which speeds up the other imports.
 """
 
 import atexit
@@ -16,18 +17,19 @@ from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 
-# Collect garbage less often: objects made by imports stay until the end, and a job makes few
-# others.
+# Collect garbage only after 10 000 new objects, more than by default: objects made by imports stay
+# until the end, and a job makes few others.
 gc.set_threshold(10_000)
 
-# Seconds between checks that Snakemake is alive. A new run needs longer to start its first job.
+# Seconds between checks that Snakemake is alive. A new run of Snakemake needs longer than this to
+# start its first job, so that jobs of an old run never meet jobs of a new one.
 LOOK = 0.5
 # Units of `ru_maxrss` in a megabyte: bytes on macOS, kilobytes elsewhere.
 MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
 
 
 class Entry:
-    """Parameters of one entry of the configuration as objects.
+    """Parameters of one entry of the configuration, as objects of the package.
 
     Parameters
     ----------
@@ -96,10 +98,10 @@ class Entry:
 class Job(Entry):
     """A job that Snakemake has started.
 
-    Creating the object redirects all output to the log, and ends the process soon if Snakemake
-    ends. An error about a file is reported in one line, in the log and on the terminal, since on a
-    full disk the log stays empty. When the job ends, its time and memory are written into
-    `timings`, at the same relative path as its log in `logs`.
+    Creating the object redirects all output to the log, and makes the process end soon after
+    Snakemake ends. An error about a file is reported in one line, in the log and on the terminal,
+    since on a full disk the log stays empty. When the job ends, its time and memory are written
+    into the folder `timings`, at the same relative path as its log in the folder `logs`.
 
     Parameters
     ----------
@@ -126,7 +128,7 @@ class Job(Entry):
         return {"workers": self.snakemake.threads, "progress": self["name"]}
 
     def entries(self):
-        """Entries of a job that computes several; the first output's folder holds their files."""
+        """Yield the entries of a job that computes several; their files lie side by side."""
         for name, given in self.given.items():
             path = Path(self.output).with_name(f"{name}.nc")
             yield Entry(given, path)
@@ -148,7 +150,8 @@ def _report_file_errors():
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):
-        # on a full disk, closing the file of a figure may raise a second error that hides the first
+        # On a full disk, closing the file of a figure may raise a second error that hides the
+        # first.
         cause = error
         while not isinstance(cause, OSError) and cause is not None:
             cause = cause.__cause__ or cause.__context__
@@ -177,6 +180,7 @@ def end_with_parent() -> None:
 
 
 def _end_with(parent):
+    """Wait until the process with the id `parent` is no longer the parent, then end."""
     while os.getppid() == parent:
         time.sleep(LOOK)
     os._exit(1)
@@ -199,8 +203,8 @@ def _write_timing(path):
 def peak_memory() -> float:
     """Return the peak memory in MB of this process, or of a child process that needed more.
 
-    On Linux `ru_maxrss` of a process begins with the value of its parent, here Snakemake. The peak
-    of this process is therefore read from `/proc` there.
+    On Linux `ru_maxrss` of a new process starts at the value of its parent, here Snakemake. On
+    Linux the peak of this process is therefore read from `/proc`.
     """
     own, children = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
     peak, largest_child = (resource.getrusage(who).ru_maxrss / MEGABYTE for who in (own, children))

@@ -1,4 +1,7 @@
-"""Reader of a machine's YAML file, with the keys of an entry of `machines`."""
+"""Reader of the YAML file that describes a machine for the command `impact-damper`.
+
+The file has the same keys as an entry of the section `machines` in the workflow's configuration.
+"""
 
 import re
 from pathlib import Path
@@ -18,8 +21,8 @@ class _Loader(LOADER):
 _Loader.add_implicit_resolver(
     "tag:yaml.org,2002:float", re.compile(f"(?:{SCIENTIFIC.pattern})$"), list("-+.0123456789")
 )
-# Values of keys that a file may leave out. 73 starts that all lead to quiet motions prove a share
-# of 95 % at 95 % confidence.
+# Values of keys that a file may leave out. With 73 starts, all of which lead to quiet motions, the
+# lower end of the 95 % interval (Wilson) of the share is 0.95, the share required here.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # frequencies in the band
 
@@ -30,7 +33,7 @@ def read_machine_file(path) -> dict:
     Parameters
     ----------
     path : str or pathlib.Path
-        In this file `band` may also be a list of two frequencies.
+        Path of the file, in which `band` may also be a list of two frequencies.
 
     Returns
     -------

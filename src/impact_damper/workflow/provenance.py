@@ -23,9 +23,10 @@ def provenance(configuration, root) -> dict:
     Returns
     -------
     dict
-        `configuration` and `lock`, SHA-256 digests; `commit`, and `modified`, whether tracked files
-        differ from it, both None outside of a repository; `versions` of Python and of all installed
-        packages in the lock file; and `machine`, the computer.
+        `configuration` and `lock`: SHA-256 digests of the configuration and of the lock file.
+        `commit`: the git commit; `modified`: whether tracked files differ from it. Both are None
+        outside of a repository. `versions`: of Python and of all installed packages that the lock
+        file lists. `machine`: the computer.
     """
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()

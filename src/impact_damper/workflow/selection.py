@@ -1,10 +1,14 @@
-"""Selection of the entries of a configuration for each stage, figure, table and chapter."""
+"""Selection of the entries of a configuration for each stage, figure, table and chapter.
+
+The sections of the configuration have named entries. A stage makes a dataset of each entry of its
+section. A chapter is a part of the report with its own stages, figures and tables.
+"""
 
 from impact_damper.workflow.captions import cases_in_words, in_words, machine_in_words
 from impact_damper.workflow.registry import CHAPTERS, KINDS, PAPER, STAGES, TABLES, section_of
 from impact_damper.workflow.registry.values import oscillator
 
-# Names of parameters, keyed by the keys of entries that hold several values of them.
+# Key of an entry that holds several values of a parameter -> name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",
     "clearances": "clearance",
@@ -77,9 +81,10 @@ def figure_values(config, name) -> dict:
 
 
 def chapter_values(config, chapter) -> dict:
-    """Return what the job of a chapter is given: each of its figures, and the names of its tables.
+    """Return the parameters of the job of a chapter: its figures, and the names of its tables.
 
-    A table that shows figures also needs the names of all figures of the paper's chapters.
+    A chapter with a table that shows figures also gets the names of all figures of the paper's
+    chapters.
     """
     tables = CHAPTERS[chapter].TABLES
     values = {f"figure_{name}": figure_values(config, name) for name in figures_of(config, chapter)}

@@ -1,7 +1,7 @@
 """Source files of a job: its script, and every module of the package that the script imports.
 
-The files are inputs of the job, so that Snakemake compares their contents. The sources of kernels
-are compared by a digest in a marker file.
+The files are inputs of the job, so that Snakemake compares their contents. Kernels are functions
+compiled by numba; a marker file holds a digest of their sources.
 """
 
 import ast
@@ -13,7 +13,8 @@ from impact_damper.kernel import source_digest
 
 PACKAGE = Path(__file__).parents[1]
 
-# An import from the package. Parsing only these statements saves half a second in a dry run.
+# Statement that imports from the package. Parsing only these statements, not whole files, saves
+# half a second in a dry run.
 IMPORT = re.compile(
     rf"^ *((?:from|import) {PACKAGE.name}\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))", re.MULTILINE
 )
@@ -32,8 +33,8 @@ def sources(*paths) -> set:
 def _imports(path):
     """Return the files of the package that a Python file imports directly.
 
-    The `__init__.py` of a subpackage counts only if a name is imported from it. Python always
-    executes this file, but otherwise it does not affect results.
+    The `__init__.py` of a subpackage is included only if a name is imported from it. Python always
+    executes this file, but it does not affect results otherwise.
     """
     statements = ast.parse("\n".join(IMPORT.findall(path.read_text()))).body
     names = []

@@ -27,8 +27,8 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Forcing frequency assumed for a section without an oscillator, whose frequencies are ratios to the
-# natural frequency.
+# Forcing frequency assumed for a section without an oscillator. Frequencies of such a section are
+# ratios to the natural frequency.
 NATURAL = 1.0
 # Radius of the ball from which the migration stages draw starts.
 MIGRATION_RADIUS = 2
@@ -40,6 +40,7 @@ class Case(NamedTuple):
     Attributes
     ----------
     path : tuple of str
+        Keys that lead to the entry in the configuration.
     key : str
         Key of the mass ratio in the entry.
     mass_ratio, stiffness, frequency : float
@@ -79,6 +80,7 @@ def _at(section, key):
 
 
 def _too_many(path, section, keys):
+    """Yield a line if the product of the counts under some keys exceeds the limit of runs."""
     counts = [_at(section, key) for key in keys]
     if math.prod(counts) > MOST_RUNS:
         largest = counts.index(max(counts))
@@ -91,6 +93,7 @@ def _too_many(path, section, keys):
 
 
 def _too_many_cells(path, cells, chunks):
+    """Yield a line if a study has too many cells, in all or in each of its chunks."""
     if cells > MOST_CELLS:
         reason = f"must be at most {MOST_CELLS} (combinations of the points of its four axes)"
         yield f"{dotted(path)}: cells = {cells}: {reason}"
@@ -101,6 +104,7 @@ def _too_many_cells(path, cells, chunks):
 
 
 def _too_stiff(case):
+    """Yield a line if a contact is so much faster than the forcing that steps become too many."""
     ratio = math.sqrt(case.stiffness * (1 + 1 / case.mass_ratio)) / case.frequency
     if ratio > MOST_STIFF:
         reason = (
@@ -111,6 +115,8 @@ def _too_stiff(case):
 
 
 def _too_narrow_or_wide(path, clearance, radius):
+    """Yield a line if hardly a start lies within the gap, or if the rule's clearance is too
+    large."""
     least, most = radius / MOST_RADIUS, CLEARANCE_RANGE["most"]
     if clearance < least:
         reason = f"must be at least search.radius/{MOST_RADIUS:g} = {least:g}"
@@ -144,6 +150,7 @@ def _cases(config):
 
 
 def _clearances(section, config):
+    """Return the key and the smallest clearance of an entry in a list; [] without a clearance."""
     key, clearance = _given(section, "clearances", "clearance")
     if clearance == "rule":
         oscillator = config.oscillators[section.oscillator].built()
@@ -152,6 +159,7 @@ def _clearances(section, config):
 
 
 def _case_of_map(path, section, config):
+    """Return the `Case` of a map of harmonic balance, from its first and last row."""
     clearances, peaks, mass_ratios = [], [], []
     for row in section.ends():
         oscillator = Oscillator(**{key: row[key] for key in OSCILLATOR if key in row})

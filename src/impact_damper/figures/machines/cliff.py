@@ -1,4 +1,9 @@
-"""Share of quiet starts and displacement against the gap, with the cliff and the gap to build."""
+"""Share of quiet starts and displacement against the gap, with the cliff and the gap to build.
+
+A start is a random initial state; it is quiet if it leads to a quiet motion, one below the
+displacement limit of the design. The cliff is a gap at which the share of quiet starts falls below
+the required share.
+"""
 
 import numpy as np
 
@@ -18,9 +23,10 @@ CAPTION = """
 Horizontal: gap, the full play. Above: share of random starts that lead to quiet motions, at the
 worst frequency of the band (circles: coarse comparison; squares: candidates, with 95 % intervals).
 Below: largest displacement of all motions found over the band. Star: smallest stable quiet orbit;
-few starts may lead to it. The frequency of the star is the one, among those with a stable quiet
-orbit, at which the machine without the damper moves most. Blue line: exact quiet orbit at the
-frequency at which the share falls first. If the frequencies differ, the star is off the line.
+few starts may lead to it. The star holds for one frequency: among the frequencies with a stable
+quiet orbit, the one at which the machine without the damper moves most. Blue line: exact quiet
+orbit at the frequency at which the share falls first. If the two frequencies differ, the star is
+off the line.
 """
 COARSE = {
     "color": GREY,
@@ -91,7 +97,7 @@ def size_panel(axes, data):
 
 
 def _span(data):
-    """Return the least and the largest of the candidates, the best orbit and the edges, mm."""
+    """Return the limits of the axis of gaps, mm: around candidates, best orbit and edges."""
     names = ("candidate_gap", "best_orbit_gap", "cliff_gap", "cliff_beyond", "stability_gap")
     gaps = np.concatenate([np.ravel(data[name].values) for name in names])
     coarse = data["coarse_gap"].values
@@ -100,7 +106,7 @@ def _span(data):
 
 
 def stable_runs(data, parameter):
-    """Yield the parts of a branch of quiet orbits on which all are stable, or all unstable.
+    """Yield the parts of a branch of quiet orbits on which all orbits are stable, or all unstable.
 
     Parameters
     ----------
@@ -125,7 +131,7 @@ def stable_runs(data, parameter):
 
 
 def _mark_gap(axes, data):
-    """Mark the chosen gap, its tolerance, and the ends of the quiet gaps."""
+    """Mark the chosen gap, its tolerance, and the cliffs."""
     gap = float(data["design_gap"])
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)

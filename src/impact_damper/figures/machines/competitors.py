@@ -17,9 +17,9 @@ from impact_damper.figures.style import figure, legend, style
 
 CAPTION = """
 Largest displacement of all motions found: with this damper, with tuned absorbers of the same mass,
-and with the machine alone. Above: against the forcing frequency at the nominal excitation. Below:
-largest value over the band against the excitation; for this damper only motions to which random
-starts lead. Shaded: springs of the absorber 10 % softer to 10 % stiffer than designed.
+and without either. Above: against the forcing frequency at the nominal excitation. Below: largest
+value over the band against the excitation; for this damper only motions to which random starts
+lead. Shaded: springs of the absorber 10 % softer to 10 % stiffer than designed.
 """
 DETUNED = "detuned by 10 %"
 LOOKS = {"tuned": TUNED, "nonlinear": NONLINEAR, "best": OPTIMISED}
@@ -51,7 +51,10 @@ def draw_competitors(data):
 
 
 def _panel(axes, sizes, x):
-    """Draw the machine alone and each absorber, with a band between its detuned versions."""
+    """Draw the machine alone and each absorber, with a band between its detuned versions.
+
+    `sizes` has the dimensions competitor, detuning and that of `x`; millimetres.
+    """
     x = np.asarray(x)
     plot_sizes(axes, x, sizes.sel(competitor="bare", detuning=0.0).values, **BARE)
     for name, look in LOOKS.items():

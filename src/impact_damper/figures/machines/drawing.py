@@ -23,9 +23,9 @@ The machine and its damper, drawn to scale as cubes of steel (7850 kg/m³). The 
 rolls freely. It is drawn at one wall, so that the whole gap, the full play from wall to wall, lies
 on its other side.
 """
-# Density in kg/m^3. In inches: the wall, the left side of the machine, its largest width and
-# height, and the rail.
-STEEL = 7850.0
+STEEL = 7850.0  # density, kg/m^3
+# Layout in inches: x of the wall, x of the left side of the machine, largest width and height of
+# the machine, y of the rail.
 WALL, LEFT, WIDTH, HEIGHT, RAIL = 0.28, 0.95, 1.75, 1.75, 0.42
 SMALL = {"size": 8.0}
 
@@ -79,7 +79,7 @@ def _carriage(axes, bottom, width, height, made):
 
 
 def _slot(axes, left, bottom, loose, gap):
-    """Draw the slot, the loose mass at its left wall, and the gap on the right of it."""
+    """Draw the slot, the loose mass at the left wall of the slot, and the gap beside the mass."""
     mass(axes, left, bottom, loose + gap, 1.1 * loose, WHITE)
     mass(axes, left, bottom, loose, loose, PALE_SKY)
     walls, y = (left + loose, left + loose + gap), bottom + 1.1 * loose + 0.18
@@ -93,7 +93,7 @@ def _slot(axes, left, bottom, loose, gap):
 
 
 def _scale_bar(axes, scale, body):
-    """Draw a bar of a round length below the rail."""
+    """Draw a bar below the rail: the longest round length shorter than the machine (`body`, mm)."""
     length = max(each for each in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if each < body)
     end, y = 3.2, 0.16
     stroke(axes, [(end - length * scale, y), (end, y)], color=BLACK)

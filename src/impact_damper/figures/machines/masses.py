@@ -7,10 +7,10 @@ from impact_damper.figures.machines.looks import STAR, decades, limit_line, plot
 from impact_damper.figures.style import BLACK, BLUE, figure, legend, style
 
 CAPTION = """
-Dampers of other masses for the same machine and band. A reduced design chose the gap of each
+Dampers of other masses for the same machine and band. A shortened design chose the gap of each
 (numbers, in mm). Above: largest displacement of any motion over the band and over the tolerance of
-the gap. Below: largest contact force. Filled: on the Pareto front; none of these dampers is better
-in displacement, force and mass at once.
+the gap. Below: largest contact force. Filled: on the Pareto front, which means that no other of
+these dampers is better in displacement, force and mass at once.
 """
 FRONT = {"color": BLUE, "marker": "o", "markersize": 5, "linestyle": "none"}
 FRONT |= {"label": "on the Pareto front"}

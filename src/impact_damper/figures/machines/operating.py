@@ -14,10 +14,10 @@ from impact_damper.figures.style import BLACK, GREY, PALE, VERMILION, WHITE, fig
 
 CAPTION = """
 Above: share of random starts that lead to quiet motions. Below: largest displacement of any motion;
-hatched: a motion escapes. Light is good. A cell has only 12 starts: the maps show where the damper
-works, and prove no share. Lines: the exact quiet orbit ceases to be stable. At a fold the orbit
-ends. At a loss of symmetry the two halves of its cycle become unequal. At the onset of modulation
-(a Neimark-Sacker point) its size begins to vary slowly.
+hatched: a motion escapes. Light is good. Each cell has only 12 starts, so that a share in the map
+is a rough estimate. Lines: the exact quiet orbit loses its stability. At a fold the orbit ends. At
+a loss of symmetry the two halves of its cycle become unequal. At the onset of modulation (a
+Neimark-Sacker point) its size begins to vary slowly.
 """
 FORCES = CAPTION + (
     "Red: the nominal excitation. The quiet limit is proportional to the excitation: at half the "
@@ -92,14 +92,17 @@ def _maps(x, y, share, size):
 
 
 def _edges(centres):
-    """Return cell edges midway between centres."""
+    """Return cell edges midway between the centres, shape (len(centres) + 1,)."""
     middles = (centres[1:] + centres[:-1]) / 2
     ends = 2 * centres[[0, -1]] - middles[[0, -1]]
     return np.concatenate([ends[:1], middles, ends[1:]])
 
 
 def _draw_edges(axes, data, prefix, first, second):
-    """Draw the edges of the quiet orbit."""
+    """Draw the lines on which the quiet orbit loses its stability.
+
+    `prefix`, `first` and `second` are parts of names of variables: the map and its two axes.
+    """
     number, kind, x, y = (
         data[f"{prefix}_edge_{name}"].values for name in ("number", "kind", first, second)
     )

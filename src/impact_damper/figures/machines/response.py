@@ -18,8 +18,8 @@ CAPTION = """
 Largest displacement of the machine against forcing frequency. Without the damper: exact periodic
 orbits, stable (full) and unstable (dashed). With the damper: motions to which random starts lead
 (circles if periodic, dots if not), curves of exact orbits through the circles, and the largest
-motion to which any start leads (squares). Where the peaks of this motion differ, 95 % of them lie
-below the short dash.
+motion to which any start leads (squares). If the peaks of this motion vary from cycle to cycle,
+95 % of them lie below the short dash.
 """
 BARE_STABLE = BARE | {"label": "without damper, stable"}
 BARE_UNSTABLE = BARE | {

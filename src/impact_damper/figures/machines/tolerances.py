@@ -1,14 +1,15 @@
-"""Worst displacement against the share of quiet starts, for values off within their tolerances."""
+"""Worst displacement against the share of quiet starts, for values changed within tolerances."""
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines.looks import STAR, decades, limit_line, plot_sizes
 from impact_damper.figures.style import BLUE, GREY, ORANGE, figure, legend, style
 
 CAPTION = """
-Each point is one damper and machine with all values changed within their tolerances: samples spread
-over the tolerances; corners, at which each value is at one end of its tolerance; and corners with
-new starts, which the design did not use. Horizontal: share of starts over the band that lead to
-quiet motions, with its 95 % interval. Vertical: largest displacement of any of these motions.
+Each point is one damper and machine whose values differ from the nominal ones within their
+tolerances. Circles: samples spread over the tolerances. Squares: corners, where each value is at
+one end of its tolerance. Star: nominal values. Corners and nominal values have new random starts,
+which the design did not use. Horizontal: share of starts over the band that lead to quiet motions,
+with its 95 % interval. Vertical: largest displacement of all motions found.
 """
 SAMPLES = {"color": BLUE, "marker": "o", "markersize": 3.2, "label": "sample of the tolerances"}
 CORNERS = {"color": ORANGE, "marker": "s", "markersize": 3.2, "label": "corner, new starts"}

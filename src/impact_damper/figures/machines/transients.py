@@ -9,10 +9,10 @@ Largest displacement in each cycle. Above and middle: the forcing frequency is s
 a constant rate through the band and the resonance, from rest, with the loose mass in the middle of
 its gap. Shaded: outside the band. Below: unforced decay from a displacement of the machine at rest.
 The damper has no effect until a wall has touched the loose mass. In the sweeps this needs a
-displacement of half the gap. In the decay the loose mass rests in the middle of the gap beside the
-displaced machine, so that a displacement of a quarter of the gap is enough: the machine swings from
-one side to the other. A late step in the decay is an impact of the loose mass, which keeps its
-speed between impacts.
+displacement of half the gap. In the decay the loose mass rests in the middle of the gap of the
+displaced machine. The machine then swings from one side to the other, so that an initial
+displacement of a quarter of the gap is enough. A late step in the decay is an impact of the loose
+mass, which keeps its speed between impacts.
 """
 LOOKS = {"bare": BARE, "damped": DAMPED}
 

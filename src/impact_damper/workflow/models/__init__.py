@@ -1,9 +1,10 @@
-"""Models of the configuration, a file for each subject; `Configuration` is the whole.
+"""Models (pydantic) of the configuration, a file for each subject; `Configuration` is the whole.
 
-A model states the keys of a section as fields, with types, bounds (`values`, `system`) and
-meanings. Its method `contradictions` checks conditions between keys. Messages about wrong values
-and the reference of the configuration (`python -m impact_damper.workflow.models`) come from the
-same fields. Each file lists its sections with named entries in `SECTIONS`.
+A model states the keys of a section as fields, with types, bounds and meanings; `values` and
+`system` make the types. Its method `contradictions` checks conditions between keys. Messages about
+wrong values and the reference of the configuration (`python -m impact_damper.workflow.models`) come
+from the same fields. In most sections the user chooses the names of the entries; each file lists
+its sections of this kind in `SECTIONS`.
 """
 
 from pydantic import create_model
@@ -37,7 +38,7 @@ ENTRIES = {"oscillators": Oscillators} | {
 
 
 class Settings(Section):
-    """Settings of the whole configuration."""
+    """Settings that hold for all stages."""
 
     results: RESULTS
     seed: SEED

@@ -74,7 +74,8 @@ class RigidCells(Section):
 
 
 class RigidLimit(WithDamper):
-    """The quiet motion between rigid walls, compared with the one with compliant contact."""
+    """The quiet motion between rigid walls, compared with the quiet motion with compliant
+    contact."""
 
     frequency: FREQUENCY
     frequencies: FREQUENCIES
@@ -85,12 +86,13 @@ class RigidLimit(WithDamper):
 
 
 class MissedContacts(WithOscillator):
-    """Contacts near grazing that integrators find and miss."""
+    """Contacts that barely touch the wall (near grazing), and integrators that find or miss
+    them."""
 
     frequency: FREQUENCY
     passages: count("random flights without contact, of a forcing cycle each", **RUNS_RANGE)
     implicit_passages: count(
-        "number of passages, the first ones, on which the implicit Radau method is run",
+        "passages, counted from the first, on which the implicit Radau method is run",
         **RUNS_RANGE,
     )
     radius: RADIUS
@@ -121,7 +123,10 @@ class StableSteps(WithDamper):
 
 
 def close_steps(path, entry):
-    """Yield a line if the range `steps` holds fewer whole numbers than there are tolerances."""
+    """Yield a line if the range `steps` holds fewer different whole numbers than tolerances.
+
+    Methods with fixed steps are compared at as many numbers of steps as others at tolerances.
+    """
     span, points = entry.steps, entry.tolerances.points
     ratio = span.last / span.first
     numbers = {round(span.first * ratio ** (k / (points - 1))) for k in range(points)}

@@ -1,4 +1,7 @@
-"""Machines for which a damper is designed, in SI units: numbers, or texts such as "12 kg"."""
+"""Machines for which a damper is designed.
+
+Quantities are numbers in SI units, or texts with a unit such as "12 kg".
+"""
 
 import re
 from dataclasses import MISSING, fields
@@ -26,8 +29,9 @@ class AllowedQuantity(Allowed):
     quantity : str
         A key of `machine.units.QUANTITIES`.
     bounds : dict
-        Of `check_si`.
+        Keywords of `check_si`: `above`, `least`, `most`, `why`; in SI units.
     meaning : str
+        Description of the value.
     """
 
     def __init__(self, quantity, bounds, meaning):
@@ -55,7 +59,10 @@ def quantity_of(quantity, meaning="", **bounds):
 
 
 def fields_of(part, **meanings):
-    """Return the fields of a model for a dataclass in SI units, with the meaning of each."""
+    """Return the fields of a model for a dataclass with quantities in SI units.
+
+    `meanings` holds the description of each field. A field with a default may be left out.
+    """
     found = {}
     for each in fields(part):
         if "quantity" in each.metadata:
@@ -67,7 +74,7 @@ def fields_of(part, **meanings):
 
 
 class Given(Section):
-    """Base of the models for a dataclass in SI units."""
+    """Base of the models whose keys are the arguments of a dataclass in SI units."""
 
     def values(self) -> dict:
         """Return the values that are given."""
@@ -75,7 +82,7 @@ class Given(Section):
 
 
 class Span(Section):
-    """Even grid of a physical quantity; the first value is less than the last."""
+    """Evenly spaced values of a physical quantity; the first value is less than the last."""
 
     def contradictions(self, path, config):
         quantity = type(self).model_fields["first"].metadata[-1].quantity
@@ -86,7 +93,7 @@ class Span(Section):
 
 
 def span_of(quantity, meaning):
-    """Model of an even grid of a physical quantity."""
+    """Return the model of evenly spaced values of a physical quantity."""
     end = quantity_of(quantity, meaning, above=0)
     return create_model(
         "Span", __base__=Span, first=end, last=end, points=points_of("points of the grid")
@@ -101,7 +108,7 @@ Damper = create_model(
     contact_stiffness=(
         quantity_of(
             "stiffness",
-            "stiffness of the contact; if left out, computed from `contact`, after Hertz",
+            "stiffness of the contact (without it computed from `contact` after Hertz)",
             above=0,
         ),
         None,
@@ -113,11 +120,11 @@ Body = create_model(
     **fields_of(
         Machine,
         mass="mass without the loose mass",
-        linear_stiffness="of the spring",
-        cubic_stiffness="of the spring, negative if it softens",
-        damping_ratio="damping divided by the critical damping; or damping in its place",
+        linear_stiffness="linear stiffness of the spring",
+        cubic_stiffness="cubic stiffness of the spring, negative if the spring softens",
+        damping_ratio="damping divided by the critical damping (give this or `damping`)",
         damping="coefficient of the dashpot",
-        force="amplitude of the force; or one of the next three in its place",
+        force="amplitude of the force (give this or one of the next three keys)",
         base_displacement="amplitude with which the base moves",
         base_acceleration="amplitude of the base's acceleration",
         unbalance="mass times eccentricity of a rotating unbalance",
@@ -126,7 +133,7 @@ Body = create_model(
 
 
 def share_of(what, meaning="largest relative deviation of"):
-    """Optional field of a relative deviation."""
+    """Return an optional field for a relative deviation."""
     return quantity_of("number", f"{meaning} {what}", least=0, most=0.9), None
 
 
@@ -146,7 +153,7 @@ Ball = create_model(
     radius=(
         quantity_of(
             "displacement",
-            "radius of the loose mass where it touches; if left out, no pressure is computed",
+            "radius of the loose mass where it touches (without it no pressure is computed)",
             above=0,
         ),
         None,
@@ -155,9 +162,9 @@ Ball = create_model(
         name: (kind if isinstance(kind, tuple) else (kind, None))
         for name, kind in fields_of(
             Material,
-            youngs_modulus="of loose mass and walls",
-            poissons_ratio="of loose mass and walls",
-            yield_strength="in tension; if left out, yielding is not judged",
+            youngs_modulus="Young's modulus of loose mass and walls",
+            poissons_ratio="Poisson's ratio of loose mass and walls",
+            yield_strength="yield strength in tension (without it yielding is not judged)",
         ).items()
     },
 )
@@ -169,7 +176,7 @@ class MachineEntry(Section):
     machine: Body
     damper: Damper
     contact: Ball = Ball()
-    band: span_of("frequency", "forcing frequency of the band")
+    band: span_of("frequency", "end of the band of forcing frequencies")
     candidates: count("gaps that are compared", least=4, most=1000)
     starts: starts_of("at each gap and frequency")
     share: number(
@@ -233,7 +240,8 @@ class MachineEntry(Section):
         )
 
 
-# Keys of an entry, by the names of `Task` with which a message begins.
+# A message of `design.task.Task` begins with an argument of `Task`. Pairs of a pattern for this
+# argument, and the key of the entry that holds its value.
 PLACES = (
     (r"(mass|restitution|contact_stiffness)\b", r"damper.\1"),
     (r"band\[0\]", "band.first"),
@@ -244,7 +252,7 @@ PLACES = (
 
 
 def _in_entry(message):
-    """Return a message of `Task` with the key of the entry in place of the name of the argument."""
+    """Return a message of `Task` that begins with the key of the entry, not with the argument."""
     for pattern, key in PLACES:
         message = re.sub(f"^{pattern}", key, message)
     return message

@@ -5,8 +5,8 @@ import reprlib
 
 from impact_damper.system.names import nearest
 
-# Numbers that are text in YAML 1.1: with an exponent, but without a point or a sign of the
-# exponent.
+# Numbers with an exponent. YAML 1.1 reads them as text if the point is missing or the exponent has
+# no sign.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 
@@ -35,7 +35,7 @@ def dotted(path) -> str:
 
 
 def one_of(name, known) -> str:
-    """Return the text "must be one of ..." with all known names, and the one nearest to `name`."""
+    """Return the text "must be one of ..." with all known names, and the name nearest to `name`."""
     return f"must be one of {', '.join(known)}{nearest(name, known)}"
 
 

@@ -1,4 +1,7 @@
-"""Methods compared: verdicts of integrators, test cases (scenes) with references, settings."""
+"""Methods compared: verdicts on integrators, test cases (scenes) with references, settings.
+
+A verdict says whether an integrator finds the motion that exists in truth.
+"""
 
 from pydantic import create_model
 
@@ -45,7 +48,7 @@ ORDER = count("order of the series", least=6, most=60)
 
 
 def state(meaning):
-    """Type of a state."""
+    """Return the type of a state: displacement and velocity of Z1 and Z2."""
     return several(COMPONENT, f"Z1, Z1', Z2, Z2': {meaning}", least=4, most=4)
 
 
@@ -65,8 +68,8 @@ class FreeVerdict(Section):
         "forcing cycles of a run, at least the number of states compared", **VERDICT_PERIODS_RANGE
     )
     scipy_every: count(
-        "SciPy's slow methods are run at every tolerance whose number is a multiple of this, "
-        "or never if it is 0",
+        "SciPy's slow methods are run at every tolerance whose position in the list is a multiple "
+        "of this number, or never if it is 0",
         least=0,
         most=100000,
     )
@@ -98,9 +101,9 @@ class Verdicts(WithOscillator):
 
 
 class Accuracy(Section):
-    """The error of a quantity that is acceptable on a scene."""
+    """The accuracy required on a scene: a quantity, and its largest acceptable error."""
 
-    quantity: choice("quantity whose error counts", *ERRORS, *STATISTICS)
+    quantity: choice("quantity whose error is judged", *ERRORS, *STATISTICS)
     within: number("largest error accepted; 0 for a number of contacts", least=0, most=1)
 
 
@@ -111,25 +114,25 @@ class Scene(MaybeWithDamper):
     state: state("first state, at W T = pi/2")
     periods: RUN_PERIODS
     motion: choice(
-        "steady (an orbit as long as the forcing's period), transient or chaotic",
+        "steady (a periodic orbit with the period of the forcing), transient or chaotic",
         "steady",
         "transient",
         "chaotic",
     )
-    tolerance: number("error of the integrator in a step", **TOLERANCE_RANGE) = None
+    tolerance: number("tolerance of the error in a step", **TOLERANCE_RANGE) = None
     accuracy: Accuracy
 
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)
         chaotic, batch = self.motion == "chaotic", config.comparison.batch
         if chaotic and not self.has_damper():
-            reason = "must have a damper (a free one is not)"
+            reason = "must have a damper (free motions are not chaotic here)"
             yield problem((*path, "motion"), self.motion, reason)
         if chaotic and self.periods < 2 * batch:
             reason = f"must be at least twice comparison.batch = {batch} (errors need two batches)"
             yield problem((*path, "periods"), self.periods, reason)
         if chaotic != (self.accuracy.quantity in STATISTICS):
-            reason = f"must be another one (a {self.motion} motion is asked)"
+            reason = f"must be another quantity (the motion is {self.motion})"
             yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
 
 
@@ -152,16 +155,25 @@ class Comparison(ByTolerances):
 
     orders: several(
         several(ORDER, "in flight and in contact", least=2, most=2),
-        "orders of the series in flight and in contact, to compare with those in use",
+        "orders of the Taylor series in flight and in contact, compared with the package's own",
         distinct=True,
     )
     evaluations: Evaluations
     harmonics: count(
-        f"highest harmonic; shooting begins from {START_HARMONICS} of them",
+        "highest harmonic (Newton's method for the exact orbit begins with "
+        f"{START_HARMONICS} harmonics)",
         **HARMONIC_RANGE | {"least": START_HARMONICS},
     )
-    batch: count("forcing cycles of a batch", least=1, most=100000)
-    scipy_periods: count("forcing cycles, two batches at least", **PERIODS_RANGE | {"least": 2})
+    batch: count(
+        "forcing cycles of a batch, a part of a chaotic run (errors follow from the scatter of the "
+        "averages of batches)",
+        least=1,
+        most=100000,
+    )
+    scipy_periods: count(
+        "forcing cycles of a chaotic run by SciPy's methods, at least two batches",
+        **PERIODS_RANGE | {"least": 2},
+    )
 
     def contradictions(self, path, config):
         for key in TOLERANCE_KEYS:

@@ -103,11 +103,11 @@ class Migration(WithDamper):
 
 
 class ReleaseScan(WithDamper):
-    """Motions to which releases of the damper lead, over frequency."""
+    """Motions to which the oscillator settles after the damper is switched off (release)."""
 
     frequencies: FREQUENCIES
     lifetime: count(
-        "forcing cycles within which the motion that has not settled is released",
+        "forcing cycles within which motions that have not settled are released",
         **SCAN_LIFETIME_RANGE,
     )
 
@@ -134,7 +134,7 @@ class ReleasePolicies(WithOscillator):
         FREQUENCY, "frequencies with noise, delay and a wrong model", least=1, distinct=True
     )
     trials: count("trials of each policy", **RUNS_RANGE)
-    tested: count("releases that test the prediction", **RUNS_RANGE)
+    tested: count("releases that test the predicted set of good states", **RUNS_RANGE)
     cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
 
     def contradictions(self, path, config):
@@ -147,7 +147,7 @@ class ReleasePolicies(WithOscillator):
 
 
 class RestitutionCut(Section):
-    """Damper whose restitution varies."""
+    """A damper at several restitutions."""
 
     mass_ratio: MASS_RATIO
     clearance: CLEARANCE

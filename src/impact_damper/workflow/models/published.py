@@ -1,4 +1,4 @@
-"""Published numbers and closed forms with which results of this package are compared."""
+"""Published numbers and closed forms with which results of this package ("ours") are compared."""
 
 from typing import ClassVar
 
@@ -18,18 +18,18 @@ GAP = number("full gap in static deflections", above=0, most=1000)
 FORCE = number("force, with unit stiffnesses", above=0, most=0.05)
 SPRING = number("cubic coefficient, negative for softening", least=-1, most=1)
 SPEED = number("speed before the impact, m/s", above=0, most=10)
-FALLING = "falling; orders are observed between neighbours"
+FALLING = "falling; orders of convergence are observed between neighbouring values"
 
 
 class RigidWalls(Section):
-    """The symmetric motion with two impacts, in all combinations of the lists."""
+    """The symmetric motion with two impacts a cycle, for all combinations of the lists."""
 
     damping_ratio: DAMPING_RATIO
-    restitutions: several(RESTITUTION, least=1, distinct=True)
-    mass_ratios: several(MASS_RATIO, least=1, distinct=True)
-    gaps: several(GAP, least=1, distinct=True)
-    frequencies: several(FREQUENCY, least=1, distinct=True)
-    stiffnesses: several(CONTACT_STIFFNESS, "r1 of ours, increasing", least=2)
+    restitutions: several(RESTITUTION, "values of e", least=1, distinct=True)
+    mass_ratios: several(MASS_RATIO, "values of rm", least=1, distinct=True)
+    gaps: several(GAP, "full gaps in static deflections", least=1, distinct=True)
+    frequencies: several(FREQUENCY, "forcing over natural frequency", least=1, distinct=True)
+    stiffnesses: several(CONTACT_STIFFNESS, "r1 of our contact, increasing", least=2)
 
     counts: ClassVar = ("restitutions", "mass_ratios", "gaps", "frequencies", "stiffnesses")
 
@@ -39,7 +39,7 @@ class RigidWalls(Section):
 
 
 class Falling(Section):
-    """Base of groups with falling mass ratios."""
+    """Base of the groups that compare formulas of first order in the mass ratio."""
 
     mass_ratios: several(MASS_RATIO, FALLING, least=2)
 
@@ -64,36 +64,37 @@ class RingDown(Falling):
 
 
 class TunedMassDampers(Section):
-    """Tuned mass dampers."""
+    """Tuned mass dampers: a spring and a dashpot hold the additional mass."""
 
-    mass_ratios: several(MASS_RATIO, least=1, distinct=True)
+    mass_ratios: several(MASS_RATIO, "values of rm", least=1, distinct=True)
 
 
 class NonlinearAbsorbers(Section):
-    """Nonlinear absorbers."""
+    """Tuned mass dampers with an additional cubic spring."""
 
     mass_ratio: MASS_RATIO
-    forces: several(FORCE, least=1, distinct=True)
+    forces: several(FORCE, "forces, with unit stiffness", least=1, distinct=True)
 
 
 class BasinShares(Section):
-    """Basin shares of the oscillator with five motions."""
+    """Shares of random starts that lead to each motion of an oscillator with five motions."""
 
     starts: count("random starts", least=1, most=MOST_RUNS)
 
 
 class JumpFrequencies(Section):
-    """Jumps of the oscillator without a damper."""
+    """Frequencies at which the response of the oscillator without a damper jumps."""
 
-    springs: several(SPRING, least=1, distinct=True)
-    damping_ratios: several(DAMPING_RATIO, least=1, distinct=True)
+    springs: several(SPRING, "cubic coefficients, negative: softening", least=1, distinct=True)
+    damping_ratios: several(DAMPING_RATIO, "damping ratios", least=1, distinct=True)
     peak: number("force over damping ratio", above=0, most=1)
 
 
 class HertzImpacts(Section):
-    """Impacts of a steel ball."""
+    """Impacts of a steel ball, by Hertz's law and with the linear contact spring of this
+    package."""
 
-    speeds: several(SPEED, least=1, distinct=True)
+    speeds: several(SPEED, "speeds before the impact, m/s", least=1, distinct=True)
 
 
 class Published(Section):

@@ -10,7 +10,9 @@ HEAD = f"""# Reference of the configuration
 
 Every key of `config.yaml` with its allowed values. This page is generated from the models that
 check the configuration, by `python -m impact_damper.workflow.models > config/reference.md`. `NAME`
-stands for a name of your choice: {NAME.__metadata__[-1].words}.
+stands for a name of your choice: {NAME.__metadata__[-1].words}. If a meaning ends with a part after
+a
+semicolon, this part gives the reason for a bound.
 """
 COLUMNS = "| key | must be | meaning |\n|---|---|---|"
 
@@ -32,6 +34,7 @@ def reference() -> str:
 
 
 def _table(model, prefix, keys):
+    """Return the Markdown table of some keys of a model, each with a prefix."""
     lines = [line for key in keys for line in _rows(prefix + key, model.model_fields[key])]
     return "\n".join([COLUMNS, *lines, ""])
 
@@ -54,6 +57,7 @@ def _rows(key, field):
 
 
 def _inner(prefix, model):
+    """Yield the lines of all keys of a model."""
     for key, field in model.model_fields.items():
         yield from _rows(prefix + key, field)
 
@@ -71,6 +75,7 @@ def _ranges(kind):
 
 
 def _allowed(metadata):
+    """Return the last `Allowed` in the metadata of a type, or None."""
     return next((x for x in reversed(metadata) if isinstance(x, Allowed)), None)
 
 

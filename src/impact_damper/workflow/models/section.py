@@ -10,14 +10,14 @@ from impact_damper.workflow.models.messages import problem
 class Section(BaseModel):
     """Keys with values. An unknown key is an error, as is a missing key without a default.
 
-    Subclasses state their keys as fields. Their method `contradictions` finds problems between
-    values that are allowed individually.
+    Subclasses state their keys as fields. Their method `contradictions` finds combinations of
+    values that contradict each other although each value is allowed.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield a line for each problem between values.
+        """Yield a line for each contradiction between values.
 
         Parameters
         ----------

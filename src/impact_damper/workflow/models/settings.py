@@ -27,7 +27,7 @@ RADIUS = number("radius of the ball from which random starts are drawn", **RADIU
 class Points(Section):
     """Numbers of points of grids."""
 
-    harmonic_balance: points_of("frequencies at which harmonic balance is solved")
+    harmonic_balance: points_of("frequencies at which equations of harmonic balance are solved")
     free: points_of("frequencies of simulated motions without a damper")
     simulated: points_of("frequencies of simulated motions with a damper")
     clearances: points_of("clearances of the sweep for an optimum")
@@ -49,14 +49,14 @@ class Search(Section):
     scan_starts: starts_of("at each frequency of a release scan")
     study_starts: starts_of("in each cell of a study")
     radius: RADIUS
-    life_runs: count("runs that measure the life of a chaotic motion", least=0, most=1000)
-    life_periods: count("forcing cycles of these runs", **LIFETIME_RANGE)
+    life_runs: count("runs that measure how long a chaotic motion lasts", least=0, most=1000)
+    life_periods: count("forcing cycles of the runs `life_runs`", **LIFETIME_RANGE)
 
 
 class Settling(Section):
     """Length and tolerance of runs."""
 
-    scene: text("name of an entry of `scenes` that has a tolerance")
+    scene: text("name of the entry of `scenes` whose tolerance all runs use")
     patience: count(
         "forcing cycles after which a motion that is certainly chaotic is stopped",
         **PATIENCE_RANGE,
@@ -86,5 +86,8 @@ class Controller(Section):
 
     trials: count("runs of each case", **RUNS_RANGE)
     periods: count("forcing cycles of a run after which no switching begins", **PERIODS_RANGE)
-    releases: count("releases of each damped motion, and lives watched", **RUNS_RANGE)
-    lifetime: count("forcing cycles for which lives are watched", **LIFETIME_RANGE)
+    releases: count(
+        "releases of each motion with damper; as many long runs with damper measure lifetimes",
+        **RUNS_RANGE,
+    )
+    lifetime: count("forcing cycles of the long runs", **LIFETIME_RANGE)

@@ -1,4 +1,4 @@
-"""Keys for the parameters of the model: oscillator, damper, forcing, and ranges of them.
+"""Keys for the parameters of oscillator, damper and forcing, and for ranges of these parameters.
 
 The keys of an oscillator and of a damper are the fields of `Oscillator` and `Damper`, which hold
 their bounds and meanings. A new field becomes a new key of all sections with an oscillator or
@@ -44,7 +44,8 @@ def points_of(meaning):
 
 
 def keys_of(names, *, needed=(), without=()):
-    """Return a base of models with keys for parameters; all but those needed are optional."""
+    """Return a base class of models with a key for each parameter; keys not `needed` are
+    optional."""
     types = {
         name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
         for name in names
@@ -63,7 +64,7 @@ class Range(Section):
 
 
 def range_of(kind, *, points=False):
-    """Return the model of a range of values of a type, with or without a number of points."""
+    """Return the model of a range; `kind` is the type of its ends, `points` adds their number."""
     types = {"first": kind, "last": kind} | (
         {"points": points_of("points of the grid")} if points else {}
     )
@@ -95,8 +96,9 @@ class WithOscillator(Section):
             yield problem((*path, "oscillator"), self.oscillator, reason)
 
 
-# The key of the contact stiffness, which is the same for all dampers of a configuration.
+# The contact stiffness is a key of the whole configuration, common to all dampers.
 COMMON = "contact_stiffness"
+# Parameters that a damper must have.
 NEEDED = ("mass_ratio", "clearance", "restitution")
 
 
@@ -123,6 +125,6 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
 
 
 def given(section, names) -> dict:
-    """Return the values in a section for those of the names that it has."""
+    """Return the values that a section has under some names; names without a value are left out."""
     found = {name: getattr(section, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}

@@ -1,9 +1,9 @@
-"""Types of values in the configuration, with a text on the values that each allows.
+"""Types of values in the configuration, each with a text on the values that it allows.
 
 The functions return types for fields of pydantic models. The types are strict: 3.0 is not a whole
-number, and neither NaN, infinity nor text is a number. `meaning` describes the value, and `why`
-gives the reason for its bounds. Both are shown when a value is rejected, and in the reference of
-the configuration.
+number, and neither NaN, infinity nor text is a number. The argument `meaning` describes the value,
+and `why` gives the reason for its bounds. Both are shown when a value is rejected, and in the
+reference of the configuration.
 """
 
 from typing import Annotated, Literal
@@ -13,7 +13,8 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from impact_damper.system.bounds import plain
 
-# Tags that pydantic adds to the path of a value of several possible types; no key has such a name.
+# Tags that pydantic adds to the path of a value that may have one of two types. Keys cannot have
+# these names.
 NUMBER, RANGE = "<number>", "<range>"
 
 
@@ -27,8 +28,8 @@ class Allowed:
     meaning, why : str
         Description of the value, and reason for its bounds.
     test : callable, optional
-        For a list or mapping: a check of its type and length. `words` is the message of this check
-        only; values inside have their own messages.
+        For a list or mapping: a function that returns whether its type and length are allowed.
+        `words` is the message of this test only; values inside have their own messages.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -53,7 +54,7 @@ class Allowed:
             handler(value)
         except ValidationError:
             raise self._error() from None
-        # the value as the user wrote it: pydantic would turn 2 into a float
+        # The value as the user wrote it: pydantic would turn the integer 2 into 2.0.
         return value
 
     def _error(self, reason=""):

@@ -1,5 +1,7 @@
 """The registry: one record for each stage, table and kind of figure, by chapter of the report.
 
+A stage is a step of the workflow that makes a dataset for each entry of a section of the
+configuration.
 Rules, targets, scripts, the checks of the configuration and the tests take their lists from here.
 Every dry run imports the registry, so it must not import modules that load slowly.
 """

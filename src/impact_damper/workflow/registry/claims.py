@@ -1,4 +1,4 @@
-"""Chapter of the report: claims of the paper."""
+"""Chapter of the report: claims of the paper, judged by the data of the other chapters."""
 
 from impact_damper.workflow.registry.records import Table
 

@@ -1,4 +1,7 @@
-"""Chapter of the report: optimum clearance."""
+"""Chapter of the report: optimum clearance.
+
+The functions with the names of stages return the parameters of the job of an entry.
+"""
 
 import math
 

@@ -1,4 +1,7 @@
-"""Chapter of the report: schematics of the models, and harmonic balance."""
+"""Chapter of the report: schematics of the models, and harmonic balance.
+
+The functions with the names of stages return the parameters of the job of an entry.
+"""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
 from impact_damper.workflow.registry.values import frequencies, search, settling, system

@@ -1,4 +1,7 @@
-"""Chapter of the report: dampers designed for machines in SI units, beside the paper."""
+"""Chapter of the report: dampers designed for machines in SI units, which the paper does not have.
+
+The function `machines` returns the parameters of the job of an entry.
+"""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
 from impact_damper.workflow.registry.values import settling

@@ -1,4 +1,7 @@
-"""Chapter of the report: methods compared."""
+"""Chapter of the report: methods compared.
+
+The functions with the names of stages return the parameters of the job of an entry.
+"""
 
 from impact_damper.system.parameters import Damper, Oscillator, pick
 from impact_damper.workflow.registry.records import Kind, Stage, Table
@@ -15,7 +18,7 @@ from impact_damper.workflow.registry.values import (
 def balance_map(config, name):
     entry = config["balance_map"][name]
     given = pick(Oscillator, entry) | pick(Damper, entry)
-    # `balance_map` follows rule (19) in each row if it is given no clearance.
+    # Without a clearance the stage takes the clearance of the paper's rule (19) in each row.
     fixed = {key: value for key, value in given.items() if value != "rule"}
     return {
         "parameter": entry["parameter"],

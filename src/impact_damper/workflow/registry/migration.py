@@ -1,4 +1,7 @@
-"""Chapter of the report: migration control."""
+"""Chapter of the report: migration control, from one motion to another by switching the damper.
+
+The functions with the names of stages return the parameters of the job of an entry.
+"""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
 from impact_damper.workflow.registry.values import (

@@ -1,4 +1,7 @@
-"""Chapter of the report: numbers that others published beside those computed here."""
+"""Chapter of the report: numbers that others published, beside the numbers computed here.
+
+The function `published` returns the parameters of the job of an entry.
+"""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
 from impact_damper.workflow.registry.values import settling

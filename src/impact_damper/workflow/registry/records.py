@@ -21,11 +21,11 @@ class Stage(NamedTuple):
         Stages whose datasets of the same entry the job reads.
     paper : bool
         Whether the command `snakemake` without a target makes the data of the stage. Otherwise only
-        the target `all_<name>` does, together with the figures and tables of its chapter. All
-        stages of a chapter must have the same value.
+        the targets `all_<name>` and `everything` do, together with the figures and tables of its
+        chapter. All stages of a chapter must have the same value.
     page : tuple of str
-        Figures of the page of each entry, in a folder with the name of the entry; empty if the
-        stage makes no pages.
+        If the stage makes a page for each entry: names of the figures on this page. Otherwise
+        empty.
     """
 
     name: str
@@ -52,8 +52,8 @@ class Table(NamedTuple):
     caption : str
         Its caption in the report.
     pictures : bool
-        Whether its Markdown shows figures: its `document` gets the names of those that the run
-        draws.
+        Whether its Markdown shows figures. The function `document` of its module then gets the
+        names of the figures that the run draws.
     """
 
     name: str
@@ -76,8 +76,8 @@ class Kind(NamedTuple):
     most : int
         Largest number of entries in a figure.
     damper : bool
-        Whether its curves have a damper. The curves without damper of the same oscillators are then
-        drawn too.
+        If it draws entries of `curves`: whether they must have a damper. If so, and if it draws the
+        stage `branches`, it also draws the curves of the same oscillators without damper.
     named : bool
         Whether the caption names each entry.
     """

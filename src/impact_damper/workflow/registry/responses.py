@@ -1,4 +1,7 @@
-"""Chapter of the report: frequency responses."""
+"""Chapter of the report: frequency responses.
+
+The functions with the names of stages return the parameters of the job of an entry.
+"""
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table
 from impact_damper.workflow.registry.values import frequencies, search, settling, system
@@ -62,14 +65,14 @@ TABLES = (
         "bands",
         "tables.responses",
         ("harmonic_balance", "branches", "response"),
-        "Suppression bands by harmonic balance and by the motions that exist.",
+        "Suppression bands by harmonic balance and by the motions found.",
     ),
     Table(
         "outcomes",
         "tables.motions",
         ("response", "subharmonic", "optimum", "studies", "balance_map"),
-        "Number of random starts with each outcome, for each file. The CSV counts unresolved "
-        "motions by the sign of their Lyapunov exponent.",
+        "Number of random starts with each outcome, for each dataset. The CSV file also counts "
+        "unresolved motions by the sign of their Lyapunov exponent.",
     ),
     Table(
         "quasi_periodic",
@@ -82,27 +85,28 @@ TABLES = (
         "tables.motions",
         ("branches",),
         "Tori that split off from stable orbits at their Neimark-Sacker points. The growth is the "
-        "change of the logarithm of the amplitude in a period over the square of the amplitude; "
-        "where it is negative the torus is stable. Stable tori were run onto close to the point at "
-        "two Ω, of which the closer one is given; the rotation number is extrapolated to the point "
-        "and must equal the angle of the multiplier. No frequency: the torus was not met at these "
-        "Ω, as its orbit ends, locks or becomes chaotic too soon. Not found out: a grazing or the "
-        "resonance 1:3 is too close. Orbits that are unstable on both sides of their point are "
-        "left out.",
+        "change of the logarithm of the amplitude in a period, divided by the square of the "
+        "amplitude; if it is negative the torus is stable. Motions on stable tori were simulated "
+        "at two Ω near the point; the table gives the nearer Ω. The rotation number is "
+        "extrapolated to the point, where it must equal the angle of the multiplier. No "
+        "frequency: no torus was found at these Ω, because its orbit ends, locks or becomes "
+        "chaotic too soon. Not found out: a grazing or the resonance 1:3 is too close. Orbits that "
+        "are unstable on both sides of their point are left out.",
     ),
     Table(
         "shares",
         "tables.motions",
         ("response", "optimum"),
         "Motions to which at least 5 % of random starts lead at some Ω or d0: the largest share of "
-        "starts with its 95 % interval, and the bound on the share of a motion not seen.",
+        "starts with its 95 % interval, and the bound on the share of a motion to which no start "
+        "led.",
     ),
     Table(
         "chaos",
         "tables.motions",
         ("response", "branches"),
         "Chaotic motions of the responses that are larger than half of the free resonance, and "
-        "their mean lives with 95 % intervals. The upper end is empty where no run ended.",
+        "their mean lives with 95 % intervals. The upper end is empty if chaos ended in no run.",
     ),
     Table(
         "subharmonic",

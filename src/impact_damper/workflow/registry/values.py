@@ -16,19 +16,19 @@ def damper(config, entry) -> dict | None:
 
 
 def settling(config) -> dict:
-    """Return the arguments of `Settling`, with the tolerance of the scene `settling.scene`."""
+    """Return the arguments of `Settling`; the tolerance is that of the entry `settling.scene`."""
     given = {key: value for key, value in config["settling"].items() if key != "scene"}
     return given | {"tolerance": config["scenes"][config["settling"]["scene"]]["tolerance"]}
 
 
 def search(config, starts) -> dict:
-    """Return the arguments of a search: radius, seed, and starts from this key of `search`."""
+    """Return the arguments of a search: radius, seed, and the number under `starts` of `search`."""
     given = config["search"]
     return {"starts": given[starts], "radius": given["radius"], "seed": config["seed"]}
 
 
 def grid(span, points) -> list:
-    """Return the arguments of `numpy.linspace` for a range."""
+    """Return the arguments of `numpy.linspace` for a range with the keys `first` and `last`."""
     return [span["first"], span["last"], points]
 
 
