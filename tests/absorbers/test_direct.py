@@ -1,4 +1,4 @@
-"""The best absorber by direct search: its linear limit, its neighbours, and exact motions."""
+"""The best absorber by direct search, against the linear limit, its neighbours, exact motions."""
 
 from dataclasses import replace
 

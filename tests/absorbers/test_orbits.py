@@ -43,7 +43,7 @@ def equation(absorber, hertz, share):
 
 
 def test_orbits_by_scipy(found):
-    """They close, are symmetric, have the same displacement, and lose the work of the force."""
+    """By SciPy orbits close, are symmetric, and balance their energy; displacements agree."""
     absorber, _, orbits = found
     unit = [HARD.scales.length, np.nan, HARD.scales.length, np.nan]
     for problem, state, sizes in zip(orbits.problem, orbits.state, orbits.largest, strict=True):

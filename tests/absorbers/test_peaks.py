@@ -39,7 +39,7 @@ def test_peaks_of_orbits_are_those_of_a_fine_grid():
 
 
 def test_a_peak_at_a_fold():
-    """The highest orbit of a hardening machine is the last before the fold."""
+    """The peak of a hardening machine without an absorber is the last orbit before the fold."""
     machine = Machine(**SPRING, cubic_stiffness=4e9)
     frequencies = np.array([20.0, 25.0, 30.0, 40.0])
     problems = problems_of(machine, None, frequencies, [1.0])

@@ -31,7 +31,7 @@ FREQUENCIES = [18.0, 20.5, 23.0]
 
 @pytest.mark.parametrize("name", LINEAR)
 def test_linear_machines(name):
-    """The closed form is the solution of the equations in SI units, and the orbit found."""
+    """The closed form against the equations in SI units and against the orbit of a search."""
     machine = LINEAR[name]
     data = absorber_responses(machine, 0.6, FREQUENCIES, [1.0, 2.0], band=(10, 40))
     absorber = exact_absorber(machine, 0.6, (10, 40))
@@ -71,7 +71,7 @@ def test_what_is_not_possible_is_said():
 
 @pytest.mark.thorough
 def test_the_published_nonlinear_absorber():
-    """Both peaks of Habib and others, by a balance of four harmonics written down apart."""
+    """Both peaks of Habib and others, against a separate program that balances four harmonics."""
     machine = Machine(mass=1, linear_stiffness=1, cubic_stiffness=1, damping_ratio=1e-6, force=0.03)
     published = AbsorberOnDuffing(0.05, 1.0, tuned_cubic(0.05, 1.0), 0.03).peaks()
     hertz = published.frequencies / (2 * np.pi)
@@ -107,7 +107,7 @@ def test_a_motion_without_a_period_by_scipy():
 
 @pytest.mark.thorough
 def test_a_motion_without_a_period_that_few_starts_reach():
-    """It is found from its neighbours in frequency and force where no random start leads to it."""
+    """Where no random start leads to it, it is found from neighbouring frequencies and forces."""
     machine, absorber = HARD, best_absorber(HARD, 0.6, (20, 32))
     frequencies, shares = np.linspace(23.0, 27.5, 16), [2.83, 4.0]
     problems = problems_of(machine, absorber, frequencies, shares)
@@ -120,7 +120,7 @@ def test_a_motion_without_a_period_that_few_starts_reach():
 
 
 def test_a_detached_resonance():
-    """Beside the motion from rest there is one of twice its size, far above the two peaks."""
+    """Above both peaks there is a second motion, of twice the size of the motion from rest."""
     machine = Machine(mass=1, linear_stiffness=1, cubic_stiffness=1, damping=0.002, force=0.13)
     absorber, w = nonlinear_absorber(machine, 0.05), 1.85
     problems = problems_of(machine, absorber, [w / (2 * np.pi)], [0.8, 1.0])
@@ -165,7 +165,7 @@ def test_a_softening_machine_escapes_from_some_starts():
 
 @pytest.mark.thorough
 def test_wider_searches_find_nothing_larger():
-    """With the starts that a table has, no motion is missed that many starts reach."""
+    """A search from 4 starts, as for the tables, misses no motion that 32 starts reach."""
     few = absorber_responses(HARD, 0.6, [21, 24, 28], [1.0, 4.0], detunings=[0.0], starts=4)
     many = absorber_responses(
         HARD, 0.6, [21, 24, 28], [1.0, 4.0], detunings=[0.0], starts=32, seed=7

@@ -56,7 +56,7 @@ def test_peaks_are_equal_and_no_other_tuning_has_lower_ones(name):
 
 
 def test_den_hartogs_fixed_points():
-    """With two dampings the curves cross where both are sqrt(1 + 2/m) static deflections high."""
+    """Curves for two dampings cross at the height of sqrt(1 + 2/m) static deflections."""
     absorber, frequencies = den_hartog_absorber(UNDAMPED, 0.6), np.linspace(15, 26, 200001)
     first, second = (
         response(UNDAMPED, replace(absorber, damping=d), frequencies) for d in (10.0, 30.0)

@@ -1,7 +1,9 @@
-"""The best absorbers of the configured machines, which some pages name the winner, by SciPy.
+"""Displacements of the configured machines with their best absorbers, against SciPy.
 
-From rest and from a random start the machine with the absorber, as designed and detuned for the
-worse, settles to the largest motion that the comparison names, where it is largest.
+The best absorber of the comparison is called the winner on some pages. SciPy integrates the machine
+with this absorber at the frequency of its largest displacement, from rest and from a random start.
+The absorber is as designed, or detuned to the worse side. The larger of both motions must have the
+displacement that the comparison states.
 """
 
 import numpy as np
@@ -19,7 +21,7 @@ PERIODS, SAMPLES = 120, 64
 
 
 def largest(machine, values, mass, hertz, start):
-    """Largest displacement (m) in the last ten of PERIODS periods, by the equations in SI units."""
+    """Return the largest displacement (m) in the last ten of PERIODS cycles, in SI units."""
     stiffness, damping, cubic = values
     c, angular = machine.viscous_damping, 2 * np.pi * hertz
     amplitude = machine.force

@@ -44,7 +44,7 @@ def run(frequency, states, begin, end):
 
 @pytest.fixture(scope="module", params=FREQUENCIES)
 def free(request):
-    """Frequency, packed parameters and attractors of the free oscillator."""
+    """Return frequency, packed parameters and attractors of the free oscillator."""
     p = pack(CUBIC, None, request.param)
     return request.param, p, free_attractors(p, WINDOW, Settling())
 
@@ -78,7 +78,8 @@ def test_neighbourhoods_contract(free):
         strobe = np.pi / 2 / frequency
         after = run(frequency, edge, strobe, strobe + n * period) - centre
         assert np.max(np.linalg.norm(after @ shape.T, axis=1)) < 1
-        # the neighbourhood is not needlessly small: runs shorten with the logarithm of its size
+        # The neighbourhood is not needlessly small. A run lasts until it enters a
+        # neighbourhood.
         assert np.sqrt(abs(np.linalg.det(shape))) < 300
 
 
@@ -128,10 +129,10 @@ def in_cells(data, x, v):
 @pytest.mark.thorough
 @pytest.mark.parametrize("phase", [np.pi / 2, 3.0])
 def test_boundaries_are_stable_manifolds(phase):
-    """Labels change within a cell of a stable manifold, and change wherever there is one.
+    """Labels change only near a stable manifold, and change everywhere along one.
 
-    The second is said of the unstable motion of period 1, whose manifold is a simple curve; that of
-    period 3 winds more closely than the cells are wide.
+    Near means within a cell. The second statement is tested for the unstable orbit of period 1,
+    whose manifold is a simple curve. The manifold of period 3 has windings closer than a cell.
     """
     plane = {"displacement": 1.2, "velocity": 1.6, "cells": 240, "phase": phase}
     data = basins(CUBIC, None, 1.85, **plane)
@@ -153,7 +154,7 @@ def test_boundaries_are_stable_manifolds(phase):
 
 
 def test_attractors_are_those_of_the_free_response():
-    """Three motions coexist at W = 1.85, with the sizes of the stage migration's tests."""
+    """Three motions coexist at W = 1.85; the sizes are also used in the tests of `migration`."""
     data = basins(CUBIC, None, 1.85, cells=60)
     assert_array_equal(data["attractor_period"], [1, 3, 1])
     assert_allclose(data["attractor_displacement"][:2], [0.29604, 0.84606], atol=1e-5)
@@ -207,6 +208,6 @@ def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():
 
 
 def test_the_numbers_of_labels_stand_in_the_registry():
-    """The kernels may not import it."""
+    """The kernels may not import the registry, so they repeat two of its numbers."""
     assert labels.ESCAPED == BASIN_LABEL["escaped"]
     assert labels.UNRESOLVED == BASIN_LABEL["unresolved"]

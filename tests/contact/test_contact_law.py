@@ -15,7 +15,7 @@ LONG = 20.0
 
 
 def integrated(restitution, load, rule):
-    """Return SciPy's solution of a contact, and time and speed at its end; None without an end."""
+    """Return SciPy's solution of a contact, and (time, penetration, speed) at its end, or None."""
     z = damping_ratio(restitution)
 
     def rate(_, y):
@@ -57,11 +57,10 @@ def test_against_its_differential_equation(restitution, load, rule):
 
 @pytest.mark.parametrize("restitution", [0.05, 0.3, 0.6, 0.75, 0.9, 1.0])
 def test_without_load(restitution):
-    """The restitution is e.
+    """Without load the restitution is e, or the closed form for walls that cannot pull.
 
-    With walls that cannot pull it is equation (21) of Schwager and Poeschel (2007).
-
-    Granular Matter 9, 465-469: exp(-(z/w) (pi - atan(2 z w/(w^2 - z^2)))).
+    This form is exp(-(z/w) (pi - atan(2 z w/(w^2 - z^2)))), equation (21) of Schwager and Poeschel,
+    Granular Matter 9, 465-469, 2007.
     """
     z = damping_ratio(restitution)
     w = math.sqrt(1 - z * z)
@@ -82,8 +81,9 @@ def test_an_elastic_contact_returns_what_it_got_whatever_the_load(load):
 
 @pytest.mark.parametrize(("restitution", "load"), [(0.3, 0.05), (0.3, -1), (0.75, 0.2), (0.9, -3)])
 def test_energy_and_impulses(restitution, load):
-    """Compare the energy that the dashpot dissipates, 2 z times the integral of u'^2, and the
-    impulse of the pull with quadratures.
+    """Energy lost in the dashpot and impulse of the pull against numerical integrals.
+
+    The dashpot dissipates 2 z times the integral of u'^2.
     """
     z = damping_ratio(restitution)
     solution, (end, *_) = integrated(restitution, load, "zero_penetration")
@@ -106,7 +106,7 @@ def test_energy_and_impulses(restitution, load):
 
 @pytest.mark.parametrize("restitution", [0.3, 0.75, 0.95])
 def test_first_order_in_the_load(restitution):
-    """The restitution changes by -2 z (1 + e) G; the remainder falls fourfold as G is halved."""
+    """A load G changes the restitution by -2 z (1 + e) G plus a remainder of order G^2."""
     slope = -2 * damping_ratio(restitution) * (1 + restitution)
     left = [
         contact(restitution, load, "zero_penetration").departure - restitution - slope * load

@@ -26,8 +26,9 @@ def rigid(damper, frequency, oscillator=PAPER):
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC, Damper(3.0, 1.0, 0.1)])
 @pytest.mark.parametrize("side", [-1, 1])
 def test_one_impact(damper, side):
-    """Momentum is conserved, Z2' becomes -e Z2', and the energy falls by (1 - e^2) m Z2'^2/2
-    with the reduced mass m.
+    """An impact conserves momentum and changes Z2' to -e Z2'.
+
+    The energy falls by (1 - e^2) m Z2'^2/2 with the reduced mass m.
     """
     mass, e = damper.mass_ratio, damper.restitution
     before = np.array([0.3, -0.4, side * damper.clearance, side * 1.7])
@@ -130,7 +131,7 @@ def test_derivative(damper, name):
 
 @pytest.mark.parametrize(("damper", "name"), CASES)
 def test_compliant_contact_comes_to_it(damper, name):
-    """State and derivative of the map over a period differ by r1^(-1/2)."""
+    """State and derivative of the map over a period differ from compliant contact by r1^(-1/2)."""
     y = polished_orbit(name).state
     state, matrix, *_ = rigid_map(rigid(damper, 2.0), damper.restitution, y, 1e-13)
     errors = []
@@ -142,8 +143,9 @@ def test_compliant_contact_comes_to_it(damper, name):
 
 
 def test_chatter_ends_with_a_status():
-    """A loose mass that is pressed to a wall and loses nearly all its speed at each impact
-    chatters: infinitely many impacts would follow each other, and the map stops with a status.
+    """A loose mass that is pressed to a wall and loses nearly all its speed at an impact chatters.
+
+    Infinitely many impacts would follow each other in a finite time. The map stops with a status.
     """
     damper = Damper(0.12, 2.0, 0.05)
     y = np.array([-2.0, 0.0, 1.999, 0.0])

@@ -92,7 +92,7 @@ def test_flags(small):
 
 
 def test_file_as_other_programs_see_it(small, tmp_path):
-    """CF attributes, no fill value where nothing can be missing, NaN where something is."""
+    """The file has CF attributes, NaN for a missing number, and no fill value for other types."""
     path = tmp_path / "below" / "small.nc"
     datasets.save(small, path)
     with netCDF4.Dataset(path) as file:
@@ -133,9 +133,9 @@ def test_nothing_is_left_of_a_failure(small, tmp_path, monkeypatch):
 
 
 def test_every_damage_is_told_or_harms_nothing(small, tmp_path):
-    """Bytes are changed, lost or made zero anywhere in the file."""
+    """If bytes are changed, lost or zero, reading fails or gives equal data."""
     path = tmp_path / "small.nc"
-    extremes = [-np.nan, -0.0]  # the sign of NaN and of zero may differ
+    extremes = [-np.nan, -0.0]  # a file need not keep the sign of NaN
     small = small.assign(method=("motion", ["one", "another"]), displacement=("motion", extremes))
     small = small.assign(walls=("event", np.array([], object)))
     datasets.save(small, path)

@@ -1,4 +1,4 @@
-"""Motions of a sweep, from the numbers that say which of them are the same."""
+"""Motions of a sweep with the same branch number are one motion."""
 
 import numpy as np
 from helpers.made_up import matched_sweep

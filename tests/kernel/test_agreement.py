@@ -1,4 +1,4 @@
-"""Fast and right: 10 080 random starts over 3 periods, each against the 80-bit reference."""
+"""The kernels against the 80-bit reference: 10 080 random starts, each run over 3 cycles."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def test_there_are_ten_thousand_starts():
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_kernel_agrees_with_the_reference(kernel, tolerance, kind):
-    """Numbers of contacts agree, and states within 10 tolerances times growth.
+    """Numbers of contacts agree, and states agree within 10 tolerances times the growth of errors.
 
     Starts for which rounding decides whether a contact takes place are counted separately.
     """

@@ -1,4 +1,4 @@
-"""Kernels called by address return what they return when called, and failures to compile raise."""
+"""A kernel called by address returns the same as called directly, and failures to compile raise."""
 
 import os
 import subprocess
@@ -58,7 +58,8 @@ import module_of_kernels as module
 print(module.twice(np.zeros(1)), sum(module.twice.stats.cache_hits.values()))
 """
 
-# The signal comes while the module's kernel is compiled; later the import is tried again.
+# Ctrl-C (SIGINT) arrives while the kernel of the module is compiled. USE then imports the module
+# again.
 INTERRUPTED = """
 import os
 import signal

@@ -1,4 +1,4 @@
-"""The import of the package changes no setting of numba; folder and message of compiling."""
+"""The import of the package changes no setting of numba. Folder and message of its compilation."""
 
 import os
 import shutil
@@ -84,7 +84,7 @@ def test_compiling_says_so_once_when_it_takes_longer_than_a_second(module, secon
 
 
 def digest(package):
-    """`source_digest` of a copy of the package."""
+    """Return what `source_digest` returns in a copy of the package."""
     code = "from impact_damper.kernel import source_digest; print(source_digest())"
     environment = os.environ | {"PYTHONPATH": str(package.parent)}
     return subprocess.check_output([sys.executable, "-c", code], env=environment)

@@ -45,9 +45,9 @@ def case(request):
 
 
 def field(p, touching, t, y):
-    """Return the rate by equations (3), (4), (20) to (24) literally.
+    """Return the derivative of the state y by equations (3), (4) and (20) to (24).
 
-    Y[2] is Z2 from the wall touched.
+    In contact y[2] is the penetration of the wall in place of Z2.
     """
     p = p.astype(Real)
     force = p[CONTACT_STIFFNESS] * y[2] + p[DASHPOT] * y[3] if touching else Real(0)
@@ -73,8 +73,10 @@ def extrapolate(p, touching, t, y, length, columns=8):
 
 
 def test_replay_by_extrapolation(case):
-    """Integrated by another method, the loose mass is at a wall at each logged event, and
-    between two events on the side that the log gives.
+    """Integrate between the logged events by another method, extrapolation.
+
+    The loose mass is then at a wall at each event, and between two events on the side of the wall
+    that the log states.
     """
     p, state, start, times = case
     run = extended.run(p, state, start, times)
@@ -176,9 +178,9 @@ def test_grazing_to_the_last_digit(damper, exponent):
 
 @pytest.mark.parametrize("exponent", range(2, 15))
 def test_quick_return_to_the_wall_left(exponent):
-    """A mass that leaves the wall at speed v and is pushed back with a returns at 2 v/a.
+    """A mass that leaves the wall at speed v, pushed back with acceleration a, returns after 2 v/a.
 
-    The root at time 0 must not hide this one.
+    The search for this contact must not end at the separation at time 0.
     """
     p = pack(PAPER, DESIGN, 2.0)
     for wall in (1, -1):

@@ -27,7 +27,7 @@ def test_flights_are_those_of_scipy(name):
 
 @pytest.mark.parametrize("name", SPRINGS)
 def test_motions_with_contacts_in_other_units(name):
-    """Powers of two keep all digits of the numbers, but for the error allowed in a step."""
+    """Units that are powers of two keep all digits; only the allowed error of a step differs."""
     length, time = 0.25, 4.0
     state, scale = np.array([0.1, 0.2, 0.3, 1.5]), np.array([1, time, 1, time]) / length
     other, damper, frequency = in_other_units(SPRINGS[name], DAMPER, 1.3, length, time)

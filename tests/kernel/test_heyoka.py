@@ -23,7 +23,7 @@ DAMPERS = pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic",
 
 
 def compare(heyoka_references, p, state, start, times, atol, side=0):
-    """States at given times and all contacts of both references and of the kernel."""
+    """Compare states and all contacts of the kernel with both references; return its contacts."""
     states, log = sample(p, state, start, times, 1e-14)
     for reference in heyoka_references:
         expected = reference.run(p, state, start, times, side)
@@ -47,7 +47,7 @@ def test_error_stays_within_ten_tolerances(known_orbit, heyoka_references, toler
 
 
 def test_whole_motion(known_orbit, heyoka_references):
-    """All samples, those in contact included, and all contacts agree."""
+    """All samples, in flight and in contact, and all contacts agree."""
     times = known_orbit.strobe + np.linspace(0, 5, 401)[1:] * known_orbit.period
     log = compare(
         heyoka_references,
@@ -74,7 +74,10 @@ def test_start_in_contact(heyoka_references, damper, linear_frequency, speed):
 
 
 def grazing_state(reference, p, depth):
-    """Return a state whose Z2 without walls has its first maximum `depth` beyond one, and when."""
+    """Return a start, and the time at which Z2 has its first maximum, `depth` beyond the wall.
+
+    For this maximum the walls are taken away.
+    """
     state = np.array([0.3, 0.5, 0.0, 0.9])
     unbounded = p.copy()
     unbounded[CLEARANCE] = 16.0

@@ -23,7 +23,7 @@ WITH_LINEAR_SPRING = Oscillator(0.15, 1.2)
 
 
 def period_of_contacts(known_orbit):
-    """Contacts in one period from mid-flight."""
+    """Return the log of all contacts in one period, which begins in mid-flight."""
     _, log = sample(
         known_orbit.parameters,
         known_orbit.state,
@@ -50,7 +50,7 @@ def test_momentum_through_every_contact(impacting_orbit):
 
 
 def energy(p, mass_ratio, state):
-    """Stored in oscillator and loose mass; nothing is stored in the walls in mid-flight."""
+    """Return the energy of oscillator and loose mass. In flight the walls store no energy."""
     x, v, _, w = state
     return v**2 / 2 + p[STIFFNESS] * x**2 / 2 + x**4 / 4 + mass_ratio * (v - w) ** 2 / 2
 
@@ -106,7 +106,7 @@ def test_symmetry(known_orbit):
 
 
 def isolated_contact(mass_ratio, restitution, stiffness):
-    """Observed restitution and change of the oscillator's speed when it is hit at rest."""
+    """Return restitution, speed of the oscillator after it is hit at rest, and time in contact."""
     p = pack(PAPER, Damper(mass_ratio, 1.0, restitution, stiffness), 2.0)
     strobe = math.pi / 4
     state = [0.0, 0.0, 1.0, 1.0]
@@ -119,8 +119,10 @@ def isolated_contact(mass_ratio, restitution, stiffness):
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.12, 1.0, 10.0])
 @pytest.mark.parametrize("restitution", [0.3, 0.6, 0.75, 0.9, 1.0])
 def test_restitution_of_an_isolated_contact(mass_ratio, restitution):
-    """(25) and the impulse law hold up to an error of forcing and springs, of the order
-    r1^(-1/2) of the time in contact.
+    """(25) and the law of the impulse hold in the limit of an infinite contact stiffness r1.
+
+    Forcing and springs, which also act during a contact, cause an error in proportion to the time
+    in contact, of order r1^(-1/2).
     """
     stiffness = np.array([1e5, 1e7, 1e9])
     seen = [isolated_contact(mass_ratio, restitution, r1) for r1 in stiffness]

@@ -23,7 +23,8 @@ from impact_damper.system.packed import (
 )
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Rounding error of the polynomials below: a wall counts as passed beyond this penetration.
+# Bound on the rounding error of the polynomials in this module. A larger penetration means that a
+# wall was passed.
 HAIR = Fraction(1, 10**12)
 DEGREE = 7
 coefficients = st.lists(st.integers(-200, 200), min_size=2, max_size=DEGREE + 1)
@@ -40,7 +41,7 @@ def evaluate(c, t):
 
 
 def sturm_chain(c):
-    """Sturm's chain of a polynomial with rational coefficients, lowest power first."""
+    """Return Sturm's chain of a polynomial with rational coefficients, lowest power first."""
 
     def trimmed(c):
         while c and c[-1] == 0:
@@ -60,7 +61,7 @@ def sturm_chain(c):
 
 
 def roots_within(c, end):
-    """Number of different real roots in (0, end], by Sturm's theorem in exact arithmetic."""
+    """Return the number of different real roots in (0, end], by Sturm's theorem."""
     chain = sturm_chain([Fraction(a) for a in c])
 
     def changes(t):
@@ -71,9 +72,10 @@ def roots_within(c, end):
 
 
 def found(lanes, searched, series_given, length, **numbers):
-    """Return time, kind and wall of the event that the kernels of an instance find.
+    """Return the time at which a search ends, whether it found an event, and the wall.
 
-    With several lanes the trajectory is in one of them, beside similar ones.
+    The kernels `searched` are called. With several lanes the trajectory is in one lane, and the
+    other lanes have similar trajectories.
     """
     module = instance(lanes)
     a = np.zeros((module.SIZE // lanes, lanes))
@@ -92,7 +94,10 @@ def found(lanes, searched, series_given, length, **numbers):
 
 
 def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
-    """Time and side of the first contact; Z2 is the polynomial plus offset + drift t."""
+    """Return time and wall (0 for none) of the first contact of Z2, c plus offset + drift t.
+
+    c are the coefficients of Z1, lowest power first.
+    """
 
     def series_given(bend):
         x = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
@@ -105,12 +110,11 @@ def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
     return t, int(wall) if met else 0
 
 
-def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
-    """Return the time of the first release and whether there is one.
+def first_separation(lanes, c, side, length, stiffness, dashpot, inverse_mass):
+    """Return the time of the first separation and whether there is one.
 
-    The polynomial is the penetration q.
-
-    The acceleration g without the wall follows from q'' = g - (1 + 1/rm) (r1 q + D q').
+    c are the coefficients of the penetration q. The acceleration g without the force of the wall
+    follows from q'' = g - (1 + 1/rm) (r1 q + D q').
     """
 
     def series_given(bend):
@@ -131,7 +135,7 @@ def first_release(lanes, c, side, length, stiffness, dashpot, inverse_mass):
 
 
 def check_contact(lanes, c, offset, drift, clearance, length, expecting=()):
-    """Assert that the gap vanishes at the time found, and that no wall was passed before.
+    """Assert that the distance to a wall is zero at the time found, and that no wall was passed.
 
     If a contact was expected but not found, the step may end early.
     """
@@ -170,7 +174,7 @@ def test_first_contact_of_random_polynomials(lanes, expecting, c, offset, drift,
 @examples
 @given(coefficients, st.integers(2, 14), st.booleans())
 def test_first_contact_of_grazing_polynomials(lanes, expecting, c, exponent, beyond):
-    """The wall is close to the largest |Z2|, so the gap has nearly a double root."""
+    """The wall is close to the largest |Z2|, so the distance to it has nearly a double root."""
     c = [0.0, *(a / 64 for a in c)]
     t = np.linspace(0, 1, 10001)
     largest = np.max(np.abs(Polynomial(c)(t)))
@@ -205,7 +209,7 @@ def test_no_contact_without_walls(lanes):
 @widths
 @pytest.mark.parametrize("side", [1, -1])
 def test_start_on_a_wall_that_recedes(lanes, side):
-    """The state on the wall just after a release is no contact; the next contact is found."""
+    """A start on the wall, moving away from it, is no contact; the next contact is found."""
     c = [side * 1.0, side * -1e-3, side * 1.0]
     t, found_side = first_contact(lanes, c, 0.0, 0.0, 1.0, 1.0)
     assert found_side == side
@@ -215,8 +219,9 @@ def test_start_on_a_wall_that_recedes(lanes, side):
 @pytest.mark.parametrize("roundings", [0, 1, 2, 7, 1000])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_start_within_rounding_of_a_wall(roundings, sign):
-    """The mass moves outward so near to the wall that the time of contact rounds to the present
-    time: one step suffices.
+    """The mass moves towards a wall at a distance of some rounding errors.
+
+    The time until the contact is below the rounding error of the time, so one step must find it.
     """
     p, work = pack(Oscillator(0.3, 1.1), DESIGN, 1.9), single.workspace()
     wall = p[CLEARANCE] * (1 - roundings * 2.0**-53)
@@ -237,16 +242,18 @@ def test_start_within_rounding_of_a_wall(roundings, sign):
     st.sampled_from([1e-2, 1.0, 16.0, 256.0]),
     st.sampled_from([0.0, 0.25, 4.0]),
 )
-def test_first_release_of_random_polynomials(lanes, c, depth, length, side, stiffness, dashpot):
-    """A contact begins on the wall moving outward, or anywhere beyond it."""
+def test_first_separation_of_random_polynomials(lanes, c, depth, length, side, stiffness, dashpot):
+    """The step begins on the wall, moving outward, or anywhere beyond the wall."""
     c = [depth / 64, *(a / 64 for a in c)]
     if depth == 0:
         c[1] = abs(c[1]) + 1 / 64
-    t, released = first_release(lanes, [side * a for a in c], side, length, stiffness, dashpot, 4.0)
+    t, separated = first_separation(
+        lanes, [side * a for a in c], side, length, stiffness, dashpot, 4.0
+    )
     path = [Fraction(a) for a in c]
     above = [path[0] + HAIR, *path[1:]]
     assert roots_within(above, t) == 0
-    if released:
+    if separated:
         assert 0 <= t <= length
         assert abs(evaluate(path, Fraction(t))) < HAIR
     else:
@@ -261,7 +268,7 @@ def test_side_of():
 
 
 def integrated(p, state, side, length, steps, tolerance):
-    """State after equal steps, events aside."""
+    """Return the state after equal steps without an event."""
     y, work = np.array(state), single.workspace()
     for i in range(steps):
         taken, side = single.step(
@@ -282,7 +289,7 @@ def test_order_of_flight_steps():
 
 
 def contact_series(p, state, t):
-    """Series of Z1 and of the penetration; the state has the penetration in place of Z2."""
+    """Return the series of Z1 and of the penetration, which the state has in place of Z2."""
     work = single.workspace()
     y = np.array(state, float)
     y[2] += p[CLEARANCE]
@@ -291,7 +298,7 @@ def contact_series(p, state, t):
 
 
 def test_order_of_contact_series():
-    """Steps in contact are too short to show their error: the series is evaluated beyond them."""
+    """Steps in contact are too short to show an error, so the series is evaluated beyond a step."""
     p = pack(Oscillator(0.215, 1.0), Damper(0.12, 2.0, 0.9), 2.0)
     state = 0.5, -0.4, 0.0, 1.5
     lengths = 0.04, 0.06, 0.09
@@ -310,7 +317,7 @@ def test_order_of_contact_series():
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9, 1e-12])
-def test_contact_steps_never_pass_a_release(tolerance):
+def test_contact_steps_never_pass_a_separation(tolerance):
     """A contact lasts nearly half a natural period, with stiff and with soft walls."""
     for stiffness in (1e2, 1e4, 1e6):
         damper = Damper(0.12, 2.0, 1.0, stiffness)
@@ -341,10 +348,7 @@ def test_tangents_against_differences(impacting_orbit):
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
 def test_tangents_of_a_motion_that_starts_in_contact(damper):
-    """For several tolerances and phases.
-
-    The jump of the dashpot force at the release is included.
-    """
+    """Against central differences. The dashpot's force jumps at the separation."""
     p = pack(Oscillator(0.3, 1.1), damper, 1.9)
     state = np.array([0.4, 0.2, damper.clearance + 0.01, 1.0])
 

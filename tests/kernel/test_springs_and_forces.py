@@ -49,7 +49,7 @@ def test_a_change_of_units_changes_nothing_else(oscillator, units):
 
 @all_oscillators
 def test_flights_and_contacts_against_dop853(oscillator):
-    """From event to event, each of which is where SciPy finds it."""
+    """SciPy integrates from event to event and arrives at the kernel's states on the walls."""
     p, end = pack(oscillator, DAMPER, FREQUENCY), 12.0
     _, log = sample(p, STATE, 0.0, [end])
     ends = [(0.0, 0)]
@@ -124,7 +124,10 @@ def test_linear_oscillator_in_closed_form(damping, force):
 
 @pytest.mark.parametrize("cubic", [-0.2, 0.0, 0.7])
 def test_energy_without_forcing_and_damping(cubic):
-    """It is kept where damping is as small as it may be; and it holds a motion below a barrier."""
+    """With the smallest damping allowed the energy is constant.
+
+    A motion with less energy than the barrier of a softening spring stays below the barrier.
+    """
     p = pack(Oscillator(1e-9, 1.0, cubic, 0.0), None, 1.0)
     barrier = 1 / math.sqrt(0.2)
     speed = math.sqrt(
@@ -139,7 +142,7 @@ def test_energy_without_forcing_and_damping(cubic):
 
 
 def test_time_of_an_escape():
-    """From rest at Z1 = 0 a motion above the barrier reaches a place when the integral says."""
+    """The time to reach a place beyond the barrier is the integral of 1/speed."""
     p = pack(Oscillator(1e-9, 1.0, -0.2, 0.0), None, 1.0)
     speed = math.sqrt(2 * 1.05 * equation.potential(p, 1 / math.sqrt(0.2)))
     place = 4.0
@@ -158,7 +161,7 @@ def test_time_of_an_escape():
 @pytest.mark.parametrize("linear_frequency", [0.0, 1.0])
 @pytest.mark.parametrize("force", [0.0, 3.0])
 def test_no_return_from_where_the_force_is_weaker(linear_frequency, force):
-    """Outward of it the spring pushes outward harder than the force pulls, for every Z1."""
+    """Beyond `no_return` the spring pushes outward at least as hard as the forcing pulls back."""
     p = pack(Oscillator(0.1, linear_frequency, -0.3, force), None, 1.0)
     beyond = no_return(p) * np.geomspace(1.0, 1e3, 200)
     push = -equation.spring(p, beyond)

@@ -185,7 +185,10 @@ def test_aligned_arrays_begin_at_cache_lines(count):
 
 
 def compiled_lines(source):
-    """Write the code of a function with a line, or with a loop, and return the file's name."""
+    """Write the LLVM code of a function whose body is `source`; return the name of its file.
+
+    If `source` is a single line, the body is a loop over one lane around this line.
+    """
     loop = source if source.startswith("for i") else f"for i in range(1):\n  x = a[0]\n  {source}"
     text = "def function(a):\n" + textwrap.indent(loop, "    ") + "\n"
     file = f"<{source}>"

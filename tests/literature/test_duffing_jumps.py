@@ -8,7 +8,7 @@ from impact_damper.literature.duffing_jumps import jumps
 
 
 def amplitudes(damping, cubic, force, r):
-    """Positive roots of the equation for the amplitude."""
+    """Return the positive roots of the equation for the amplitude."""
     square = [
         0.5625 * cubic**2,
         1.5 * cubic * (1 - r**2),
@@ -22,7 +22,7 @@ def amplitudes(damping, cubic, force, r):
 @pytest.mark.thorough
 @pytest.mark.parametrize("cubic", [-1.0, 1.0])
 def test_jumps_are_the_folds_at_small_damping(cubic):
-    """The number of amplitudes changes within a distance that falls with the damping."""
+    """The number of amplitudes changes near the closed forms; the difference falls with damping."""
     errors = []
     for damping in (4e-3, 2e-3):
         force = 0.8 * damping  # so that the maximum of the response stays the same

@@ -31,7 +31,10 @@ def absolute(state):
 
 @pytest.mark.parametrize("case", CASES)
 def test_motion_repeats_mirrored(case):
-    """Half a period later the state is mirrored, with one impact in between if it is a motion."""
+    """Half a period later the state is mirrored, with one impact in between.
+
+    Solutions with negative room are no motions and are left out.
+    """
     oscillator, damper, frequency = built(case)
     motions = two_impact_motions(oscillator, damper, frequency)
     assert motions
@@ -39,7 +42,7 @@ def test_motion_repeats_mirrored(case):
         assert_allclose(motion.clearance, damper.clearance, rtol=1e-9)
         if motion.room < 0:
             continue
-        # A hair before the impact, so that the event is crossed.
+        # Shortly before the impact, so that SciPy sees the event.
         begin = motion.phase / frequency - 0.05
         start = _before(oscillator, frequency, motion, 0.05)
         end, impacts = events_of(

@@ -12,7 +12,7 @@ MASS = 0.05
 
 
 def settled(force, frequency):
-    """Largest displacement of the settled motion over the force, by SciPy."""
+    """Return the largest displacement of the settled motion divided by the force, by SciPy."""
     _, tuned, damping = exact_optimum(MASS)
     absorber = tuned_cubic(MASS, 1.0)
 
@@ -41,7 +41,7 @@ def test_linear_limit():
 
 
 def test_peaks_are_equal_to_first_order():
-    """Without the absorber's cubic spring the peaks part in proportion to F^2, with it slower."""
+    """The peaks differ by a share that grows as F^2, and more slowly with the cubic spring."""
     forces = (0.005, 0.01)
 
     def parted(absorber):

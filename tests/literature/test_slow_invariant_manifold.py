@@ -1,5 +1,8 @@
-"""The slow invariant manifold against impacts on a moving base, and its thresholds and ring-down
-against exact motions with rigid impacts, whose distance must fall with the mass ratio."""
+"""The slow invariant manifold against impacts on a moving base and exact motions.
+
+The theory is of first order in the mass ratio. Its thresholds, optimum and ring-down are compared
+with exact motions with rigid impacts. The error must fall in proportion to the mass ratio.
+"""
 
 import numpy as np
 import pytest
@@ -16,9 +19,10 @@ RATIOS = (0.004, 0.002)
 
 
 def impacts_on_sine(amplitude, restitution, phase, speed, count):
-    """Phases and speeds before `count` impacts of a free mass in a gap of 2 on a base A sin(t).
+    """Return phases and speeds before `count` impacts of a free mass with a base A sin(t).
 
-    The base is mirrored at each impact, so that all impacts are at the wall A sin(t) + 1.
+    The mass moves between two walls at the distances -1 and 1 from the base. The motion is mirrored
+    at each impact, so that all impacts are at the wall A sin(t) + 1.
     """
     found = []
     for _ in range(count):
@@ -26,7 +30,7 @@ def impacts_on_sine(amplitude, restitution, phase, speed, count):
         start = amplitude * np.sin(phase) + 1
 
         def gap(t, start=start, leaving=leaving, phase=phase):
-            """Distance to the opposite wall, which is the mirrored one half a period ago."""
+            """Return the distance of the mass from the opposite wall a time t after an impact."""
             return start - leaving * t + 1 - amplitude * np.sin(phase + t)
 
         times = np.linspace(1e-6, 20, 4001)
@@ -53,7 +57,7 @@ def test_manifold_attracts_within_its_range(restitution, share):
 
 
 def exact_force(absorber, ratio):
-    """Force over the spring's at half the gap, of the exact motion with rigid walls."""
+    """Return the force of the exact motion, divided by the spring's force at the clearance."""
     frequency = float(absorber.frequency(ratio))
     oscillator = Oscillator(2 * absorber.damping_ratio, 1.0, cubic=0.0)
 
@@ -83,7 +87,7 @@ def test_thresholds_are_extremes():
 
 
 def test_ends_of_the_manifold_are_met_to_first_order():
-    """The exact motion loses stability at ratios whose distance falls with the mass ratio."""
+    """The exact motion loses stability at ratios that differ in proportion to the mass ratio."""
     errors = []
     for mass in RATIOS:
         absorber = VibroImpactAbsorber(mass, 0.5, 0.5 * mass)
@@ -122,7 +126,7 @@ def test_ring_down_is_met_to_first_order():
         damper = Damper(mass, 1.0, restitution)
         loss = (1 - restitution) / (1 + restitution)
         speed = 2 * 1.6 / np.pi
-        # A hair after an impact at Z2 = -d0, on the manifold.
+        # Just after an impact at Z2 = -d0, in a state on the manifold.
         state = np.array([0.6, (2 * mass - loss) * speed, 1.6 - 1e-9, -speed])
         times, sizes, time = [], [], 0.0
         while not sizes or sizes[-1] > absorber.amplitude(1.05):

@@ -64,7 +64,7 @@ def test_fixed_points_do_not_depend_on_damping(mass):
 
 @pytest.mark.parametrize("mass", MASSES)
 def test_brock_damping_leaves_peaks_near_the_fixed_points(mass):
-    """The mean of the squared dampings that make either fixed point a peak."""
+    """Brock's squared damping is the mean of the two that make one fixed point a peak."""
     tuned = den_hartog(mass)
     root = np.sqrt(mass / (2 + mass))
     dampings = []

@@ -2,7 +2,7 @@
 
 Mass ratios 1e-4 to 1, gaps from the penetration of the contact to 1000 static deflections on each
 side, restitution 0.05 to 1, contacts up to 1e6 times as stiff as the machine, damping ratios 1e-5
-to 0.5; alone, and together in a Latin hypercube.
+to 0.5. One parameter is extreme at a time, or several together in a Latin hypercube.
 """
 
 import math
@@ -31,7 +31,8 @@ OUTCOMES = [
 ]
 MASS, STIFFNESS, FORCE = 12.0, 2e5, 40.0
 SPRINGS = {"linear": 0.0, "hardening": 4e9, "softening": -4e9}
-# Ends of the ranges; the gap as a share of the way from its least to its largest value.
+# Ends of the ranges. The gap is stated as a number from 0, its least value, to 1, its largest
+# value.
 ENDS = {
     "mass_ratio": (1e-4, 1.0),
     "gap": (0.0, 1.0),
@@ -46,7 +47,8 @@ USUAL = {
     "stiffness_ratio": 100.0,
     "damping_ratio": 0.005,
 }
-# A faster contact, in units of the machine, takes up to half a second for each forcing cycle.
+# If the contact vibrates more than FAST times as fast as the machine, a forcing cycle takes up to
+# half a second to compute.
 FAST = 1e3
 ALONE = [{name: value} for name, both in ENDS.items() for value in both]
 
@@ -63,7 +65,7 @@ def extreme(spring, mass_ratio, gap, restitution, stiffness_ratio, damping_ratio
     share = mass_ratio / (1 + mass_ratio)
     static = FORCE / STIFFNESS
     play = 1.001 * 2 * share * static / stiffness_ratio
-    # in an impact at the speed of the static deflection
+    # of an impact at the speed (static deflection) times (natural angular frequency)
     penetration = static * math.sqrt(share / stiffness_ratio)
     bounds = machine.scales.range_to_si(CLEARANCE_RANGE, "clearance")
     least = max(play, 2 * penetration, 2.001 * bounds["least"])
@@ -78,7 +80,7 @@ def extreme(spring, mass_ratio, gap, restitution, stiffness_ratio, damping_ratio
 
 
 def drawn(count, seed=18):
-    """Return extremes drawn together: two thirds of the values of each parameter are its ends."""
+    """Return extremes drawn together; a third of the values are ends of their range."""
     rows = qmc.LatinHypercube(len(ENDS), rng=seed).random(count)
     levels = np.clip(1.5 * rows - 0.25, 0, 1)
     values = {}
@@ -97,7 +99,7 @@ def named(given):
 
 
 def contact_speed(given):
-    """Return how many times as fast as the machine its contact swings."""
+    """Return the natural frequency of the contact divided by the machine's natural frequency."""
     return math.sqrt(given["stiffness_ratio"] * (1 + 1 / given["mass_ratio"]))
 
 
@@ -134,7 +136,7 @@ def test_a_machine_with_one_extreme_ends_in_an_outcome(spring, given):
     ("spring", "given"), list(zip(cycle(SPRINGS), drawn(36), strict=False)), ids=named
 )
 def test_extremes_together_end_in_an_outcome(spring, given):
-    """With a slow contact within the limit; with a fast one, a forcing cycle comes to its end."""
+    """With a slow contact a run ends within its limit. With a fast one a run of one cycle ends."""
     if contact_speed(given) < FAST:
         assert_ends(spring, given, 1.0)
     else:

@@ -1,4 +1,4 @@
-"""Hertz's impact against its equation of motion, and a steel ball of the literature."""
+"""Hertz's impact against its equation of motion, and Johnson, Contact Mechanics, 1985."""
 
 import math
 

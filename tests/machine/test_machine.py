@@ -38,7 +38,7 @@ def test_scales_lead_back(length, time, mass, quantity, value):
 
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_scaled_equation_is_that_of_the_machine(name):
-    """The acceleration at a state, in SI units and in scales, by formulas written down apart."""
+    """At one state the equation in SI units and the scaled equation give the same acceleration."""
     machine, hertz = MACHINES[name], 24.0
     scales, angular = machine.scales, 2 * math.pi * hertz
     x, v = 1.7e-3, -0.4
@@ -98,7 +98,7 @@ def test_damping_is_a_ratio_or_a_coefficient():
 
 
 def test_the_force_of_a_base_at_one_frequency_is_exact():
-    """The amplitude of a linear machine is that of the transmissibility in space."""
+    """The amplitude of a linear machine against the closed form of the transmissibility."""
     for excitation, hertz, ratio in (
         ({"base_displacement": 2e-4}, 26.0, 0.3),
         ({"base_acceleration": 5.0}, 11.0, 0.05),
@@ -117,7 +117,7 @@ def test_the_force_of_a_base_at_one_frequency_is_exact():
 def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
     """Two masses on a base that moves, integrated in space, against the scaled equations.
 
-    The loose mass is in flight; the gap between both is what a damper counts.
+    The loose mass is in flight. Z2 is the distance between machine and loose mass.
     """
     machine, hertz = MACHINES["on a base"], 19.0
     k, c, m, a = 2e5, machine.viscous_damping, 12.0, 2e-4
@@ -135,7 +135,7 @@ def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
         scales.from_si(x, q)
         for x, q in ((hertz, "frequency"), (1, "displacement"), (1, "velocity"))
     )
-    # the force leads the base by the angle of the dashpot
+    # because of the dashpot the force leads the base by this angle
     lead = math.atan2(c * angular, k)
 
     def scaled(t, z):

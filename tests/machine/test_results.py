@@ -75,7 +75,7 @@ def test_a_linear_machine_has_the_amplitude_of_its_closed_form(excitation, hertz
 
 
 def test_a_run_in_si_is_the_run_scaled_by_hand():
-    """In units of the static deflection F/k = 0.2 mm and of 1/w0."""
+    """By hand, lengths are in units of the static deflection F/k = 0.2 mm and times in 1/w0."""
     w0, static = math.sqrt(2e5 / 12), 40 / 2e5
     oscillator = idm.Oscillator(0.01, 1.0, 0.0)
     damper = idm.Damper(0.05, 4e-3 / static, 0.7, 100.0)
@@ -136,7 +136,7 @@ def test_a_damper_on_a_moving_base_is_that_of_three_bodies_in_space():
 
 @pytest.fixture
 def other_length(monkeypatch):
-    """Machines in scales whose length is 1.7 times as large."""
+    """Return a function after whose call machines have scales with 1.7 times the length."""
     usual = Machine.scales.func
 
     def scales(machine):
@@ -153,7 +153,7 @@ def other_length(monkeypatch):
 
 
 def quiet_start():
-    """A state from which the linear machine with its damper becomes quiet."""
+    """Return a state from which the linear machine with its damper becomes quiet."""
     return (0.0, 0.0, 0.0, 0.3)
 
 
@@ -172,7 +172,7 @@ CALLS = {
 
 @pytest.mark.parametrize("name", CALLS)
 def test_results_do_not_depend_on_the_scales(name, other_length):
-    """A variable with a quantity that is missing or wrong would change with them."""
+    """A variable that is registered without its quantity, or with a wrong one, would change."""
 
     def called():
         machine = Machine(**SPRING, force=40)
@@ -186,7 +186,7 @@ def test_results_do_not_depend_on_the_scales(name, other_length):
         values = usual[each].values
         if VARIABLES[each].quantity == "mixed" or values.dtype.kind not in "fi":
             continue
-        # found by iterations that end at a tolerance of the scales
+            # these end iterations at tolerances in the scales, so they may differ
         numerical = each in ("periods_run", "run_length") or "multiplier" in each
         if not numerical and "phase" not in each:
             np.testing.assert_allclose(other[each], values, rtol=2e-5, atol=2e-7, err_msg=each)

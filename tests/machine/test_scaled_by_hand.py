@@ -1,6 +1,7 @@
-"""Functions called with a machine, against the same with numbers scaled by hand.
+"""Functions called with a machine, against the same functions called with numbers scaled by hand.
 
-The oscillator of the paper in units of 2 mm, 10 ms and 3 kg. The scales of the machine are others.
+The machine is the paper's oscillator with lengths in units of 2 mm, times of 10 ms and masses of
+3 kg. `Machine.scales` has other units.
 """
 
 import math
@@ -28,7 +29,7 @@ SOFTENING = {
 }
 SOFT = idm.Machine(**SOFTENING, force=0.02 * FORCE)
 LINEAR = idm.Machine(mass=MASS, linear_stiffness=STIFFNESS, damping_ratio=0.01, force=FORCE)
-# value in a dataset of the dimensionless 1
+# The dimensionless 1 in each unit of the datasets of the machine.
 UNITS = {
     "mm": 1e3 * LENGTH,
     "s": TIME,
@@ -44,14 +45,14 @@ def hertz(frequency):
 
 
 def assert_scaled(found, by_hand, names, **tolerances):
-    """The variables are those scaled by hand, by the unit that each one names."""
+    """Assert that variables equal those of `by_hand`, times the unit that each variable states."""
     for name in names:
         expected = by_hand[name].values * UNITS[found[name].attrs.get("units", "1")]
         np.testing.assert_allclose(found[name], expected, err_msg=name, **tolerances)
 
 
 def test_optimum_clearance_of_a_machine():
-    """Against the dimensionless rule, and F/(m2 (2 pi f)^2) of a linear machine."""
+    """Against the dimensionless rule, and F/(m2 w0^2) for a loose mass m2 on a linear machine."""
     found = idm.optimum_clearance(HARD, "12 %")
     assert found == pytest.approx(LENGTH * idm.optimum_clearance(PAPER, 0.12), rel=1e-12)
     closed = LINEAR.force / (0.05 * MASS) / (2 * math.pi * LINEAR.natural_frequency) ** 2
@@ -71,7 +72,7 @@ def test_harmonic_convergence_of_a_machine():
 def test_subharmonic_suppression_of_a_machine():
     """Ends of the free subharmonic, and the damped motions."""
     frequencies = np.array([1.7, 1.72, 1.75])
-    # narrow, to be fast
+    # The search is narrow to be fast, so it warns.
     with pytest.warns(UserWarning, match="radius"):
         by_hand = idm.subharmonic_suppression(
             PAPER, PAPER_DAMPER, frequencies, starts=6, radius=2.0
@@ -88,7 +89,7 @@ def test_subharmonic_suppression_of_a_machine():
 
 
 def test_migration_of_a_machine():
-    """Released after 3 forcing cycles, so that chaos does not magnify rounding."""
+    """The damper is on for 3 cycles only, so that chaos does not magnify rounding errors."""
     given = {"seed": 1, "longest_hold": 3}
     found = idm.migrate(HARD, DAMPER, hertz(1.95), **given)
     by_hand = idm.migrate(PAPER, PAPER_DAMPER, 1.95, **given)
@@ -121,7 +122,7 @@ def test_basins_of_a_machine():
 
 
 def test_basins_of_a_machine_with_a_damper():
-    """The loose mass is given; around the quiet motion no chaos magnifies rounding."""
+    """The loose mass has one state. Near the quiet motion no chaos magnifies rounding errors."""
     kept = {"restitution": 0.75, "contact_stiffness": 2000 * STIFFNESS}
     damper = HARD.damper(mass=0.25 * MASS, clearance_each_side=LENGTH, **kept)
     window = {"displacement": 0.2 * LENGTH, "velocity": 0.3 * LENGTH / TIME, "cells": 4}

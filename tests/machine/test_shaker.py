@@ -21,7 +21,7 @@ DAMPER = MACHINE.damper(mass=LOOSE, gap=GAP, restitution=RESTITUTION, contact_st
 
 
 def test_response_over_a_band_is_the_transmissibility_in_space():
-    """Within the share (2 zeta w/w0)^4/8 that the force over a range of frequencies is off."""
+    """Over a range of frequencies the force has the relative error (2 zeta r)^4/8."""
     hertz = np.linspace(12, 30, 7)
     found = idm.frequency_response(MACHINE, None, hertz, starts=2)
     r = hertz / NATURAL
@@ -33,7 +33,7 @@ def test_response_over_a_band_is_the_transmissibility_in_space():
 
 @pytest.fixture(scope="module")
 def branch():
-    """Orbits with two contacts over the frequency, with the part V of the force."""
+    """Orbits with two contacts over the frequency; the force contains the part V/W^2."""
     start = idm.steady_motion(MACHINE, DAMPER, 20, (0, 0, 0, 0.3)).state.values
     return idm.orbit_branch(MACHINE, DAMPER, 20, start, parameter="frequency", span=(18, 22))
 
@@ -45,7 +45,10 @@ def point(branch, request):
 
 
 def test_orbits_of_a_branch_are_those_at_one_frequency(point):
-    """There the force is exact, and so the acceleration is made to give that of the branch."""
+    """At one frequency the force is exact, and on the branch it is approximate.
+
+    The acceleration of the base is changed so that both forces are equal.
+    """
     hertz = float(point.followed_value)
     ratio = MACHINE.viscous_damping * 2 * math.pi * hertz / STIFFNESS
     same = (1 + ratio**2 / 2) / math.hypot(1, ratio)
@@ -94,7 +97,7 @@ def test_orbits_of_a_branch_are_those_of_three_bodies_in_space(point):
 
 
 def test_rule_for_the_clearance_in_closed_form():
-    """At resonance the force is k a/w0^2, and that of the dashpot adds the share 2 zeta^2."""
+    """At resonance the spring's force is k a/w0^2, and the dashpot adds the fraction 2 zeta^2."""
     square = STIFFNESS / MASS
     force = STIFFNESS * ACCELERATION / square * (1 + 2 * RATIO**2)
     expected = force / (0.05 * MASS * square)

@@ -53,7 +53,7 @@ def test_angular_frequencies_are_divided_by_two_pi(text, value):
     number, unit = text.split()
     of_pint = float(number) * REGISTRY.Unit(unit)
     assert si_value("frequency", of_pint, "frequency") == pytest.approx(value, rel=1e-14)
-    # what makes it necessary
+    # pint itself does not divide by 2 pi
     assert of_pint.to("Hz").magnitude == pytest.approx(2 * math.pi * value)
 
 
@@ -71,7 +71,7 @@ def test_numbers_are_si_units():
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_dimensions_are_those_of_the_unit(quantity):
-    """The exponents by which scales convert are those that pint finds in the unit."""
+    """The exponents of length, time and mass agree with the unit as pint knows it."""
     each = QUANTITIES[quantity]
     found = REGISTRY.Quantity(1.0, each.unit).to_base_units().dimensionality
     expected = {"[length]": each.length, "[time]": each.time, "[mass]": each.mass}

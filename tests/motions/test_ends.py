@@ -1,4 +1,4 @@
-"""How motions end that lead to no orbit: over a barrier of a softening spring, or at rest."""
+"""Motions that lead to no orbit escape over a barrier of a softening spring, or come to rest."""
 
 import math
 
@@ -21,7 +21,7 @@ DAMPER = idm.Damper(0.1, 0.5, 0.7)
 
 @pytest.mark.parametrize("share", [0.9, 0.99, 1.01, 1.1, 5.0])
 def test_the_barrier_parts_escapes_from_decays(share):
-    """At rest at this share of the barrier, with damping and no force."""
+    """The motion begins at rest at `share` times the displacement of the barrier, without force."""
     for side in (1, -1):
         found = idm.steady_motion(SOFT, None, 1.0, (side * share * BARRIER, 0.0))
         assert found["outcome"] == (AT_REST if share < 1 else ESCAPED)
@@ -29,9 +29,10 @@ def test_the_barrier_parts_escapes_from_decays(share):
 
 
 def test_an_outward_force_below_the_barrier_pushes_over_it():
-    """The spring restores 2/3 sqrt(1/(3 . 0.2)) = 0.86 at most, and the force changes slowly.
+    """The largest restoring force of the spring is 2/3 sqrt(1/(3 * 0.2)) = 0.86.
 
-    The motion begins in the equilibrium Z1 = 1 under the force 0.8.
+    The force changes slowly, with the amplitude 1 or 0.8. The motion begins at Z1 = 1, which is the
+    equilibrium under the force 0.8.
     """
     oscillator = idm.Oscillator(0.5, 1.0, -0.2, 1.0)
     found = idm.steady_motion(oscillator, None, 0.01, (1.0, 0.0))
@@ -66,7 +67,7 @@ def test_a_motion_that_stays_has_no_time_of_escape():
 
 @pytest.mark.parametrize("damping", [0.002, 0.05, 0.5])
 def test_length_of_a_linear_decay(damping):
-    """The energy falls by exp(-h t), but for its swing within a period: to 1e-9 of the first."""
+    """The motion is at rest once the energy, which falls as exp(-h t), is 1e-9 of the first."""
     oscillator, frequency = idm.Oscillator(damping, 3.0, 0.0, 0.0), 5.0
     settling = idm.Settling(limit=20000)
     found = idm.steady_motion(oscillator, None, frequency, (1.0, 0.0), settling=settling)
@@ -99,7 +100,7 @@ def test_a_decay_that_is_cut_short_is_unresolved():
 
 @pytest.mark.parametrize("oscillator", [SOFT, idm.Oscillator(0.2, 1.0, 0.5, 0.0)], ids=str)
 def test_responses_hold_one_escape_and_one_rest(oscillator):
-    """Starts on either side of the barrier; all that escape are one motion, and all at rest."""
+    """Starts lie on either side of the barrier. All escapes are one motion, all rests one."""
     found = idm.frequency_response(oscillator, None, [0.9, 1.0], starts=12, radius=4.0)
     outcomes = found["outcome"].values
     assert set(np.unique(found["run_outcome"])) == (
@@ -109,7 +110,7 @@ def test_responses_hold_one_escape_and_one_rest(oscillator):
 
 
 def test_records_of_runs_side_by_side():
-    """Escapes among motions that settle leave these as they are alone."""
+    """Motions that settle have the same records with escaping motions beside them as alone."""
     soft, hard = pack(SOFT, DAMPER, 1.0), pack(idm.Oscillator(0.3, 1.0), DAMPER, 1.0)
     random = np.random.default_rng(3)
     states = random.uniform(-1, 1, (60, 4)) * [3.0, 1.0, 0.4, 1.0]

@@ -1,4 +1,4 @@
-"""Envelopes in windows: against the samples of a motion, and the largest values of polynomials."""
+"""Envelopes against samples of a motion, and the largest values of polynomials."""
 
 import math
 
@@ -26,7 +26,7 @@ def test_envelope_is_that_of_the_samples():
     states, log = sample(p, VIOLENT, strobe, times)
     x = np.abs(states[:, 0])
     dense = [x[k * points : (k + 1) * points + 1].max() for k in range(count)]
-    # between samples a parabola rises by at most (spacing/2)^2 |x''|/2
+    # between two samples |x| exceeds both by at most (spacing/2)^2 |x''|/2
     assert np.all(largest - dense > -1e-9)
     assert np.all(largest - dense < 1e-5)
     begun = np.floor((log[:, 1] - strobe) / period).astype(int)
@@ -60,7 +60,7 @@ def test_after_an_escape_nothing_is_known():
 
 @pytest.mark.parametrize("seed", range(5))
 def test_extremum_is_that_of_all_turning_points(seed):
-    """Series of motions with several turns, or none, in the interval."""
+    """The series have several turning points in the interval, or none."""
     generator = np.random.default_rng(seed)
     for _ in range(200):
         rate, phase, shift = generator.uniform([0.2, 0, -1], [3, 7, 1])

@@ -1,4 +1,4 @@
-"""Following an orbit from one value to another: prediction, steps, and ends."""
+"""Following an orbit from one value of a parameter to another: prediction, steps, and ends."""
 
 from typing import NamedTuple
 

@@ -1,6 +1,6 @@
 """Ctrl-C in a long call from Python raises KeyboardInterrupt within two seconds.
 
-These are seconds of the processor, since other programs may use it too.
+Seconds of processor time are counted, because other programs may use the processor too.
 """
 
 import subprocess
@@ -10,7 +10,7 @@ import pytest
 
 pytestmark = pytest.mark.thorough
 
-# Before each long call comes a short one, so that the kernels are compiled.
+# Before each long call a short call compiles the kernels.
 SCRIPT = """
 import os
 import signal

@@ -17,7 +17,10 @@ RUNNING = {"workers": 2, "progress": None}
 
 @pytest.fixture(scope="module")
 def violent():
-    """Violent motions of figure 5 (a): where chaos lasts, and where it is a transient."""
+    """Return parameters and states of violent motions of figure 5 (a), at two frequencies.
+
+    At W = 1.1 the chaos lasts, and at W = 1.6 it is a transient.
+    """
     parameters = np.array([pack(PAPER, DESIGN, frequency) for frequency in (1.1, 1.6)])
     starts = np.random.default_rng(7).uniform(-1.5, 1.5, (48, 4))
     states = []
@@ -37,7 +40,7 @@ def test_transient_is_told_from_chaos_that_lasts(violent):
     found = lives(violent, 12, 1000)
     lasting, transient = ({name: values[i, 0] for name, values in found.items()} for i in range(2))
     assert lasting["life_ends"] == 0 and np.isnan(lasting["mean_life"])
-    # none of n runs over a time T each: the rate is at most 3.69/(n T) at 97.5 %
+    # If none of n runs of the length T ends, the rate is at most -ln(0.025)/(n T), with 97.5 %.
     assert_allclose(lasting["mean_life_lower"], 12 * 1000 / -np.log(0.025))
     assert np.isinf(lasting["mean_life_upper"])
     assert transient["life_ends"] > 6
@@ -45,7 +48,7 @@ def test_transient_is_told_from_chaos_that_lasts(violent):
 
 
 def test_longer_runs_agree(violent):
-    """A run over twice the time, with other perturbations, has the same mean life."""
+    """Runs of twice the length, with other disturbances, have the same mean life."""
     short, long = lives(violent, 60, 500), lives(violent, 60, 1000, seed=2)
     for bound, sense in (("lower", 1), ("upper", -1)):
         other = long[f"mean_life_{bound}"][1, 0] - short["mean_life"][1, 0]

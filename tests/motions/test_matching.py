@@ -22,7 +22,7 @@ CHAOS = [motion("chaotic", size) for size in (2.0, 1.0, 0.1)]
 
 
 def test_the_closest_sizes_are_matched_first():
-    """1.2 lies within a factor of 1.5 of 1 only, 1.45 within that of both 2 and 1."""
+    """Within a factor of 1.5, 1.2 can only be matched with 1, and 1.45 with 2 and with 1."""
     assert match_unsettled(CHAOS, [motion("chaotic", size) for size in (1.45, 1.2)]) == [
         (1, 1),
         (0, 0),
@@ -53,14 +53,14 @@ def test_motions_without_a_finite_size(outcome, size):
 
 
 def test_chaos_that_is_small_for_a_while_is_the_same():
-    """What counts is how far it reached, not how large it was when it was measured."""
+    """The field `reach` is compared too, because the measurement may fall into a small phase."""
     small = motion("chaotic", 2.1)
     small["maximum_displacement"] = 0.3
     assert match_unsettled(CHAOS, [small]) == [(0, 0)]
 
 
 def test_chaos_of_one_damper_is_one_motion():
-    """Its loose mass rests for many periods between bursts; the exponents agree too."""
+    """The loose mass rests for many periods between bursts, so displacements differ much."""
     found = frequency_response(PAPER, Damper(0.12, 2.0), [2.6], starts=60, radius=2.0, seed=1)
     chaos = found.outcome.values[0] == flag("outcome", "chaotic")
     assert chaos.sum() == 1 and int(found.motion_starts.values[0][chaos][0]) > 20
@@ -77,6 +77,6 @@ def test_a_torus_keeps_its_number():
     torus = (found.outcome == flag("outcome", "quasi_periodic")).values
     assert np.all(torus.sum(axis=1) == 1)
     assert len(np.unique(found.branch.values[torus])) == 1
-    # a number stands once at each value
+    # no two motions at one frequency have the same branch number
     for row in found.branch.values:
         assert len(np.unique(row[row >= 0])) == np.sum(row >= 0)

@@ -45,14 +45,14 @@ def test_a_search_finds_an_orbit_to_which_no_start_leads(
     )
     one = found.isel(motion=place)
     assert one.origin == flag("origin", "followed") and one.motion_starts == 0
-    # by the integrator alone, without Newton's method
+    # the integrator alone, without Newton's method, stays on the orbit
     run = idm.simulate(oscillator, damper, frequency, one.state, periods=20 * period)
     np.testing.assert_allclose(run.displacement[-1], run.displacement[0], atol=1e-6)
 
 
 @pytest.mark.parametrize(("oscillator", "damper", "frequency", "rare"), RARE)
 def test_few_random_starts_lead_there(oscillator, damper, frequency, rare):
-    """So few that 96 starts miss the orbit at times: what the search by Newton's method is for."""
+    """Fewer than 3 % of random starts lead to the orbit, so a search with 96 starts may miss it."""
     states, _ = random_starts(oscillator, damper, frequency, 600, 3, Settling())
     runs = ensemble.settle(np.tile(pack(oscillator, damper, frequency), (600, 1)), states)
     assert np.mean(abs(runs["maximum_displacement"] - rare[0]) < 2e-3) < 0.03

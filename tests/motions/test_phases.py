@@ -22,7 +22,7 @@ def quiet():
 
 
 def returned(steady, state, **how):
-    """Largest distance of a state from the state a period later."""
+    """Return the largest difference of a component between a state and the state a period later."""
     run = idm.simulate(OSCILLATOR, DAMPER, FREQUENCY, state, periods=int(steady.period), **how)
     names = steady.component.values
     return max(float(abs(run[name][-1] - run[name][0])) for name in names)
@@ -97,7 +97,7 @@ def test_another_start_than_the_phase_is_refused(quiet):
 
 
 def test_a_sweep_up_and_down_stays_on_its_branch():
-    """Between its folds a hardening oscillator moves further on the way up than down."""
+    """Between its folds a hardening oscillator moves farther in a sweep upward than downward."""
     oscillator, up, down = idm.Oscillator(0.215), [], []
     frequencies, state = np.linspace(1.2, 3.0, 19), (0, 0)
     for found, order in ((up, frequencies), (down, frequencies[::-1])):

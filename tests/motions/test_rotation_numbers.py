@@ -1,4 +1,4 @@
-"""Rotation numbers of maps of a closed curve that are known exactly, and sets that are no curve."""
+"""Rotation numbers of curves for which they are known exactly, and sets that are no curve."""
 
 import math
 
@@ -26,7 +26,7 @@ def test_rotation_of_a_curve(number, sense):
 
 @pytest.mark.parametrize("slenderness", [30.0, 1e4])
 def test_slender_curves_are_known_as_soon_as_round_ones(slenderness):
-    """Stretching a curve in one direction changes nothing."""
+    """A curve and the curve squeezed in one direction have the same rotation number."""
     points = on_curve(1 - GOLDEN, 1000) * np.exp(0.4j)
     slender = find_rotation(points.real + 1j * points.imag / slenderness)
     assert slender.known and abs(slender.number - 1 + GOLDEN) < 1e-11
@@ -37,7 +37,7 @@ def test_points_on_a_line_are_no_curve():
 
 
 def test_error_falls_faster_than_a_power():
-    """Doubling the orbit gains more than a factor of 50; without weights it gains about 2."""
+    """Twice the orbit has less than a fiftieth of the error; without weights, about half of it."""
     errors = []
     for count in (25, 50, 100, 200):
         values = np.sin(2 * np.pi * GOLDEN * np.arange(count)) ** 2
@@ -46,7 +46,7 @@ def test_error_falls_faster_than_a_power():
 
 
 def test_slow_turning_curve_is_not_known_from_a_short_orbit():
-    """Near 2/5 the orbit has gone round in small steps only once."""
+    """Every fifth point of the orbit advances by a small angle, here less than once around."""
     found = find_rotation(on_curve(0.4 + 1e-4, 2000))
     assert found is None or not found.known
     assert abs(find_rotation(on_curve(0.4 + 1e-4, 200_000)).number - 0.4 - 1e-4) < AGREEMENT

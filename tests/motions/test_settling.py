@@ -19,7 +19,7 @@ NONE = np.empty((0, 4))
 
 
 def settled(p, state, tolerance=1e-9, patience=300, limit=1500, watched=50):
-    """Record of the motion from a state at W T = pi/2."""
+    """Return the record of the motion from a state at W T = pi/2."""
     settling = Settling(tolerance, patience, limit, watched)
     return ensemble.settle(p[None], np.array(state, float)[None], settling, from_strobe=True)[0]
 
@@ -58,7 +58,7 @@ def divergence_of_neighbours(p, state, periods, skipped=100, apart=1e-7, batches
     return np.mean(means), np.std(means, ddof=1) / math.sqrt(batches)
 
 
-# the free oscillator at W = 2: both period-1 motions and the one-third subharmonic
+# The free oscillator has these three motions at W = 2.
 @pytest.mark.parametrize(
     "state, period, largest",
     [((2.35, -0.78), 1, 2.376), ((0.03, 0.5), 1, 0.252), ((-0.43, 0.23), 3, 0.893)],
@@ -100,14 +100,14 @@ def test_asymmetry(known_orbit):
 
 
 def test_mass_that_drifts_is_not_taken_for_settled():
-    """A loose mass that drifts so slowly that it meets no wall for a while has not settled."""
+    """A loose mass that drifts too slowly to meet a wall in the run has not settled to an orbit."""
     p = pack(PAPER, Damper(0.12, 2.0), 2.0)
     y = np.array([0.02716339, 0.4994648, 0.02716339, 0.4994648 + 1e-5])
     record = settled(p, y, patience=100, limit=200)
     assert record["outcome"] == records.NON_COLLIDING
 
 
-# a start of the violent motion below the band
+# Start of a violent chaotic motion, at a frequency below the suppression band.
 VIOLENT = pack(PAPER, DESIGN, 1.1), [1.0, 0.5, 0.3, -1.0]
 
 
@@ -138,7 +138,7 @@ def test_error_of_the_exponent_shrinks_with_the_run():
     p, state = VIOLENT
     short = settled(p, state, patience=300, limit=5000)
     long = settled(p, state, patience=4000, limit=5000)
-    # 15 batches against 200
+    # the exponent is averaged over 15 batches in the short run and 200 in the long one
     assert 2 < short["lyapunov_error"] / long["lyapunov_error"] < 7
     assert_allclose(
         short["lyapunov_exponent"], long["lyapunov_exponent"], atol=4 * short["lyapunov_error"]
@@ -217,11 +217,11 @@ def test_measures_against_dense_samples(known_orbit):
     times = known_orbit.strobe + np.arange(count) * known_orbit.period / count
     states, log = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, times)
     x, z = states[:, 0], states[:, 2]
-    # between samples a parabola rises by at most (spacing/2)^2 |x''|/2
+    # between two samples |x| exceeds both by at most (spacing/2)^2 |x''|/2
     assert -1e-12 < record["maximum_displacement"] - np.max(np.abs(x)) < 1e-5
     assert record["contacts"] == len(log)
-    # Re(c exp(i W T)), while the transform counts its time from the strobe, W T = pi/2
-    # and contacts fall between the few samples of the record, an error of the transform
+    # The record holds c of Re(c exp(i W T)). The transform counts time from the strobe, W T = pi/2.
+    # The record is computed from few samples, which resolve contacts poorly: hence `atol`.
     turn = 2 * np.exp(-0.5j * np.pi) / count
     atol = 2e-4 if known_orbit.damper else 1e-8
     assert_allclose(record["harmonic_displacement"], turn * np.fft.rfft(x)[1], atol=atol)

@@ -41,7 +41,7 @@ def test_samples_and_contacts_of_a_simulation():
 
 
 def test_simulation_goes_on_where_it_stopped():
-    """A run started later, at the phase of the forcing there, continues the first run."""
+    """A run that starts in the last state of a run, at its time, continues this run."""
     whole = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=4, samples=10)
     first = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=1.5, samples=10)
     middle = [first[name].values[-1] for name in list(first)[:4]]
@@ -119,7 +119,7 @@ def test_random_states_are_uniform(damper, within_gap):
 
 
 def test_a_loose_mass_far_beyond_its_wall_is_told_with_its_speed():
-    """The compressed contact stores m v^2/2 of the relative motion; elastic, it gives it back."""
+    """An elastic contact turns its energy into the relative speed of which the warning speaks."""
     beyond = 5 * DESIGN.clearance
     with pytest.warns(UserWarning, match="the loose mass is beyond its wall") as told:
         motion = simulate(PAPER, DESIGN, 2.0, (0, 0, beyond, 0), periods=0.5, samples=4000)
@@ -145,7 +145,7 @@ def test_random_states_depend_on_the_seed_only():
 
 
 def test_steady_motion_of_the_design():
-    """It has two symmetric contacts a period and is small; a simulation returns to its state."""
+    """The quiet motion has two symmetric contacts; a simulation returns to its state."""
     # from W T = pi/2 to T = pi, one forcing cycle after T = 0
     before = simulate(PAPER, DESIGN, 2.0, ON_ORBIT, start=math.pi / 4, periods=0.75, samples=4)
     start = [float(before[name][-1]) for name in list(before)[:4]]

@@ -13,7 +13,7 @@ PERIODS = 3
 
 
 def reference(times):
-    """States by SciPy, of the equations written down apart."""
+    """Return states by SciPy. The equations are written out here a second time."""
     f, h, k, k3, inverse, kappa, eta, kappa3 = PARAMETERS
 
     def rate(t, y):

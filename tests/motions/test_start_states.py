@@ -1,4 +1,4 @@
-"""Starts of searches: as wide as the free motions, where a narrow ball misses motions."""
+"""Starts of searches are scaled by the free motions; a narrow ball of starts misses motions."""
 
 import math
 import warnings
@@ -21,7 +21,11 @@ SETTLING = Settling()
 
 
 def hardening_machine():
-    """m = 12 kg, k = 2e5 N/m, k3 = 4e9 N/m^3, 0.5 %, F = 40 N; 5 % in a gap of 3 mm; unit in mm."""
+    """Return oscillator, damper, frequency, and unit of length in mm, of a machine in SI units.
+
+    m = 12 kg, k = 2e5 N/m, k3 = 4e9 N/m^3, damping ratio 0.5 %, F = 40 N, 30 Hz. The loose mass has
+    5 % of the mass m and a gap of 3 mm.
+    """
     mass, stiffness, cubic, force = 12.0, 2e5, 4e9, 40.0
     length = (force / cubic) ** (1 / 3)
     rate = math.sqrt(cubic * length**2 / mass)
@@ -50,7 +54,7 @@ def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_mis
 
 @pytest.mark.parametrize("name, frequency", [("softening", 0.85), ("linear", 1.3), ("shaken", 1.0)])
 def test_free_motions_are_settled_ones(name, frequency):
-    """Each goes on as by SciPy and comes back after its period; the largest are the scales."""
+    """By SciPy each free motion returns after a cycle, and the largest give the scales."""
     oscillator = SPRINGS[name]
     found = free_motions(oscillator, frequency, SETTLING)
     force = oscillator.forcing_amplitude(frequency)
@@ -108,7 +112,7 @@ def test_a_free_decay_has_starts_too():
 
 @pytest.mark.filterwarnings("error")
 def test_a_free_decay_says_how_it_ends():
-    """At rest, or with a loose mass that still moves when the run ends; each is told once."""
+    """A decay ends at rest, or is unresolved if the loose mass still moves; each is listed once."""
     data = frequency_response(Oscillator(0.1, 1.0, force=0.0), Damper(0.1, 0.5), [1.0], starts=8)
     outcomes = data.outcome.values[0].tolist()
     assert outcomes.count(flag("outcome", "at_rest")) == 1
@@ -129,7 +133,7 @@ def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
 
 
 def test_bound_on_what_was_never_seen():
-    """(1 - share)^n is 5 % at a share just below 3/n."""
+    """If none of n starts leads to a motion with this share, (1 - share)^n is just below 5 %."""
     for n in (24, 96, 1000):
         assert (1 - missed_share(n)) ** n < 0.05 < (1 - 0.9 * missed_share(n)) ** n * 1.1
     assert missed_share(0) == missed_share(1) == 1

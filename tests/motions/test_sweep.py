@@ -72,7 +72,7 @@ def test_three_branches_of_the_free_oscillator(free):
 
 
 def test_branches_end_at_folds(free):
-    """The multiplier there is one, and the end does not depend on the grid of the sweep."""
+    """At an end the multiplier is one, and the end does not depend on the grid of the sweep."""
     ends = ends_of(free)
     assert len(ends) == 4 == len(free["end_value"])
     assert_allclose(free["end_multiplier_real"], 1, atol=0.01)
@@ -155,7 +155,7 @@ def test_mirrored_motion_is_the_same():
 
 
 def test_sweep_of_the_clearance():
-    """The quiet motion is one branch, and at every clearance the motion that a single run finds."""
+    """The quiet motion is on one branch, and at each clearance it is a periodic orbit."""
     clearances = np.array([1.9, 2.0, 2.1])
     parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
     # state of the orbit for d0 = 2 at T = 0, in contact

@@ -18,7 +18,7 @@ NEVER = np.zeros(1, bool)
 
 
 def examined(p, state, limit=1500):
-    """Return the record of a motion from a state at the strobe that is taken for undecided."""
+    """Return the record of a motion that `name_undecided` continues from a state at the strobe."""
     found = np.zeros(1, records.MOTION)
     found["state"] = state
     undecided.name_undecided(p[None], found, limit, 100_000, NEVER)
@@ -27,7 +27,7 @@ def examined(p, state, limit=1500):
 
 @pytest.fixture(scope="module", params=[1.45, 1.5])
 def torus(request):
-    """Parameters and record of a quasi-periodic motion that random starts lead to."""
+    """Return parameters and records of a quasi-periodic motion that random starts lead to."""
     p = pack(PAPER, INELASTIC, request.param)
     starts = np.random.default_rng(3).uniform(-1, 1, (96, 4))
     found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
@@ -35,7 +35,7 @@ def torus(request):
 
 
 def test_frequencies_are_those_of_the_spectrum(torus):
-    """The highest lines of the spectrum are at k first + m second, to the width of a line."""
+    """The highest lines of the spectrum are at k first + m second frequency, with integers k, m."""
     p, found = torus
     assert len(found) > 0
     record, period, size = found[0], 2 * math.pi / p[FREQUENCY], 2**14
@@ -52,7 +52,7 @@ def test_frequencies_are_those_of_the_spectrum(torus):
     lines = np.add.outer(np.arange(-9, 10) * second, np.arange(-12, 13) * first)
     apart = np.abs(lines[None] - peaks[:, None, None] * step)
     assert np.max(np.min(apart, axis=(1, 2))) < step
-    # among them are lines of the second frequency alone
+    # some of the lines contain the second frequency
     orders = np.argmin(apart.reshape(len(peaks), -1), axis=1) // 25 - 9
     assert np.sum(orders != 0) >= 3
 
@@ -79,7 +79,10 @@ def test_torus_turns_as_the_orbit_it_splits_off_from():
 
 
 def test_torus_that_is_bent_around_its_centre_in_one_plane():
-    """In (Z1, Z1') it is a crescent; in two more planes the rotation number is the same."""
+    """In the plane (Z1, Z1') the torus is a crescent without a rotation number.
+
+    In two other planes the rotation number agrees with the record.
+    """
     p = pack(PAPER, Damper(0.43819, 2.51322, 0.70627), 1.01298)
     starts = np.random.default_rng(3).uniform(-1, 1, (16, 4))
     found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
@@ -100,7 +103,7 @@ def test_starts_on_one_torus_have_one_name(torus):
 
 
 def test_starts_examined_alone_have_the_same_frequencies(torus):
-    """The frequencies do not depend on a motion on the same curves found before."""
+    """The frequencies do not depend on whether a motion on the same curves was found before."""
     p, found = torus
     alone = examined(p, found["state"][-1])
     assert alone["outcome"] == records.QUASI_PERIODIC
@@ -148,7 +151,7 @@ def test_drifting_mass_has_its_own_name():
 
 
 def test_settled_motions_have_no_growing_exponent():
-    """The exponent is that of the orbit, not of the chaotic transient before it."""
+    """The exponent belongs to the orbit and not to the chaotic transient before the orbit."""
     p = pack(PAPER, Damper(0.12, 2.0), 2.4)
     starts = np.random.default_rng(1).uniform(-1.5, 1.5, (96, 4))
     found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())

@@ -11,7 +11,8 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 SOURCES = sorted(Path(impact_damper.__file__).parent.rglob("*.py"))
-# `p[3]`, `parameters[:, 3]`, `orbit.p[0]`, `here.on[0]`, and the width, as in `shape (7,)`.
+# Lines that read a packed parameter by its number, such as `p[3]`, `parameters[:, 3]`, `orbit.p[0]`
+# and `here.on[0]`, or that state the number of parameters as digits, such as `shape (11,)`.
 NUMBERED = re.compile(
     r"(?:\b(?:p|parameters)|\.on|\.off)\[(?:[\w.:]+, )?\d\]"
     rf"|[Ss]hapes? \((?:\w+, )*{packed.COUNT},?\)"

@@ -42,7 +42,7 @@ def oscillator(request):
 
 
 def balance(a, phase, oscillator, frequency):
-    """Residual of the first harmonic of equation (3) without contact."""
+    """Return the residual of the first harmonic of equation (3) without contact."""
     spring = oscillator.linear_frequency**2 - frequency**2 + 0.75 * oscillator.cubic * a**2
     force = oscillator.force + oscillator.unbalance * frequency**2
     force += oscillator.shaker / frequency**2
@@ -50,7 +50,7 @@ def balance(a, phase, oscillator, frequency):
 
 
 def defect(a, oscillator, frequency):
-    """Square of the modulus of the spring, inertia and damping, less that of the force."""
+    """Return the squared amplitude of spring, inertia and damping minus the squared force."""
     force = oscillator.force + oscillator.unbalance * frequency**2
     force += oscillator.shaker / frequency**2
     spring = oscillator.linear_frequency**2 - frequency**2 + 0.75 * oscillator.cubic * a**2
@@ -116,7 +116,7 @@ def test_all_free_solutions_are_found(oscillator):
 
 @pytest.mark.thorough
 def test_folds_are_where_solutions_appear(oscillator):
-    """Frequencies at which their number changes, bisected, and the double solution there."""
+    """The number of solutions changes at folds, and there one solution is double."""
 
     def count(frequency):
         return len(free_solutions(oscillator, frequency).amplitude)
@@ -145,7 +145,7 @@ def test_folds_are_where_solutions_appear(oscillator):
 
 
 def test_folds_of_a_softening_oscillator_lie_on_the_curve_of_vertical_tangents():
-    """(wl^2 - W^2 + g a^2)(wl^2 - W^2 + 3 g a^2) + (h W)^2 = 0, with g = (3/4) k3, and (3)."""
+    """Folds solve (wl^2 - W^2 + g a^2)(wl^2 - W^2 + 3 g a^2) + (h W)^2 = 0 with g = (3/4) k3."""
     folds = free_folds(SOFTENING)
     assert len(folds) >= 2
     for frequency, a in folds:
@@ -227,7 +227,7 @@ DAMPER = Damper(0.12, 1.5, contact_stiffness=400.0)
 
 
 def test_no_solution_with_contacts_is_missed(oscillator):
-    """Against a scan of b, as in the tests of the paper's system; close pairs may escape it."""
+    """Against changes of sign on a grid of b, between whose points a close pair may be missed."""
     b = 1.5 * (1 + np.concatenate([[0], np.geomspace(1e-9, 1e3, 100000)]))
     escaped = 0
     for frequency in np.linspace(0.4, 2.4, 11):
@@ -305,7 +305,7 @@ def test_many_harmonics_are_the_motion_that_scipy_integrates(name, frequency):
 
 @pytest.mark.parametrize("restitution", [1.0, 0.8])
 def test_balance_with_contacts_in_other_springs(oscillator, restitution):
-    """Its Jacobian against differences of the residual, and one term against (7)."""
+    """The Jacobian against differences of the residual, and a single harmonic against (7)."""
     damper = Damper(0.2, 1.0, restitution, 300.0)
     many = Balance(oscillator, damper, 1.7, 7)
     generator = np.random.default_rng(2)

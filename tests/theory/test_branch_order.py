@@ -52,6 +52,6 @@ def test_solutions_of_harmonic_balance_are_curves():
         kept = np.isfinite(values)
         # each column is one interval of frequencies
         assert np.all(np.abs(np.diff(kept.astype(int), axis=0)).sum(axis=0) <= 2)
-        # third differences are small compared with the amplitudes, but near folds
+        # amplitudes change little from one frequency to the next
         steps = np.abs(np.diff(values, axis=0))
         assert np.nanmax(steps) < 0.2

@@ -22,7 +22,7 @@ def test_free_solutions_solve_the_balance():
 
 
 def test_linear_limit():
-    """With a stiff linear spring the amplitude is that of the linear oscillator."""
+    """With a stiff linear spring the amplitude tends to the linear oscillator's."""
     oscillator = Oscillator(0.3, 50.0)
     expected = 1 / abs(50**2 - 20**2 + 0.3j * 20)
     assert_allclose(free_solutions(oscillator, 20.0).amplitude, expected, rtol=1e-8)
@@ -51,7 +51,7 @@ def test_heavy_damping_has_no_fold():
 
 @pytest.mark.parametrize("damping, frequency", [(0.215, 2.007), (0.15, 2.403), (0.107, 2.845)])
 def test_peak_frequency(damping, frequency):
-    """The values that the formula gives; the free motion there is 1/(h W) and lags by pi/2."""
+    """At the peak frequency the free motion has the amplitude 1/(h W) and lags by pi/2."""
     peak = peak_frequency(Oscillator(damping))
     assert_allclose(peak, frequency, atol=5e-4)
     largest = free_solutions(Oscillator(damping), peak)

@@ -81,7 +81,7 @@ def test_real_multipliers_at_the_edge_of_the_strip():
 
 @pytest.mark.thorough
 def test_the_orbit_must_be_of_the_same_truncation():
-    """With the ends of contacts of the exact orbit instead, errors fall as N^-3, not N^-4."""
+    """With the contacts of the exact orbit errors fall as N^-3, with its own as N^-4."""
     damper = Damper(0.12, 2.0, contact_stiffness=200.0)
     highest = [1, 3, 7, 15, 31, 63, 127, 255, 511]
     balances = [Balance(PAPER, damper, 2.0, n) for n in highest]

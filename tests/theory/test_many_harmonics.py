@@ -28,7 +28,7 @@ def balance(request):
 
 
 def arbitrary(balance, seed=1):
-    """Coefficients of some series, Z2 of which touches both walls."""
+    """Return coefficients of random series, with a Z2 that touches both walls."""
     generator = np.random.default_rng(seed)
     count = len(balance.harmonics)
     shape = (1 if balance.damper is None else 2, count)
@@ -118,7 +118,7 @@ def test_approaches_the_exact_orbit(damper):
 
 
 def test_subharmonic_of_the_free_oscillator():
-    """One third of the forcing: odd harmonics of W/3, against the map over three periods."""
+    """A motion with odd harmonics of W/3 repeats after three forcing cycles and not after one."""
     start = np.array([[1.2 * np.exp(0.3j), 0.0]])
     for phase in np.arange(0, 2 * np.pi, 0.25):
         start = np.array([[0.45 * np.exp(1j * phase), 0.1]])

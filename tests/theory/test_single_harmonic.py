@@ -30,7 +30,7 @@ def random_scenes(count, seed):
 
 
 def defect(b, oscillator, damper, frequency):
-    """cos^2 + sin^2 - 1 of (7a, b) with a from (7c), B as printed in (6e); also a."""
+    """Return cos^2(t1) + sin^2(t1) - 1 by (7a, b), with a by (7c) and B as in (6e); and a."""
     rho = damper.clearance / b
     force = b * (1 - (2 / np.pi) * (rho * np.sqrt(1 - rho**2) + np.arcsin(rho)))
     a = b - damper.contact_stiffness * force / (damper.mass_ratio * frequency**2)
@@ -59,7 +59,7 @@ def test_contact_amplitude_derivative():
 
 
 def test_contact_amplitude_near_the_wall_has_the_power_three_halves():
-    """The paper's (11) prints the power 1/2."""
+    """The paper prints the power 1/2 in (11)."""
     clearance, excess = 2.0, np.array([1e-3, 1e-4, 1e-5, 1e-6])
     found = contact_amplitude(clearance + excess, clearance)[0]
     expected = 8 * np.sqrt(2) / (3 * np.pi) * excess**1.5 / np.sqrt(clearance)
@@ -108,7 +108,7 @@ def test_solutions_satisfy_7():
 
 
 def test_no_solution_of_7_is_missed():
-    """Against a scan of b, dense where the force bends; close pairs may escape the scan."""
+    """Against changes of sign on a grid of b, between whose points a close pair may be missed."""
     excess = np.concatenate([[0], np.geomspace(1e-9, 1e4, 100000)])
     escaped = 0
     for oscillator, damper, frequency in random_scenes(150, seed=4):

@@ -84,7 +84,7 @@ def test_many_states_at_once():
 
 
 def test_solutions_of_7_are_fixed_points_with_the_eigenvalues_of_the_polar_jacobian():
-    """Also J33 = 0 there, as appendix A prints."""
+    """At the fixed points J33 = 0, as in appendix A."""
     solutions = impacting_solutions(*SCENE)
     states = fixed_points(solutions)
     assert_allclose(slow_flow(states, *SCENE), 0, atol=1e-11)

@@ -22,7 +22,10 @@ PHASES = np.linspace(0, np.pi, 40001)
 
 
 def straight(mass_ratio, restitution, impulse):
-    """Z1 over half a period from an impact between rigid walls, and rm W^2 d0, from scratch."""
+    """Return Z1 over half a cycle after an impact at a rigid wall, rm W^2 d0, and the lag.
+
+    The formulas are independent of the package.
+    """
     mean_speed = 2 * impulse / np.pi * (1 + 1 / mass_ratio)
     lag = np.arcsin(mean_speed * (1 - restitution) / (1 + restitution))
     flight = impulse * (1 - 2 * PHASES / np.pi)
@@ -36,7 +39,7 @@ CASES = [(0.05, 1.0), (0.12, 1.0), (0.4, 1.0), (0.12, 0.97), (0.25, 0.9), (0.12,
 
 @pytest.mark.parametrize(("mass_ratio", "restitution"), CASES)
 def test_optima_of_sampled_straight_flights(mass_ratio, restitution):
-    """Minimised over samples, both criteria are exact to 1e-9, and their places to 1e-4."""
+    """Both optima against a minimisation over samples of the motion."""
     loss = 2 / np.pi * (1 + 1 / mass_ratio) * (1 - restitution) / (1 + restitution)
     most = min(1.5, 0.999 / loss) if loss else 1.5
 
@@ -64,7 +67,7 @@ def test_first_harmonic_vanishes_at_pi_squared_over_eight_for_a_light_mass_alone
 
 @pytest.mark.parametrize("loss", [0.38, 0.6, 1.0, 3.0])
 def test_smooth_minimum_with_restitution(loss):
-    """Lambda cos(s + tan s) = sin s beyond Lambda = 0.369, where both displacements are equal."""
+    """Above Lambda = 0.369 the minimum is smooth and solves Lambda cos(s + tan s) = sin s."""
     mass_ratio = 0.12
     share = loss / (1 + 1 / mass_ratio)
     lag = brentq(lambda s: loss * np.cos(s + np.tan(s)) - np.sin(s), 0, 1.2)
@@ -83,7 +86,10 @@ def test_constants_of_the_kink():
     ("damping", "stiffness"), [(0, 0), (0.2, 0), (0, 0.6), (0.3, 0.15), (0.1, 0.5)]
 )
 def test_flight_of_the_primary_mass_solves_its_equation(damping, stiffness):
-    """x'' + g x' + l^2 x = cos over half a period, impulses of 4 q/pi at its ends, mirrored."""
+    """The motion solves x'' + g x' + l^2 x = cos(phi) between two impulses of 4 q/pi.
+
+    The impulses are half a cycle apart, and the motion at the second is the mirror image.
+    """
     flight, impulse = Flight(0.12, 0.9, damping=damping, stiffness=stiffness), 0.9
     lag = flight.lag(impulse)
 
@@ -97,13 +103,13 @@ def test_flight_of_the_primary_mass_solves_its_equation(damping, stiffness):
     assert_allclose(end[0], -start[0], atol=1e-4 if damping == stiffness == 0 else 1e-8)
     before = -end[1]
     assert_allclose(before - start[1], 4 * impulse / np.pi, rtol=1e-8)
-    # restitution between the velocities of approach before and after
+    # the relative velocities before and after an impact have the ratio -e, with e = 0.9
     loose = 2 * impulse / (np.pi * flight.mass_ratio)
     assert_allclose(start[1] - loose, -0.9 * (before + loose), rtol=1e-8)
 
 
 def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
-    """Both optima of the exact orbit, and the theory's flight."""
+    """Return both optima of the exact orbit, both optima by the closed forms, and the `Flight`."""
     damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
     flight = flight_of(oscillator, damper, frequency)
     motion = QuietMotion(oscillator, damper, frequency)
