@@ -1,4 +1,4 @@
-"""A temporary copy of the repository for tutorials that run the workflow."""
+"""A temporary copy of the workflow's files for tutorials that run the workflow."""
 
 import os
 import shutil
@@ -14,10 +14,11 @@ PARTS = ("Snakefile", "requirements.lock", "config", "profiles", "workflow")
 
 
 def enter_clone():
-    """Make the folder, change to it, and let the shell find Snakemake.
+    """Copy the workflow's files to a temporary folder, change to it, and return the folder object.
 
-    The folder is deleted together with the object returned. It has no copy of the package, whose
-    kernels would be compiled again for another path.
+    The folder is deleted together with the object. Afterwards the shell finds Snakemake, and
+    `%%bash` runs the function `bash`. The package is not copied, because its kernels (functions
+    compiled by numba) would be compiled again for another path.
     """
     folder = tempfile.TemporaryDirectory()
     for part in PARTS:
@@ -32,8 +33,8 @@ def enter_clone():
 def bash(line, cell):
     """Run the cell in a shell and print its output in one piece.
 
-    IPython's own `%%bash` prints its output in pieces, and the pages would break lines between
-    them.
+    IPython's own `%%bash` prints the output in pieces, and the pages would break lines between the
+    pieces.
     """
     ran = subprocess.run(["bash", "-c", cell], capture_output=True, text=True)
     print(ran.stdout, end="")

@@ -18,6 +18,7 @@ from impact_damper.workflow.command_line import app as command
 from impact_damper.workflow.models.reference import reference
 
 ROOT = Path(__file__).parents[2]
+# Folders of results in the order of preference, and their names on the pages.
 RUNS = {
     "results": "the full run",
     "results-smoke": "the reduced run, which cannot decide most claims",
@@ -86,7 +87,7 @@ def claims(run, folder):
 
 
 def figures(run, folder):
-    """Return the page of all figures of a run with their captions, by name."""
+    """Return the page of all figures of a run with their captions, sorted by name."""
     common = (ROOT / "workflow/report/workflow.rst").read_text().split("\n\n")[-1]
     parts = [f"# All figures\n\nFrom {RUNS[run]}.\n", common]
     for path in sorted((ROOT / run / "figures").glob("*.rst")):
