@@ -14,9 +14,6 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals.methods import STATISTICS
 from impact_damper.system.packed import DASHPOT, FREQUENCY
 
-# Tolerance of runs for Lyapunov exponents.
-EXPONENT_TOLERANCE = 1e-9
-
 
 def of_run(p, run, begin, periods, batch):
     """Return for each batch the contacts per cycle, and the mean over cycles of the largest |Z1|.
