@@ -1,4 +1,7 @@
-"""Edges of stability against events located in one parameter, closed forms, and limits."""
+"""Edges of stability compared with bifurcations on branches, closed forms, and limits.
+
+An edge is a curve in the plane of two parameters on which a symmetric orbit loses its stability.
+"""
 
 from dataclasses import replace
 
@@ -20,7 +23,7 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.packed import CLEARANCE, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
-# The machine of the best clearance and the basin cliff: linear, at resonance, static deflection 1.
+# A linear machine with the static deflection 1, forced at its resonance.
 MACHINE = Oscillator(0.01, 1.0, cubic=0.0)
 DAMPER = Damper(0.05, 20.0, restitution=0.7, contact_stiffness=100.0)
 
@@ -63,14 +66,14 @@ def edge_of(edge_map, kind):
 
 
 def at_end(edge, bound):
-    """First parameter where an edge meets a bound of the second."""
+    """First parameter at the end of an edge at which the second parameter reaches its bound."""
     (k,) = [k for k in (0, -1) if edge.values[k, 1] == bound]
     assert edge.ends[k] == "range_ends"
     return edge.values[k, 0]
 
 
 def branch_at(family, edge_map, column, span):
-    """Branch in the first parameter through the stablest orbit of a column of a map."""
+    """Branch over the first parameter, from the most stable orbit in a column of a map."""
     row = int(np.nanargmin(edge_map.modulus[:, column]))
     first, second = edge_map.axes[0][row], edge_map.axes[1][column]
     return follow_branch(
@@ -79,7 +82,7 @@ def branch_at(family, edge_map, column, span):
 
 
 def assert_located(branch, kind, found):
-    """An event of the branch lies where an edge says."""
+    """Check that an event of this kind on the branch lies at the parameter `found`."""
     events = np.array([event.point.value for _, event in branch.events if event.kind == kind])
     assert np.min(np.abs(events - found)) < 1e-7 * found
 
@@ -99,7 +102,7 @@ def test_edges_of_the_machine_located_in_one_parameter(machine_map, column):
 
 
 def test_the_loose_mass_grazes_a_wall(machine_map):
-    """Between contacts Z2 turns exactly at a wall."""
+    """On a grazing edge |Z2| has a maximum equal to the clearance, found here by minimization."""
     edge = edge_of(machine_map, GRAZING)
     assert len(edge.orbits) > 5
     for orbit in edge.orbits:
@@ -116,7 +119,7 @@ def test_the_loose_mass_grazes_a_wall(machine_map):
 
 
 def test_a_contact_begins_on_a_branch_where_the_map_has_it(machine_map):
-    """The branch is followed by other equations, and goes on beyond the place."""
+    """The branch, which is followed with other equations, has a grazing event on the edge."""
     found = at_end(edge_of(machine_map, GRAZING), machine_map.axes[1][0])
     branch = branch_at(machine, machine_map, 0, (found - 0.1, 35.0))
     assert_located(branch, "grazing", found)
@@ -134,7 +137,7 @@ def test_every_change_of_stability_of_the_map_has_an_edge(machine_map, paper_map
 
 
 def meets(edge, span, second):
-    """Whether an edge takes a second parameter at a first one in a span, where it bounds."""
+    """Whether an edge bounds stable orbits at `second`, with its first parameter in `span`."""
     a, b = edge.values.T
     for k in np.flatnonzero((b[:-1] - second) * (b[1:] - second) <= 0):
         share = (second - b[k]) / ((b[k + 1] - b[k]) or 1.0)
@@ -157,13 +160,15 @@ def test_multipliers_on_the_edges(machine_map, paper_map):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_derivatives_of_the_equations(kind, machine_orbit):
-    """Against central differences of order 8."""
+    """Exact derivatives of the equations are compared with central differences of order 8."""
     spans = np.array([[8.0, 44.0], [0.3, 0.95]])
     scale = np.max(np.abs(machine_orbit.state))
     problem = Problem(machine, kind, spans, scale, 1, machine_orbit.phase)
     values = np.array([machine_orbit.p[CLEARANCE], 0.7])
     x = problem.unknowns(machine_orbit.state, values)
-    if kind == GRAZING:  # the second deepest turn is then that of a contact
+    # The orbit has one turning point of Z2 in half a period, a contact. With 0 contacts it is the
+    # next to become a contact.
+    if kind == GRAZING:
         problem = replace(problem, contacts=0)
     rows = problem.rows(x, problem.path(x))
     for k in range(6):
@@ -176,7 +181,11 @@ def test_derivatives_of_the_equations(kind, machine_orbit):
 
 
 def edge_near_rigid(kind, oscillator, damper, frequency, ratio, restitutions):
-    """Clearances on the edge near a rigid motion, given its ratio of speed to clearance."""
+    """Return a dict of the clearance on the edge at each restitution.
+
+    The edge is sought near a motion between rigid walls. `ratio` is the speed of the loose mass
+    between impacts divided by the clearance.
+    """
     orbit = linear_orbit(oscillator, damper, frequency, ratio)
     clearance = orbit.p[CLEARANCE]
 
@@ -189,14 +198,17 @@ def edge_near_rigid(kind, oscillator, damper, frequency, ratio, restitutions):
 
 
 def assert_limit(soft, stiff, rigid):
-    """Errors of walls four times as stiff are half as large, and the limit is the rigid one."""
+    """Check that walls four times as stiff halve the error, and that the limit is `rigid`."""
     assert_allclose((stiff - rigid) / (soft - rigid), 0.5, rtol=0.02)
     assert_allclose(2 * stiff - soft, rigid, rtol=2e-4)
 
 
 @pytest.mark.parametrize("kind", [TORUS, SYMMETRY])
 def test_limit_of_rigid_walls(kind):
-    """Errors fall with the square root of the stiffness to Masri and Caughey's boundaries."""
+    """For stiff walls edges converge to Masri and Caughey's boundaries for rigid walls.
+
+    The error is inversely proportional to the square root of the stiffness.
+    """
     restitutions = 0.6, 0.8
 
     def rigid(e):
@@ -215,7 +227,11 @@ def test_limit_of_rigid_walls(kind):
 
 
 def test_fold_in_the_limit_of_straight_flight():
-    """Without spring, and hardly any damping, the loose mass and the machine fly straight."""
+    """Without a spring and with little damping a closed form exists for the fold.
+
+    Between impacts the loose mass flies at constant speed, and only the forcing acts on the
+    machine.
+    """
     free, frequency, restitutions = Oscillator(1e-5, 0.0, cubic=0.0), 2.0, (0.5, 0.7)
     damper = Damper(0.2, 1.0, restitution=0.6)
     ratios = np.linspace(0.2, 2.0, 400)
@@ -234,7 +250,7 @@ def test_fold_in_the_limit_of_straight_flight():
 
 
 def test_a_closed_edge(machine_orbit, machine_map):
-    """Where both parameters enter by the sum of their squares, an edge is a circle."""
+    """If the clearance depends on a^2 + b^2 alone, the edge in the plane of a and b is a circle."""
     edge = edge_of(machine_map, SYMMETRY)
     place = np.argmin(np.abs(edge.values[:, 1] - 0.7))
     clearance = edge.values[place, 0]

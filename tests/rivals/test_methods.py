@@ -35,7 +35,8 @@ def test_compared_integrators_implement_what_the_stage_calls(stage):
     assert set(ASKED) == set(COMPARED)
     for label in COMPARED[stage]:
         name, _ = name_and_mode(label)
-        # for the Taylor series the stage looks for the first contact instead
+        # The stage `missed_contacts` does not call `flight` of the Taylor series: it runs this
+        # integrator with walls and checks whether a contact begins.
         if (stage, name) != ("missed_contacts", "taylor"):
             function = ASKED[stage]
             assert getattr(type(integrators()[name]), function) is not getattr(Integrator, function)

@@ -29,7 +29,7 @@ def fixed(method, p, y, steps, periods, t=0.0):
 
 @pytest.fixture(scope="module")
 def free():
-    """A free motion over two periods, and where it ends by the Taylor series."""
+    """Parameters without a damper, and the state after two cycles by the Taylor series."""
     p = pack(PAPER, None, 2.0)
     states, _ = sample(p, START, 0.0, [2 * 2 * math.pi / 2.0])
     return p, states[-1]
@@ -46,8 +46,9 @@ def test_order_of_fixed_steps(method, free):
 
 @pytest.mark.parametrize("locate", [False, True])
 def test_merson_follows_its_tolerance(locate, free):
-    """The error is of order h^4 and its estimate of order h^5, so the error goes as
-    tolerance^(4/5).
+    """The error is of order h^4, with the step h, and the estimate of the error of order h^5.
+
+    The error is therefore proportional to tolerance^(4/5).
     """
     p, end = free
     errors = []
@@ -68,9 +69,9 @@ def test_scipy_on_smooth_motion(method, free):
 
 @pytest.mark.parametrize("method", fixed_step.NAMES)
 def test_linear_stability_limit_of_the_contact(method):
-    """With almost no clearance the pair of masses is a linear oscillator of frequency omega_c.
+    """With almost no clearance the two masses on the contact spring are a linear oscillator.
 
-    The cubic spring of the primary mass is negligible for small motions.
+    The springs of the primary mass are negligible beside the contact spring.
     """
     stiffness, mass_ratio = 1e6, 0.25
     p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)
@@ -79,7 +80,10 @@ def test_linear_stability_limit_of_the_contact(method):
     limit = fixed_step.STABILITY_LIMIT[method]
 
     def growth(scaled):
-        """Return the largest |eigenvalue| of a step; the drift of both masses has 1."""
+        """Return the largest |eigenvalue| of the matrix of a step of length `scaled`/frequency.
+
+        The common motion of both masses has the eigenvalue 1.
+        """
         h = scaled / contact
         number = fixed_step.NAMES.index(method)
         drives = fixed_step.forcing(p, 0.0, h)
@@ -113,7 +117,7 @@ def test_located_contacts_agree_with_the_taylor_series(damper):
 
 
 def test_the_kink_takes_the_order_away():
-    """Through elastic contacts the fourth-order method is no better than of second order."""
+    """With elastic contacts that are not located, a method of order 4 has only order 2."""
     p = pack(PAPER, DESIGN, 2.0)
     y = np.array([0.1, 0.2, 0.0, -2.4])
     begin = strobe_map.strobe_time(p)
@@ -127,7 +131,7 @@ def test_the_kink_takes_the_order_away():
     assert -2.7 < slope < -1.3
 
 
-def test_a_divergence_is_told():
+def test_a_diverging_run_has_nan_from_this_cycle_on():
     p = pack(PAPER, DESIGN, 2.0)
     strobes, largest, run = fixed("runge_kutta_4", p, [0.0, 0.0, 5.0, 0.0], 20, 3)
     assert run < 3

@@ -1,4 +1,4 @@
-"""Runs of the Taylor series, read off their steps, against the records of motions."""
+"""Contacts and peaks from the steps of the Taylor series, compared with `motions.records`."""
 
 import math
 
@@ -23,7 +23,7 @@ def run(damper, start=START, tolerance=1e-11, **orders):
 
 
 @cases
-def test_a_run_is_what_is_recorded_of_the_motion(damper):
+def test_a_run_agrees_with_the_records_of_the_motion(damper):
     p, found = run(damper)
     begin = strobe_time(p)
     times, log = np.array([begin, begin + PERIODS * math.pi]), np.empty((400, 5))
@@ -39,7 +39,7 @@ def test_a_run_is_what_is_recorded_of_the_motion(damper):
 
 @cases
 def test_peaks_are_turning_points(damper):
-    """The speed vanishes at each peak, as a run shows that ends there."""
+    """A second run that ends at the time of a peak has the speed 0 at its end."""
     p, found = run(damper)
     begin = strobe_time(p)
     for k in (1, len(found.peaks) // 2, -2):
@@ -53,7 +53,7 @@ def test_peaks_are_turning_points(damper):
 @pytest.mark.thorough
 @cases
 @pytest.mark.parametrize("orders", [(10, 13), (24, 30)])
-def test_other_orders_come_to_the_same(damper, orders):
+def test_other_orders_give_the_same_motion(damper, orders):
     start = START if damper is None else np.array([0.0057201257, 0.18739354, 0.00194, -2.4079124])
     _, found = run(damper, start)
     _, other = run(damper, start, orders=orders)
@@ -62,14 +62,14 @@ def test_other_orders_come_to_the_same(damper, orders):
     assert other.operations != found.operations
 
 
-def test_a_contact_at_the_start_counts_and_one_that_ends_nowhere_is_told():
+def test_a_contact_at_the_start_counts_and_a_run_that_overflows_fails():
     p, found = run(DESIGN, np.array([0.1, 0.0, 2.01, 0.5]))
     assert found.contact_times[0] == strobe_time(p)
     _, lost = run(DESIGN, np.array([1e200, 0.0, 0.0, 1.0]))
     assert lost.status == "failed" and np.isnan(lost.displacement)
 
 
-def test_the_work_is_that_of_the_steps():
+def test_the_work_of_a_run_is_the_sum_over_its_steps():
     p, found = run(DESIGN)
     rows, _ = taylor_runs.all_steps(p, START, strobe_time(p), PERIODS, 1e-11)
     counts = taylor_runs.counted(rows)

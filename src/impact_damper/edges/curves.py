@@ -1,8 +1,10 @@
 """Follow curves in the plane of two parameters on which a symmetric orbit loses its stability.
 
-Such a curve is called an edge. It consists of the points at which a test function is zero
-(`problem`). The edge is followed from one of its points by pseudo-arclength continuation, so that
-it may turn back in both parameters.
+Such a curve is called an edge. An orbit is a periodic motion, here of one forcing cycle. It is
+symmetric if the motion repeats with the opposite sign after half a cycle. The equations of an edge
+are in the module `problem`; their six unknowns are the scaled state of the orbit and both
+parameters, scaled to 0 to 1. The edge is followed from one of its points by pseudo-arclength
+continuation, so that it may turn back in both parameters.
 """
 
 from dataclasses import dataclass
@@ -14,15 +16,18 @@ from impact_damper.edges.problem import KINDS, ROUNDING, Problem, concerned
 from impact_damper.orbits.orbit import Orbit
 from impact_damper.system.bounds import shown
 
-# First, longest and shortest step, and the factor by which a step may grow. If the shortest step
-# fails, the edge ends, and the reason of the failure is stored. A length is a distance in the space
-# of the unknowns (`problem.Problem`).
+# Lengths of a step along an edge, measured in the scaled unknowns.
+# FIRST_STEP, LONGEST_STEP: first and longest step.
+# SHORTEST_STEP: a failed step is halved; if a step of this length fails, the edge ends.
+# GROWTH: factor by which a step is longer than the step before, after a success.
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GROWTH = 0.01, 0.05, 1e-5, 1.4
-# A step is accepted if the cosine between the tangents at its ends is at least STRAIGHT, and if
-# Newton's method corrects its end by at most ASIDE times its length.
+# A step is accepted under two conditions, so that it does not jump to another edge.
+# STRAIGHT: smallest cosine of the angle between the tangents at its ends (18 degrees).
+# ASIDE: largest correction of its end by Newton's method, divided by the length of the step.
 STRAIGHT, ASIDE = 0.95, 0.3
+# Largest number of points in each direction from the first point.
 MOST_POINTS = 400
-# An edge counts as passing through a point if their distance is below NEAR, in scaled parameters.
+# A point lies on an edge if its distance from the edge is below NEAR, in scaled parameters.
 NEAR = 2e-3
 
 
@@ -33,19 +38,22 @@ class Edge:
     Attributes
     ----------
     kind : str
-        One of `problem.KINDS`.
+        How stability is lost: one of `problem.KINDS`.
     values : numpy.ndarray, shape (n, 2)
         The two parameters, in order along the curve.
     orbits : list of Orbit
         The orbits at these parameters.
     bounding : numpy.ndarray of bool, shape (n,)
-        Whether the edge bounds a region of stable orbits. It does where all multipliers that the
-        kind does not concern are less than 1 in modulus.
+        Whether the edge bounds a region of stable orbits at each point. It does if all multipliers
+        (Floquet multipliers) are less than 1 in modulus, except those that are 1 in modulus on the
+        edge because of its kind.
     ends : tuple of str
-        Reasons why the curve ends before its first and after its last point: "range_ends";
-        "closed"; "contacts_change" if the orbit gains or loses contacts; "resonance" if the complex
-        pair of a Neimark-Sacker bifurcation becomes real, at 1 or -1; "too_unstable" if another
-        multiplier is far above 1; "lost" if Newton's method fails; "point_limit" after MOST_POINTS.
+        Reasons why the curve ends before its first and after its last point: "range_ends" at a
+        bound of a parameter; "closed" if it returns to its first point; "contacts_change" if the
+        orbit gains or loses contacts; "resonance" if the complex pair of multipliers of a
+        Neimark-Sacker bifurcation becomes real, at 1 or -1; "too_unstable" if another multiplier
+        exceeds `problem.UNSTABLE`; "lost" if Newton's method fails; "point_limit" after
+        MOST_POINTS.
     spans : numpy.ndarray, shape (2, 2)
         Least and greatest value of each parameter.
     """
@@ -63,7 +71,10 @@ class Edge:
         return (self.values - self.spans[:, 0]) / np.ptp(self.spans, axis=1)
 
     def crosses(self, first, second) -> bool:
-        """Return whether the edge crosses the line between two pairs of scaled parameters."""
+        """Return whether the edge crosses the straight line between two points.
+
+        `first` and `second` are pairs of scaled parameters.
+        """
         points, way = self.coordinates, second - first
         aside = (points[:, 0] - first[0]) * way[1] - (points[:, 1] - first[1]) * way[0]
         k = np.flatnonzero(aside[:-1] * aside[1:] <= 0)
@@ -73,7 +84,7 @@ class Edge:
         return bool(np.any((along >= 0) & (along <= 1)))
 
     def holds(self, point) -> bool:
-        """Return whether the edge passes a pair of scaled parameters at a distance below NEAR."""
+        """Return whether a point, a pair of scaled parameters, is closer to the edge than NEAR."""
         begins, steps = self.coordinates[:-1], np.diff(self.coordinates, axis=0)
         sizes = np.sum(steps**2, axis=1)
         along = np.sum((point - begins) * steps, axis=1) / np.where(sizes > 0, sizes, 1.0)
@@ -82,17 +93,17 @@ class Edge:
 
 
 def follow_edge(family, kind, orbit, values, spans) -> Edge | None:
-    """Follow an edge in both directions from the point nearest to an orbit.
+    """Return the edge near an orbit, followed in both directions from its point nearest to it.
 
     Parameters
     ----------
     family : callable
-        Maps two parameters to packed parameters.
+        Maps two parameters to the packed parameters of a system, shape (packed.COUNT,).
     kind : str
         One of `problem.KINDS`.
     orbit : Orbit
         A symmetric orbit of the family (`Orbit.root` is not None) close to the edge, such as the
-        orbit of a `bifurcations.Event`.
+        orbit at a bifurcation on a branch.
     values : sequence of float
         Both parameters of the orbit.
     spans : array, shape (2, 2)
@@ -128,7 +139,7 @@ def check_start(orbit, values, spans):
     """
     values = np.asarray(values, float)
     if orbit.root is None or orbit.periods != 1:
-        raise ValueError("orbit: must be symmetric, of period 1, with its root")
+        raise ValueError("orbit: must be symmetric, of period 1, with its `root`")
     if not (np.all(spans[:, 0] <= values) and np.all(values <= spans[:, 1])):
         raise ValueError(f"values = {values.tolist()}: must lie in {spans.tolist()}")
     return values
@@ -137,9 +148,9 @@ def check_start(orbit, values, spans):
 def point_near(family, kind, orbit, values, spans, border=None):
     """Return the `Problem` of an edge and a point of the edge near an orbit.
 
-    The point is None if Newton's method finds none. It may have a `Problem.fault`. The arguments
-    are those of `follow_edge`, and `border` is the argument of `Problem.correct`. Without a border
-    the nearest point of the edge is sought.
+    The point is None if Newton's method finds no point within the spans. The caller must check the
+    point by `Problem.fault`. The arguments are those of `follow_edge`, and `border` is the argument
+    of `Problem.correct`. Without a border the point nearest to the orbit is sought.
     """
     scale, contacts = np.max(np.abs(orbit.state)), len(orbit.contacts) // 2
     problem = Problem(family, kind, spans, scale, contacts, orbit.phase)
@@ -148,12 +159,12 @@ def point_near(family, kind, orbit, values, spans, border=None):
 
 
 def _inside(x):
-    """Return whether both parameters are in their spans."""
+    """Return whether both scaled parameters of the unknowns x are between 0 and 1."""
     return bool(np.all((x[4:] >= 0) & (x[4:] <= 1)))
 
 
 def edge_through(problem, first) -> Edge:
-    """Return the `Edge` through a point, followed in both directions."""
+    """Return the `Edge` through the point `first`, followed in both directions."""
     ahead, end = _walk(problem, first)
     behind, start = [first], "closed"
     if end != "closed":
@@ -171,7 +182,7 @@ def edge_through(problem, first) -> Edge:
 
 
 def _walk(problem, first):
-    """Return the points of an edge from `first` on along its tangent, and the reason of its end."""
+    """Return the points of an edge from `first` along its tangent, and why the edge ends."""
     points, length, last = [first], FIRST_STEP, first
     while len(points) < MOST_POINTS:
         ahead, fault = _step(problem, last, length)
@@ -197,12 +208,12 @@ def _walk(problem, first):
 
 
 def _step(problem, point, length):
-    """Return the point one step ahead and a reason: why the step fails or ends the edge, or ""."""
+    """Return the point one step ahead, or None, and the reason why the edge ends, or ""."""
     x, border = point.x + length * point.tangent, point.tangent
     ahead = problem.correct(x, border) if _inside(x) else None
     reason = ""
     if not _inside(x) or (ahead is not None and not _inside(ahead.x)):
-        # The step is shortened to end on the border of the rectangle that it crosses first.
+        # Shorten the step so that it ends where it leaves the rectangle of parameters.
         x, border = _to_border(point.x, x if ahead is None else ahead.x)
         ahead, reason = problem.correct(x, border), "range_ends"
         if ahead is not None and not _inside(ahead.x):
@@ -217,7 +228,10 @@ def _step(problem, point, length):
 
 
 def _to_border(inner, outer):
-    """Return where the line between two points leaves the rectangle, and the border's normal."""
+    """Return where the line between two points leaves the rectangle of parameters.
+
+    Also return the unit normal, shape (6,), of the side of the rectangle at which it leaves.
+    """
     change = outer - inner
     bounds = np.where(change[4:] > 0, 1.0, 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):

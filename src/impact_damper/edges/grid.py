@@ -1,7 +1,9 @@
 """The quiet orbit on a grid of two parameters, and the pairs of cells between which edges lie.
 
-The orbit is followed from cell to cell with exact derivatives of its state by the parameters. An
-edge is a curve on which the orbit loses its stability (`curves`).
+The quiet orbit is the symmetric periodic motion for which a damper is designed. The orbit is
+followed from cell to cell, with exact derivatives of its state by the parameters. An edge is a
+curve in the plane of the parameters on which the orbit loses its stability (`curves`). A test
+function is zero on an edge, and its sign differs on the two sides (`problem`).
 """
 
 from typing import NamedTuple
@@ -29,22 +31,25 @@ from impact_damper.orbits.shooting import shoot
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import CLEARANCE
 
-# Newton's method. ITERATIONS: largest number of corrections. REACH: largest distance from the
-# predicted state, divided by the largest component of the state.
+# Limits of Newton's method for an orbit.
+# ITERATIONS: largest number of corrections.
+# REACH: largest distance from the predicted state, divided by the largest component of the state.
 ITERATIONS, REACH = 8, 0.1
-# The first orbit is followed to one of the STARTS cells that are nearest to it.
+# The first orbit, whose parameters are in general between cells, is followed to one of the STARTS
+# nearest cells. If this fails, the next nearest cell is tried.
 STARTS = 4
 # Shortest step between cells, divided by the distance of the cells.
 SHORTEST = 1 / 64
-# Largest number of bisections between two cells with a change of sign.
+# Largest number of bisections in the search for an edge between two cells.
 BISECTIONS = 6
-# If Newton's method fails, and in the last orbit the loose mass turns back closer to a wall than
-# TOUCHING times the clearance, the orbit ends by a new contact (grazing), otherwise by a fold.
+# If Newton's method fails, the orbit has ended by a new contact (grazing) or by a fold. The reason
+# is grazing if, in the last orbit, the loose mass turns back at a distance from a wall below
+# TOUCHING times the clearance.
 TOUCHING = 0.05
 
 
 class Place(NamedTuple):
-    """An orbit at a point of the rectangle.
+    """An orbit at a point of the rectangle of parameters.
 
     Attributes
     ----------
@@ -56,7 +61,7 @@ class Place(NamedTuple):
     path : Path
         The orbit over half a period.
     tests : dict
-        Values of the test functions, keyed by the kind of edge.
+        Values of the test functions, keyed by the kind of edge (`problem.KINDS`).
     """
 
     orbit: Orbit
@@ -77,7 +82,7 @@ class EdgeGrid(Grid):
     family, spans
         Arguments of `problem.scaled_slopes`.
     contacts : int
-        Contacts in half a period.
+        Number of contacts in half a period.
     failed : list
         One entry for each orbit that ends between a cell and its neighbour: the kind of edge that
         must lie there, the cell, the neighbour, and the last `Place` that was reached.
@@ -93,11 +98,19 @@ class EdgeGrid(Grid):
         return (values - self.spans[:, 0]) / np.ptp(self.spans, axis=1)
 
     def values(self, coordinates):
-        """Return the parameters of scaled parameters."""
+        """Return the unscaled parameters: the inverse of `scaled`."""
         return self.spans[:, 0] + np.ptp(self.spans, axis=1) * coordinates
 
     def begin(self, orbit, coordinates):
-        """Follow an orbit to one of the cells nearest to it, and enter it in this cell."""
+        """Follow an orbit to one of the cells nearest to it, and enter the result in this cell.
+
+        `coordinates` are the scaled parameters of the orbit.
+
+        Raises
+        ------
+        ArithmeticError
+            If none of the STARTS nearest cells is reached.
+        """
         start = self._place(orbit, coordinates)
         distance = np.max(np.abs(self.points - coordinates), axis=-1)
         for k in np.argsort(distance, axis=None)[:STARTS]:
@@ -117,7 +130,7 @@ class EdgeGrid(Grid):
         return followed
 
     def ends(self):
-        """Return a list, in the form of `crossings`, of the cells between which the orbit ends."""
+        """Return a list, in the form of `crossings`, of the pairs between which the orbit ends."""
         return [
             (kind, last, self.points[target])
             for kind, _, target, last in self.failed
@@ -125,10 +138,11 @@ class EdgeGrid(Grid):
         ]
 
     def crossings(self):
-        """Return a list of the changes of sign of test functions between neighbouring cells.
+        """Return a list of the pairs of neighbours between which a test function changes sign.
 
         Each entry consists of the kind of edge, the `Place` on one side, and the scaled parameters
-        of the cell on the other side.
+        on the other side. If the orbit ends between two cells, its last place takes the part of the
+        second cell.
         """
         pairs = [(self.orbits[cell], last) for _, cell, _, last in self.failed]
         pairs += [
@@ -145,12 +159,25 @@ class EdgeGrid(Grid):
         ]
 
     def locate(self, kind, first, beyond):
-        """Find a point of an edge between a place and scaled parameters beyond the edge.
+        """Find a point of an edge between two neighbours of a pair listed by `crossings` or `ends`.
 
-        Return the pair of `Problem` and `Point`, or None if no point was found, and whether an edge
-        was missed. The test function of a Neimark-Sacker bifurcation also vanishes if the product
-        of two real multipliers is 1. There is no edge at such a point, so None and False are
-        returned.
+        Parameters
+        ----------
+        kind : str
+            One of `problem.KINDS`.
+        first : Place
+            Place on one side of the edge.
+        beyond : array, shape (2,)
+            Scaled parameters on the other side.
+
+        Returns
+        -------
+        found : tuple or None
+            `Problem` and `Point`; None if no point was found.
+        missed : bool
+            Whether an edge exists that was not found. It is False if stability is not lost at the
+            zero of the test function. An example is the test function of a Neimark-Sacker
+            bifurcation, which also vanishes if the product of two real multipliers is 1.
         """
         if np.max(np.abs(concerned(kind, first.orbit.root)[1])) > UNSTABLE:
             return None, False
@@ -175,9 +202,10 @@ class EdgeGrid(Grid):
         return None, True
 
     def follow_to(self, start, target) -> Followed:
-        """Follow an orbit to scaled parameters, in shorter steps where Newton's method fails.
+        """Follow an orbit to the scaled parameters `target`.
 
-        The status of the result is the kind of edge at which the orbit ends, or "".
+        Steps are halved where Newton's method fails. The status of the result is the kind of edge
+        at which the orbit ends, or "".
         """
         last, fraction, length = start, 0.0, 1.0
         while fraction < 1:
@@ -192,9 +220,9 @@ class EdgeGrid(Grid):
         return Followed((0.0, fraction), (start, last), end, fraction == 1)
 
     def _step(self, last, coordinates):
-        """Return the place at scaled parameters near the place `last`, and "".
+        """Return the place at scaled parameters near those of the place `last`, and "".
 
-        If the orbit ends before, return None and the kind of edge.
+        If the orbit ends between the two, return None and the kind of edge at which it ends.
         """
         p = self.family(*self.values(coordinates))
         guess = last.orbit.state + last.slopes @ (coordinates - last.coordinates)
@@ -222,7 +250,7 @@ class EdgeGrid(Grid):
 
 
 def _corrected(p, guess, phase):
-    """Return the symmetric orbit that Newton's method finds near a guess of its state, or None."""
+    """Return the symmetric orbit that Newton's method finds near a guessed state, or None."""
     state, reach = guess, REACH * np.max(np.abs(guess))
     for _ in range(ITERATIONS):
         orbit, end = shoot(p, state, 1, phase, symmetric=True)

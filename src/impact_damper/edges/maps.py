@@ -1,9 +1,10 @@
 """Find all edges of the quiet orbit in a rectangle of two parameters.
 
-An edge is a curve on which the orbit loses its stability (`curves`). The orbit is followed to the
-cells of a grid, with exact derivatives of its state by the parameters. If a test function of an
-edge changes its sign between neighbouring cells, or the orbit ends between them, a point of an edge
-lies between the cells. The edge is then followed from this point.
+The quiet orbit is the symmetric periodic motion for which a damper is designed. An edge is a curve
+in the plane of the parameters on which this orbit loses its stability (`curves`). The orbit is
+followed to the cells of a grid. For each kind of edge a test function is zero on the edge
+(`problem`). If a test function changes its sign between neighbouring cells, or the orbit ends
+between them, a point of an edge lies between the cells. The edge is followed from this point.
 """
 
 from typing import NamedTuple
@@ -26,11 +27,11 @@ class EdgeMap(NamedTuple):
     modulus : numpy.ndarray, shape (n, m)
         Modulus of the largest Floquet multiplier; NaN in cells that were not reached.
     displacement : numpy.ndarray, shape (n, m)
-        max |Z1|; NaN in cells that were not reached.
+        Largest displacement |Z1| of the primary mass; NaN in cells that were not reached.
     edges : list of Edge
     lost : int
-        Number of changes of sign between neighbouring cells at which no edge was found. Either
-        Newton's method failed there, or the cells hold orbits of different branches.
+        Number of pairs of neighbouring cells between which an edge was expected and none was found.
+        Either Newton's method failed, or the cells hold orbits of different branches.
     """
 
     axes: tuple[np.ndarray, np.ndarray]
@@ -49,9 +50,9 @@ def map_edges(family, orbit, values, axes) -> EdgeMap:
     Parameters
     ----------
     family : callable
-        Maps two parameters to packed parameters.
+        Maps two parameters to the packed parameters of a system, shape (packed.COUNT,).
     orbit : Orbit
-        A converged symmetric orbit with its root.
+        A converged symmetric orbit (`Orbit.root` is not None).
     values : sequence of float
         Both parameters of the orbit.
     axes : sequence of two arrays
@@ -96,5 +97,8 @@ def map_edges(family, orbit, values, axes) -> EdgeMap:
 
 
 def _crossed(edges, kind, first, beyond):
-    """Return whether an edge of a kind passes between a place and scaled parameters beyond."""
+    """Return whether one of the edges has this kind and crosses the line from `first` to `beyond`.
+
+    `first` is a `grid.Place`, and `beyond` are scaled parameters, shape (2,).
+    """
     return any(edge.crosses(first.coordinates, beyond) for edge in edges if edge.kind == kind)

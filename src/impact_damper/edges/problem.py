@@ -1,19 +1,23 @@
 """The equations of an edge, a curve in two parameters on which a symmetric orbit loses stability.
 
-On an edge a test function is zero. The root R of a symmetric orbit is the derivative of the map
-over half a period followed by a change of sign. With the eigenvalues (multipliers) mu of R the test
-functions are
+A symmetric orbit is a periodic motion of one forcing cycle that repeats with the opposite sign
+after half a cycle. It is a fixed point of the half-period map: integrate a state over half a cycle
+and change its sign. The derivative R of this map, shape (4, 4), is called the root of the orbit,
+because its square is the derivative over the whole period. With the eigenvalues mu of R, here
+called multipliers, the test functions, one of which is zero on an edge, are
 
     fold                 det(R - 1), zero for mu = 1
     symmetry_breaking    det(R + 1), zero for mu = -1
-    neimark_sacker       the product of mu_i mu_j - 1 over all pairs, zero for a conjugate pair of
-                         modulus 1; it is det(C - 1) with the matrix C of the 2-by-2 minors of R
-    grazing              |Z2| - d0 at that turning point of Z2 which is the next to become a
-                         contact; zero where this contact appears
+    neimark_sacker       product of mu_i mu_j - 1 over all pairs i < j, zero for a conjugate pair
+                         of modulus 1; it is det(C - 1) with the matrix C of the 2-by-2 minors of R
+    grazing              |Z2| - d0 at the turning point of Z2 that is the next to become a contact;
+                         zero where this contact appears
 
-All test functions are smooth, also where multipliers coincide. The unknowns are the state and both
-parameters. The derivatives of the map and of the test functions are exact (`variations`). Only the
-derivatives of the packed parameters with respect to the two parameters are difference quotients.
+Z2 is the displacement between the primary and the loose mass, and d0 the clearance on each side.
+All test functions are smooth, also where multipliers coincide. The unknowns are the state of the
+orbit and both parameters. The derivatives of the map and of the test functions are exact
+(`orbits.variations`). Only the derivatives of the packed parameters by the two parameters are
+difference quotients.
 """
 
 from collections.abc import Callable
@@ -31,18 +35,23 @@ from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 
 FOLD, SYMMETRY, TORUS, GRAZING = "fold", "symmetry_breaking", "neimark_sacker", "grazing"
 KINDS = (FOLD, SYMMETRY, TORUS, GRAZING)
+# The six pairs i < j of four multipliers, shape (2, 6).
 PAIRS = np.array(list(combinations(range(4), 2))).T
-# Change of a scaled parameter in a difference quotient.
+# Change of a scaled parameter in a difference quotient, and of a point along a tangent.
 NUDGE = 1e-5
-# Newton's method. NEWTON: largest number of corrections. LARGEST: largest size of a correction. The
-# method has converged once a correction is below CLOSE, or below ROUNDING and more than half the
-# correction before. If a correction exceeds SLOW times the correction before, the derivative is
-# computed again.
+# Newton's method in the scaled unknowns.
+# NEWTON: largest number of corrections.
+# LARGEST: a larger correction ends the method without success.
+# CLOSE: the method has converged if a correction is smaller.
+# ROUNDING: or if a smaller correction is more than half the correction before, which means that
+#     only rounding errors are left.
+# SLOW: the derivative is computed again if a correction exceeds this times the correction before.
 NEWTON, LARGEST, CLOSE, ROUNDING, SLOW = 14, 0.2, 1e-12, 1e-9, 0.1
 # A multiplier counts as complex if its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
-# An edge ends where a multiplier that its kind does not concern exceeds UNSTABLE in modulus,
-# because the orbits on both sides of the edge are then unstable.
+# `concerned` lists the multipliers that are 1 in modulus on an edge of a kind. An edge ends if
+# another multiplier exceeds UNSTABLE in modulus, because the orbits on both sides are then
+# unstable. Up to UNSTABLE the edge is followed, since the multiplier may fall below 1 again.
 UNSTABLE = 3.0
 
 
@@ -54,8 +63,9 @@ def value(kind, path, contacts):
     kind : str
         One of KINDS.
     path : Path
+        The motion over half a period.
     contacts : int
-        Number of contacts in half a period. For a grazing edge the number on the side of the edge
+        Number of contacts in half a period. For a grazing edge, the number on the side of the edge
         with fewer contacts.
     """
     if kind == GRAZING:
@@ -64,9 +74,11 @@ def value(kind, path, contacts):
 
 
 def value_change(kind, variations, first, parameters, contacts):
-    """Return the derivatives of a test function along directions.
+    """Return the derivatives of a test function along n directions, shape (n,).
 
-    `first` and `parameters` are the arguments of `Variations.changes`.
+    A direction is a simultaneous change of the first state and of the packed parameters. `first`,
+    shape (4, n), and `parameters`, shape (COUNT, n), are the arguments of `Variations.changes`.
+    `kind` and `contacts` are those of `value`.
     """
     path = variations.path
     if kind == GRAZING:
@@ -91,7 +103,7 @@ def value_change(kind, variations, first, parameters, contacts):
 
 
 def _shifted(kind, root):
-    """Return the matrix whose determinant is the test function."""
+    """Return R - 1, R + 1 or C - 1, whose determinant is the test function of the kind."""
     if kind == TORUS:
         (i, j), (k, m) = PAIRS[:, :, None], PAIRS[:, None]
         root = root[i, k] * root[j, m] - root[i, m] * root[j, k]
@@ -109,9 +121,9 @@ def _reach(path, contacts):
     distance : float
         |Z2| - d0 at this turning point; -d0 if there is none.
     weights : numpy.ndarray, shape (N,)
-        Weights of the N points of the path in the interpolation of Z2 at this turning point.
+        Weights with which Z2 at the N points of the path gives Z2 at this turning point.
     wall : float
-        Sign of Z2 there, or 0.
+        Sign of Z2 at this turning point, or 0 if there is none.
     """
     steps, sizes, weights, _ = path.turns(1)
     at_points = np.zeros((len(path.sides), weights.shape[1]))
@@ -124,7 +136,10 @@ def _reach(path, contacts):
 
 
 def concerned(kind, root):
-    """Return the multipliers of a root that pass the unit circle on an edge, and the others."""
+    """Return the multipliers of a root that are 1 in modulus on an edge of a kind, and the others.
+
+    On an edge of the kind GRAZING there are none: the orbit gains or loses a contact.
+    """
     values = np.linalg.eigvals(root)
     if kind == GRAZING:
         return values[:0], values
@@ -179,7 +194,7 @@ class Point(NamedTuple):
 
     @property
     def root(self):
-        """Derivative of the map over half a period with a change of sign, shape (4, 4)."""
+        """Derivative R of the half-period map, shape (4, 4)."""
         return -self.path.matrix
 
 
@@ -196,11 +211,11 @@ class Problem:
     spans : numpy.ndarray, shape (2, 2)
         Least and greatest value of each parameter.
     scale : float
-        Unit of the scaled state: the largest component of the first state.
+        Unit of the scaled state: the largest component of the state of the first orbit.
     contacts : int
-        Contacts in half a period.
+        Number of contacts in half a period.
     phase : float
-        Phase W T of the states, radian.
+        Phase W T of the forcing at which the states are taken, radian.
     """
 
     family: Callable[[float, float], np.ndarray]
@@ -211,7 +226,7 @@ class Problem:
     phase: float
 
     def unknowns(self, state, values):
-        """Return the unknowns: scaled state and scaled parameters, shape (6,)."""
+        """Return the unknowns, shape (6,): state divided by `scale`, parameters scaled to 0..1."""
         return np.append(state / self.scale, (values - self.spans[:, 0]) / np.ptp(self.spans, 1))
 
     def values(self, x):
@@ -227,8 +242,8 @@ class Problem:
     def defects(self, x, path):
         """Return the left sides of the five equations, shape (5,), which are zero on the edge.
 
-        Four equations state that the orbit is periodic and symmetric. The fifth is the test
-        function.
+        The first four are the half-period map of the state minus the state; they are zero for a
+        symmetric orbit. The fifth is the test function.
         """
         defect = -path.states[:, -1] - self.scale * x[:4]
         return np.append(defect / self.scale, value(self.kind, path, self.contacts))
@@ -248,9 +263,10 @@ class Problem:
     def correct(self, x, border=None):
         """Return the point of the edge that Newton's method reaches from x, or None if it fails.
 
-        All corrections are orthogonal to the vector `border`. Without a border each correction is
-        the shortest that solves the linear equations. The derivative is computed again only if the
-        corrections shrink slowly.
+        There are five equations for six unknowns. As a sixth equation, all corrections are
+        orthogonal to the vector `border`. Without a border each correction is the shortest that
+        solves the linear equations. The derivative is computed again only if the corrections
+        shrink slowly.
         """
         rows, last, slow = None, np.inf, False
         for _ in range(NEWTON):
@@ -289,10 +305,11 @@ class Problem:
         return ""
 
     def rephased(self, point):
-        """Return problem and point with the state at a phase far from contacts.
+        """Return the problem and the same point of the edge, with the state at a new phase.
 
-        To keep the direction of the tangent, a point displaced along the tangent is also integrated
-        to the new phase. None is returned if Newton's method fails.
+        The new phase is far from contacts, where the half-period map is smooth. The sign of the
+        tangent must be kept: a second point, displaced by NUDGE along the tangent, is integrated
+        to the new phase too, and gives the direction there. Return None if Newton's method fails.
         """
         orbit = self.orbit(point)
         phase = orbit.flight_phase()
@@ -308,6 +325,6 @@ class Problem:
         return None if moved is None else (problem, moved)
 
     def orbit(self, point):
-        """Return the orbit of a point."""
+        """Return the `Orbit` at a point of the edge."""
         p = self.family(*self.values(point.x))
         return shoot(p, self.scale * point.x[:4], 1, point.phase, symmetric=True)[0]

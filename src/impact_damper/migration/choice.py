@@ -1,12 +1,15 @@
-"""Choose the parameters hold and phase of release policies such that the goal is reached soonest.
+"""Choose the two parameters of release policies with which the goal is reached soonest.
 
-A hold is a time with the damper on, which ends with a release (switching the damper off). The goal
-is that the motion without the damper settles to the free non-resonance motion. The choice takes two
-steps, with random numbers that are independent of those of the final trials. First, holds are
-recorded, and the free motions after releases at all candidate moments are labelled by where they
-settle. If a hold with the release takes c forcing cycles on average and leads to the goal with
-probability q, the goal is reached after c/q cycles on average. Second, the candidates with the
-smallest c/q are run in full trials.
+Without the damper the oscillator has a large motion, the resonance motion, and a small one, the
+non-resonance motion. The goal is that the free motion settles to the small one. A hold is a time
+with the damper on, which ends with a release (switching the damper off). A policy decides when to
+release. Its parameters are the length of a hold and the phase of the forcing at the release.
+
+The choice takes two steps. Their random numbers are independent of those of the trials that compare
+the policies later. First, holds are recorded, and the free motion after a release at each candidate
+moment is labelled by the motion to which it settles. If a hold with the free motion after it takes
+c forcing cycles on average and leads to the goal with probability q, the goal is reached after c/q
+cycles on average. Second, the candidates with the smallest c/q are run in full trials.
 """
 
 import math
@@ -16,23 +19,24 @@ import numpy as np
 from impact_damper.migration.policies import DRAWS, HOLD, PHASE, STATE, Draws, Policy, run_trials
 from impact_damper.migration.recorded import label_moments, record
 
-# HOLDS: candidate lengths of a hold in forcing cycles. TRIED: number of candidates in full trials.
+# HOLDS: candidate lengths of a hold in forcing cycles (Fibonacci numbers, each about 1.6 times the
+# one before). TRIED: number of candidates of the kinds HOLD and PHASE in full trials.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 TRIED = 3
 
 
 def chosen_policies(on, free, trials, limit, seed):
-    """Return the best policy of each of the kinds HOLD, PHASE and STATE.
+    """Return a list of the best policy of each of the kinds HOLD, PHASE and STATE.
 
-    The arguments are those of `policies.run_trials`.
+    The kinds are explained in `policies`. The arguments are those of `policies.run_trials`.
     """
     hold_cycles, phase_cycles = expected_cycles(on, free, trials, [*seed, 0])
     holds = [Policy(HOLD, HOLDS[k]) for k in np.argsort(hold_cycles, kind="stable")[:TRIED]]
     order = np.argsort(phase_cycles, axis=None, kind="stable")[:TRIED]
     places = zip(*np.unravel_index(order, phase_cycles.shape), strict=True)
     phases = [Policy(PHASE, HOLDS[k], int(phase)) for k, phase in places]
-    # Candidate longest holds of the policy by state: the best fixed holds, the longest one, and
-    # holds without limit.
+    # The length of hold of the kind STATE is the longest one. Candidates: the two best lengths of
+    # the kind HOLD, the last of HOLDS, and no limit.
     waits = [Policy(STATE, each.hold) for each in holds[:2]] + [Policy(STATE, HOLDS[-1])]
     waits.append(Policy(STATE, math.inf))
 
@@ -60,18 +64,18 @@ def expected_cycles(on, free, trials, seed):
     Returns
     -------
     of_hold : numpy.ndarray, shape (holds,)
-        Cycles for a release after each hold of HOLDS.
+        Cycles with releases after each length of HOLDS, averaged over the phases of the forcing.
     of_phase : numpy.ndarray, shape (holds, phases)
-        Cycles for a release after each hold, at each phase of the forcing. Infinite where no
-        release led to the goal.
+        Cycles with releases after each length of HOLDS, at each phase of the forcing. Infinite
+        where no release led to the goal.
     """
     drawn = Draws(seed, trials).following()
     starts = free.strobe_states(np.full(trials, free.resonance), drawn[:, DRAWS])
     limits = np.full(trials, HOLDS[-1] + 1.0)
     recording = record(on, free, starts, drawn[:, :DRAWS].copy(), limits)
     phases = recording.phases
-    # For each length of a hold and each phase of the forcing: the first moment that has this phase
-    # after a hold of this length.
+    # Moments of the release, indices of recorded states. For each length of a hold these are all
+    # moments of the cycle that follows it, so each phase of the forcing occurs once.
     moments = np.add.outer(phases * np.array(HOLDS), np.arange(phases))
     rows = np.repeat(np.arange(trials), moments.size)
     columns = np.tile(moments.ravel(), trials)

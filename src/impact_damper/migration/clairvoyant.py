@@ -1,14 +1,18 @@
 """The clairvoyant bound: the earliest arrival at the goal if state and future are known exactly.
 
-The goal is the free non-resonance motion. A hold is a time with the damper on, which ends with a
-release (switching the damper off). A trial of the clairvoyant controller uses the same random
-numbers as a trial of a policy: in its n-th hold the damper is switched on at the same phase, with
-the loose mass at the same place. The controller knows the motion with the damper on, and it knows
-where the free motion settles after each release. In each hold it examines all moments with phases
-of an even grid. The release with the earliest arrival at the goal counts. To look for earlier
-arrivals in further holds, the controller ends the hold after one to two forcing cycles, at the
-moment after which the free motion settles soonest on another motion than the goal, and switches the
-damper on again.
+A controller switches the damper on and off. A hold is a time with the damper on, which ends with a
+release (switching the damper off). The goal is that the motion without the damper settles to the
+non-resonance motion, the smaller of its two motions of period 1. A real policy of release
+(`policies`) cannot be faster than a controller that knows the future, the clairvoyant controller.
+
+A trial of the clairvoyant controller uses the same random numbers as a trial of a policy: in its
+n-th hold the damper is switched on at the same phase, with the loose mass at the same place. In
+each hold the controller examines the moments at evenly spaced phases, and knows to which motion a
+release at each moment leads and when. The release with the earliest arrival at the goal counts.
+
+An earlier arrival may be possible in a further hold. To begin one soon, the controller ends the
+present hold after one to two forcing cycles, at the moment after which the free motion settles
+soonest to another motion than the goal. Then it switches the damper on again.
 
 Noise on the measured state does not affect this controller. It compensates a known delay by an
 earlier order to release.
@@ -21,14 +25,17 @@ import numpy as np
 from impact_damper.migration.policies import DRAWS, Draws, Outcome
 from impact_damper.migration.recorded import label_moments, record
 
-# A state is labelled only if its depth inside the release set (`release_set`) exceeds NEAR cells.
-# Less deep states are certainly outside.
+# The release set (`release_set`) contains the states from which the free motion settles to the
+# goal. It is known on a grid of cells, and the depth of a state is its distance from the boundary,
+# negative outside. A state is labelled (the motion to which it leads is computed) only if its depth
+# exceeds NEAR cells. States further outside certainly do not lead to the goal.
 NEAR = -1.5
-# FIRST, MOMENTS: number of moments of a trial that are labelled in the first pass and in each later
-# pass. TRIALS: number of trials that are recorded together.
+# Moments of a trial are labelled in the order of time, in several passes.
+# FIRST, MOMENTS: number of moments in the first pass and in each later pass.
+# TRIALS: number of trials that are recorded together, which limits the memory.
 FIRST, MOMENTS, TRIALS = 4, 32, 256
-# A hold is first recorded for HORIZON forcing cycles, because the goal is often reached within
-# them.
+# A hold is first recorded for HORIZON forcing cycles, because the goal is often reached in this
+# time. Only if an earlier arrival is still possible is the hold recorded to the limit.
 HORIZON = 32
 # A hold that is ended early ends at every APART-th moment of its second cycle.
 APART = 4
@@ -37,8 +44,8 @@ APART = 4
 def clairvoyant(on, free, trials, limit, seed, examined=None):
     """Return the `policies.Outcome` of trials with the best moments of release.
 
-    The parameters are those of `policies.run_trials`. In a trial that cannot reach the goal the
-    damper is never switched on.
+    The parameters are those of `policies.run_trials`. A trial that cannot reach the goal within the
+    limit counts as one in which the damper is never switched on.
     """
     draws, examined = Draws(seed, trials), examined or trials
     best = Outcome.failed(examined)
@@ -81,7 +88,7 @@ def clairvoyant(on, free, trials, limit, seed, examined=None):
 
 
 def earliest(free, recording, latest):
-    """Return the earliest arrival at the goal after a release in each hold, and its moment.
+    """Return the earliest arrival at the goal in each of n holds, and the moment of its release.
 
     Moments are examined in the order of time until no later moment can lead to an earlier arrival.
 
@@ -97,7 +104,7 @@ def earliest(free, recording, latest):
     arrival : numpy.ndarray, shape (n,)
         Forcing cycles since the switching on; infinite without an arrival.
     at : numpy.ndarray of int, shape (n,)
-        Index of the moment of the release, or -1.
+        Index of the moment of the release, or -1 without an arrival.
     """
     arrival, at = latest.copy(), np.full(len(latest), -1)
     rows, moments = np.nonzero(recording.depth > NEAR * free.releases.cell)
@@ -119,7 +126,7 @@ def earliest(free, recording, latest):
 
 
 def soonest(free, recording):
-    """Return the earliest arrival at a motion other than the goal after a short hold.
+    """Return the earliest arrival at a motion other than the goal after each of n short holds.
 
     A short hold ends between one and two forcing cycles after the switching on.
 
@@ -131,7 +138,7 @@ def soonest(free, recording):
     at : numpy.ndarray of int, shape (n,)
         Index of the moment of the release.
     place : numpy.ndarray of int, shape (n,)
-        Index of the motion.
+        Index of the motion among `FreeCase.attractors`.
     """
     depth, phases = recording.depth, recording.phases
     short = np.zeros(depth.shape, bool)

@@ -1,10 +1,12 @@
 """One run of the migration controller.
 
-The controller is the scheme of figure 17. The free oscillator begins on its resonance branch. The
-damper is switched on and off again until the free oscillator settles on its non-resonance branch.
-`damper_release` describes how the damper is switched on. It is switched off after the motion with
-the damper has settled, at a phase drawn uniformly over the period of this motion. If the motion has
-not settled after `longest_hold` forcing cycles, the damper is switched off during the next cycle.
+The controller is the scheme of figure 17. Without the damper the oscillator has two motions of
+period 1 at the same frequency: a large one on the resonance branch and a small one on the
+non-resonance branch. A run begins with the large one. The damper is switched on and off repeatedly
+until the oscillator without the damper settles to the small one. `damper_release` describes how the
+damper is switched on. The damper is switched off after the motion with it has settled, at a phase
+drawn uniformly over the period of this motion. If the motion has not settled after `longest_hold`
+forcing cycles, the damper is switched off during the next cycle.
 
 A strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2.
 """
@@ -18,15 +20,16 @@ from impact_damper.migration.damper_release import destination, kinds
 from impact_damper.motions.records import MOTION, NEVER, trace
 from impact_damper.system.packed import FREQUENCY
 
-# The course (Z1 against time) of a run begins MARGIN forcing cycles before the run and ends MARGIN
-# cycles after it.
+# `course` returns Z1 against time from MARGIN forcing cycles before a run to MARGIN cycles after.
 MARGIN = 10
-# Number of samples of a course in a forcing cycle.
+# Number of values of Z1 in a forcing cycle.
 SAMPLES = 40
-# The damper is switched on and off once. Times are in forcing cycles from the first strobe: when
-# the damper is switched on, when it is switched off, and when the free motion that follows has
-# settled. Then period and max |Z1| of the motion with the damper, and the flag
-# (`damper_release.DESTINATIONS`) and max |Z1| of the free motion that is reached.
+# One entry of a log: the damper is switched on and off once. Times are in forcing cycles from the
+# first strobe.
+# on_time, off_time: times at which the damper is switched on and off.
+# end_time: time at which the free motion after `off_time` has settled.
+# released_*: period and max |Z1| of the motion with the damper.
+# destination*: flag (`FREE_MOTION`) and max |Z1| of the free motion to which the release leads.
 SWITCHING = np.dtype(
     [
         ("on_time", "f8"),
@@ -43,7 +46,7 @@ SWITCHING = np.dtype(
 def draw(seed, switchings):
     """Return the random numbers of one run, shape (switchings, 3), uniform between 0 and 1.
 
-    The first rows do not depend on the number of switchings.
+    A larger number of switchings adds rows at the end and leaves the others as they are.
     """
     return np.random.default_rng(seed).random((switchings, 3))
 
@@ -65,8 +68,9 @@ def control(case, draws, longest_hold, settling, periods, stop=NEVER):
     ----------
     case : ReleaseCase
     draws : array, shape (n, 3)
-        Result of `draw`. Each row holds the phase of switching on, the place of the loose mass and
-        the phase of the release. A phase is a fraction of the period of the motion before it.
+        Result of `draw`. A row holds the phase at which the damper is switched on, the place of the
+        loose mass in the gap at this time, and the phase at which the damper is switched off. A
+        phase is a fraction of the period of the motion before the switching.
     longest_hold : int
         Forcing cycles after which the damper is switched off even if its motion has not settled.
     settling : Settling
@@ -115,10 +119,11 @@ def control(case, draws, longest_hold, settling, periods, stop=NEVER):
 
 
 def course(case, path, log, tolerance):
-    """Return times T and Z1 along a run, with MARGIN forcing cycles before and after it.
+    """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
 
-    Each interval between two rows of the path is integrated from the state in the path. Otherwise
-    the errors of a chaotic motion would grow until it differs from the controlled motion.
+    `path` and `log` are the results of `control`. Each interval between two rows of the path is
+    integrated from the state in the path. If the run were integrated from its first state alone,
+    the error would grow in chaotic parts until the result differs from the run.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
@@ -143,7 +148,7 @@ def course(case, path, log, tolerance):
 
 
 def switching_data(logs, case):
-    """Return registered variables of the switchings, with dimensions (..., switching)."""
+    """Return a dict of dataset variables of the switchings, with dimensions (..., switching)."""
     period = 2 * np.pi / case.on[FREQUENCY]
     kind = kinds(logs["released_period"], logs["released_displacement"], case.known)
     absent = logs["destination"] == FREE_MOTION["none"]
@@ -153,7 +158,10 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return registered variables of whole runs, in forcing cycles from the first switching."""
+    """Return a dict of dataset variables of whole runs.
+
+    Times are in forcing cycles from the moment at which the damper is first switched on.
+    """
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     return {

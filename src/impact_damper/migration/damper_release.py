@@ -1,11 +1,13 @@
-"""Motions that releases of the damper lead to, and lifetimes of the violent motion (section 5).
+"""Motions to which releases of the damper lead, and lifetimes of the violent motion (section 5).
 
-Release means switching the damper off. Before a release, the damper is switched on while the free
-oscillator is in its resonance motion, at a phase of the forcing that is drawn uniformly. At this
-time the loose mass is at rest relative to the primary mass, at a place in the gap that is drawn
-uniformly, as if a clamp had held it there. After this the motion can be irregular for many cycles
-before it settles to an orbit. This part is the violent motion, and its length is the lifetime. A
-strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2.
+Without the damper the oscillator has two motions of period 1 at the same frequency: the large
+resonance motion and the small non-resonance motion. Release means switching the damper off, so that
+the free motion settles to one of them. Before a release, the damper is switched on during the
+resonance motion, at a phase of the forcing that is drawn uniformly. At this time the loose mass is
+at rest relative to the primary mass, at a place in the gap that is drawn uniformly, as if a clamp
+had held it. Then the motion can be irregular for many cycles before it settles to a periodic orbit.
+This irregular part is the violent motion, and its length is the lifetime. A strobe is the time in
+each forcing cycle at which the forcing has the phase W T = pi/2.
 """
 
 from dataclasses import replace
@@ -31,10 +33,11 @@ from impact_damper.theory.single_harmonic import impacting_solutions
 # Two free motions are the same if their max |Z1| differs by less than ALIKE.
 ALIKE = 1e-6
 # One release: phase in forcing cycles after a strobe, Z1 and Z1', and the flag of the free motion
-# that is reached.
+# to which the release leads.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
+# Names of the kinds of motion with the damper and without, except the first name, "none".
 KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
@@ -59,11 +62,11 @@ class ReleaseCase(NamedTuple):
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Return the record of a free motion of period 1 at a frequency, or None.
+    """Return the `records.MOTION` of a free motion of period 1 at a frequency, or None.
 
-    The motion is first computed at the frequency `start`, where it settles from the solution number
-    `which` of harmonic balance on the curve through the peak. From there it is followed to
-    `frequency`.
+    The motion is first computed at the frequency `start`: a run begins with the state of the
+    harmonic-balance solution number `which`, by ascending amplitude, and settles. From there the
+    motion is followed to `frequency`.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
@@ -108,10 +111,11 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return flags `released_from` that classify damped motions by period and max |Z1|.
+    """Return flags (`DAMPED_MOTION`) that classify motions with the damper.
 
-    A motion of period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance
-    motion. `known` is the attribute of `ReleaseCase`.
+    `period` and `displacement` (max |Z1|) are arrays with one entry for each motion. A motion of
+    period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance motion.
+    `known` is the attribute of `ReleaseCase`.
     """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
@@ -119,7 +123,7 @@ def kinds(period, displacement, known):
 
 
 def destination(known, record):
-    """Return the flag `destination` of the free motion in a record.
+    """Return the flag (`FREE_MOTION`) that names the free motion in a `records.MOTION`.
 
     `known` is the attribute of `ReleaseCase`.
     """
@@ -134,9 +138,9 @@ def destination(known, record):
 
 
 def _release(case, state, wait, settling, path, entry, stop=NEVER):
-    """Switch the damper off `wait` forcing cycles after a strobe, and fill `entry`.
+    """Switch the damper off `wait` forcing cycles after a strobe, and fill `entry`, a RELEASE.
 
-    The entry receives phase and state of the release, and the flag of the free motion reached.
+    `state` is the state at the strobe.
     """
     records = np.zeros(1, MOTION)
     legs.leg(
@@ -159,10 +163,12 @@ def _release(case, state, wait, settling, path, entry, stop=NEVER):
 def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
     """Run with the damper on, release once, and return the lifetime in forcing cycles.
 
-    The lifetime ends when the motion is captured by an orbit (`legs.CAPTURE`). Four numbers, drawn
-    uniformly between 0 and 1, give the phase of switching on, the place of the loose mass, the
-    strobe of the release (between strobe LEAD and the capture), and the phase after this strobe. A
-    run that is captured before strobe LEAD is not released.
+    The lifetime ends when an orbit captures the run, which means that the run stays close to the
+    orbit from then on (`legs.CAPTURE`). `draws` are four numbers between 0 and 1: the phase at
+    which the damper is switched on, the place of the loose mass, the strobe of the release, and the
+    phase after this strobe. The strobe of the release lies between strobe LEAD, before which the
+    run still depends on its start, and the capture. A run that is captured before strobe LEAD is
+    not released.
     """
     legs.leg(
         case.off,
@@ -232,10 +238,12 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 
 
 def transient_data(lives, motions, lifetime, known):
-    """Return registered variables of the lifetimes of transients, and their coordinate `age`.
+    """Return a dict of dataset variables of the lifetimes, and a dict with their coordinate `age`.
 
-    A capture is detected only after the run has settled. Lifetimes are therefore complete only up
-    to a horizon, which is `lifetime` minus the longest time between capture and settling.
+    The arguments are those of `watch_runs` and its results. A capture is detected only after the
+    run has settled. A run that was captured shortly before its end is therefore not counted as
+    captured. To avoid a bias, lifetimes are evaluated only up to a horizon: `lifetime` minus the
+    longest time between capture and settling in any run.
     """
     settled = is_settled(motions)
     delay = np.max(motions["periods_run"][settled] - lives[settled], initial=0)
@@ -253,13 +261,14 @@ def transient_data(lives, motions, lifetime, known):
 
 
 def release_data(case, motions, entries, settling):
-    """Return registered variables of the releases from the unsettled and each settled motion.
+    """Return a dict of dataset variables of the releases from the unsettled and settled motions.
 
-    A settled motion is released at phases spread evenly over its period. The number of phases is
-    the number of `entries`, the releases from the unsettled motion. While the loose mass flies, the
-    primary mass moves as without the damper. All releases within one flight therefore lead to the
-    same motion. The share of a destination is, apart from the short contacts, the total duration of
-    the flights that lead to it, divided by the period.
+    `entries` are the releases from the unsettled motion, and `motions` the settled motions. From a
+    settled motion the damper is released at as many phases, spread evenly over its period. While
+    the loose mass flies, the primary mass moves as without the damper. All releases within one
+    flight therefore lead to the same free motion. The share of releases that lead to a free motion
+    is, apart from the short contacts, the total duration of the flights that lead to this motion,
+    divided by the period.
     """
     number = len(entries)
     rows = [entries]
@@ -293,12 +302,12 @@ def release_data(case, motions, entries, settling):
 def settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
     """Return records of the distinct settled damped motions, by ascending max |Z1|.
 
-    The motions are those in the records `known`, and those that random starts within the gap and
-    the solutions of harmonic balance lead to.
+    They are the settled motions among the records `known`, and those to which runs lead from random
+    states with the loose mass in the gap and from solutions of harmonic balance.
     """
     on = pack(oscillator, damper, frequency)
-    # The solutions are used as starts only, so those for elastic contact also serve an inelastic
-    # damper.
+    # Harmonic balance is solved for elastic contact. As first states of runs these solutions also
+    # serve for an inelastic damper.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     angle = balance.phase + np.pi / 2
     columns = [

@@ -1,6 +1,8 @@
 """The free oscillator at one frequency, and the free motions to which releases lead.
 
-The goal of a release is the free non-resonance motion.
+Without the damper the oscillator has a large motion, the resonance motion, and a small one, the
+non-resonance motion. A release switches the damper off. Its goal is the non-resonance motion. The
+release set contains the states from which the free motion settles to the goal.
 """
 
 import math
@@ -22,12 +24,12 @@ class FreeCase(NamedTuple):
     p : numpy.ndarray, shape (packed.COUNT,)
         Packed parameters without a damper.
     attractors : attraction.attractors.Attractors
-        The last of them is the resonance motion.
+        The stable free motions. The last of them is the resonance motion.
     goal : int
-        Index of the non-resonance motion among them.
+        Index of the non-resonance motion among the attractors.
     releases : ReleaseSet
-        Release set of the goal. If the controller has a wrong model of the oscillator, the release
-        set of this model.
+        The release set that a controller uses. It may belong to other parameters than `p`, to study
+        a controller with a wrong model of the oscillator.
     settling : Settling
     workers : int
         Number of threads, on which results do not depend.
@@ -51,19 +53,21 @@ class FreeCase(NamedTuple):
         return float(self.attractors.records["maximum_displacement"][-1])
 
     def labels(self, states, phase=math.pi / 2, limit=math.inf):
-        """Return labels of states at a phase W T, and the forcing cycles until they are known.
+        """Return the labels of n states at a phase W T, and the cycles until they are known.
 
-        A motion whose label is not known after `limit` cycles counts as unresolved.
+        A label is the index of the attractor to which a state leads, or a negative label of
+        `attraction.labels`. Both arrays have the shape (n,). A motion whose label is not known
+        after `limit` forcing cycles has the label UNRESOLVED.
         """
         most = int(min(self.settling.limit, limit))
         settings = self.attractors, self.settling.tolerance, most, self.workers
         return label_states(self.p, states, phase, *settings)
 
     def strobe_states(self, labels, draws):
-        """Return for each label a state Z1, Z1' of its attractor at a strobe (W T = pi/2).
+        """Return a state Z1, Z1' at a strobe (W T = pi/2) for each label, shape (n, 2).
 
-        An attractor of period n has n such states. `draws` are numbers between 0 and 1 that select
-        one of them.
+        A label is the index of an attractor. An attractor of period n has n states at strobes.
+        `draws` are numbers between 0 and 1, one for each label, that select one of these states.
         """
         owner = self.attractors.owner
         first = np.searchsorted(owner, labels)

@@ -22,8 +22,8 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # An orbit captures a run after the last strobe at which the run differs from the orbit by more than
 # CAPTURE in Z1 or Z1'.
 CAPTURE = 0.1
-# Forcing cycles in one call of a kernel. The call takes a fraction of a second, because Ctrl-C
-# waits for its end.
+# Forcing cycles in one call of a compiled function. Ctrl-C takes effect only after a call, so a
+# call must take no more than a fraction of a second.
 STROBES_AT_ONCE = 50_000
 
 
@@ -32,7 +32,9 @@ class Stopped(Exception):
 
 
 def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
-    """Run a motion until it is near a stable orbit, or for `limit` strobes.
+    """Run a motion from any phase of the forcing until it is near a stable orbit.
+
+    The run ends at the latest at strobe number `limit`, counted from 0.
 
     Parameters
     ----------
@@ -43,7 +45,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
     ahead : float
         Forcing cycles from the beginning to the first strobe.
     strobe : float
-        Number of the first strobe, counted over all legs of a run.
+        Number of the first strobe of this leg, counted from the first strobe of the first leg.
     tolerance : float
         Largest local error of a step.
     limit : int
@@ -82,7 +84,8 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
     """Do the part of `run` from strobe `first` to the strobe before `last`.
 
-    Return the wall in contact, and the distance from an orbit that counts as near.
+    Return the wall in contact (-1, 1, or 0 for none), and the distance from an orbit below which
+    Newton's method is tried next.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -121,7 +124,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop
         Z2/d0 of the loose mass when the damper is switched on. The loose mass is then at rest
         relative to the primary mass. Not used when the damper is switched off.
     strobe : float
-        Number of the first strobe.
+        Number of the strobe before the switching.
     tolerance, limit, path, stop
         Arguments of `run`.
     out : array of records.MOTION, shape (1,)

@@ -1,17 +1,20 @@
-"""Policies of migration, which decide when to release, and trials of these policies.
+"""Policies that decide when to switch the damper off, and trials of these policies.
 
-Release means switching the damper off. A trial begins on the free resonance motion. The damper is
-switched on at a random phase, with the loose mass at rest relative to the primary mass at a random
-place in the gap. It is released when the policy decides so. Then the free motion settles. The goal
-is the free non-resonance motion. If the free motion settles to another motion than the goal, the
-trial continues with another hold from this motion. A hold is the time with the damper on. A strobe
-is a time at which the forcing has the phase W T = pi/2. The policies release
+Without the damper the oscillator has a large motion, the resonance motion, and a small one, the
+non-resonance motion. Switching the damper on and off leads from one to the other, which is called
+migration. A trial begins with the resonance motion. The damper is switched on at a random phase,
+with the loose mass at rest relative to the primary mass at a random place in the gap. A hold is the
+time with the damper on. It ends with the release, the moment at which the policy switches the
+damper off. Then the free motion settles. The goal is the non-resonance motion. If the free motion
+settles to another motion than the goal, another hold follows from this motion. A strobe is a time
+at which the forcing has the phase W T = pi/2. The release set contains the states from which the
+free motion settles to the goal. The policies release
 
     settled  at a random phase, after the states at the strobes repeat: the paper's policy
     hold     after a fixed number of forcing cycles
     phase    at a fixed phase of the forcing, after a number of cycles
-    state    as soon as the measured state lies inside the release set by a margin, or after a
-             number of cycles without such a state
+    state    as soon as the measured state lies inside the release set, at a distance from its
+             boundary; without such a state after a number of cycles
 """
 
 import math
@@ -28,12 +31,15 @@ from impact_damper.motions.watch import NEAR, RING, nearby_period
 from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 
 SETTLED, HOLD, PHASE, STATE = range(4)
-# Number of random numbers of a hold: phase of switching on, place of the loose mass, phase of the
-# release.
+# A hold takes three random numbers: the phase at which the damper is switched on, the place of the
+# loose mass at this time, and the phase of the release.
 DRAWS = 3
-# One hold: whether it ended with a release; forcing cycles and impacts with the damper on; index of
-# the phase and measured depth inside the release set at the release; Z1 and Z1' at the next strobe,
-# and the forcing cycles from the release to this strobe.
+# The results of one hold.
+# released: whether it ended with a release.
+# cycles, impacts: forcing cycles and impacts with the damper on.
+# phase, depth: index of the phase of the release, and measured depth of the state inside the
+#     release set (distance from its boundary).
+# state, ahead: Z1 and Z1' at the next strobe, and forcing cycles from the release to this strobe.
 HELD = np.dtype(
     [
         ("released", "?"),
@@ -55,18 +61,17 @@ class Policy(NamedTuple):
     kind : int
         SETTLED, HOLD, PHASE or STATE.
     hold : float
-        Forcing cycles with the damper on. The number is exact for HOLD, the smallest for PHASE and
-        the largest for STATE.
+        Forcing cycles with the damper on: exactly for HOLD, at least for PHASE, at most for STATE.
     phase : int
-        For PHASE, the index of the phase in the release set.
+        For PHASE, the index of the phase among those of the release set.
     margin : float
         For STATE, the smallest depth inside the release set, in units of Z1.
     noise : float
         For STATE, the standard deviation of the error of the measured Z1. The standard deviation of
         the error of Z1' is W times this number.
     delay : int
-        For STATE, the time from a measurement to the release, in steps of the phases of the release
-        set.
+        For STATE, the time from a measurement to the release. The unit is the time between two
+        neighbouring phases of the release set.
     """
 
     kind: int
@@ -81,7 +86,8 @@ class Policy(NamedTuple):
 def switch_on(on, off, starts, draws, i, tolerance, y, work):
     """Integrate trial i without the damper up to the time at which the damper is switched on.
 
-    y becomes the state at this time. Return the time and the wall in contact.
+    y becomes the state at this time. Return the time and the wall in contact (-1, 1, or 0 for
+    none).
     """
     y[0], y[1], y[2], y[3] = starts[i, 0], starts[i, 1], starts[i, 0], starts[i, 1]
     first = strobe_time(on)
@@ -110,7 +116,8 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, noise, toleran
     depth, half : array
         The attributes of a `ReleaseSet`.
     noise : array, shape (m, 2)
-        Standard normal numbers. Each trial begins at another of them.
+        Standard normal numbers, errors of the measured Z1 and Z1'. Each trial begins at another
+        row.
     tolerance : float
         Largest local error of a step.
     held : array of HELD, shape (n,)
@@ -243,7 +250,7 @@ class Draws:
     Attributes
     ----------
     noise : numpy.ndarray, shape (m, 2)
-        Standard normal numbers.
+        Standard normal numbers, errors of measured states.
     """
 
     def __init__(self, seed, trials):
@@ -253,8 +260,8 @@ class Draws:
     def following(self):
         """Return numbers between 0 and 1 for the next hold of each trial.
 
-        The array has the shape (trials, DRAWS + 1). The last number selects the state of the free
-        motion with which the hold begins.
+        The array has the shape (trials, DRAWS + 1). The last number selects the strobe state of the
+        free motion from which the hold begins, if this motion has several.
         """
         return self._generator.random((self._trials, DRAWS + 1))
 
@@ -262,7 +269,8 @@ class Draws:
 def run_trials(on, free, policy, trials, limit, seed, examined=None):
     """Return the `Outcome` of trials of a policy.
 
-    A free motion counts as settled when it is in a proven neighbourhood of an attractor.
+    A free motion counts as settled when its state lies in a neighbourhood of an attractor from
+    which all motions are proven to tend to the attractor (`attraction.attractors`).
 
     Parameters
     ----------
@@ -275,7 +283,8 @@ def run_trials(on, free, policy, trials, limit, seed, examined=None):
         Forcing cycles after which a trial ends.
     seed : int or sequence of int
     examined : int, optional
-        Only the first `examined` trials are run; by default all trials.
+        Only the first `examined` trials are run; by default all. The random numbers are those of
+        `trials` trials in either case.
     """
     random, examined = Draws(seed, trials), examined or trials
     place = np.full(examined, free.resonance)

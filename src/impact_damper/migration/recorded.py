@@ -1,6 +1,10 @@
 """Record motions with the damper on, and label the free motions after releases from them.
 
-A hold is a time with the damper on, which ends with a release (switching the damper off).
+A hold is a time with the damper on, which ends with a release (switching the damper off). A label
+is the index of the attractor, the stable motion, to which the free motion settles. The release set
+contains the states, at evenly spaced phases of the forcing, from which the free motion settles to
+the goal, the small free motion. A strobe is the time in each cycle at which the forcing has the
+phase W T = pi/2.
 """
 
 import math
@@ -18,20 +22,20 @@ from impact_damper.system.packed import FREQUENCY
 
 
 class Recording(NamedTuple):
-    """States of n holds at moments with the phases of the release set.
+    """States of n holds at their moments, the times at the phases of the release set.
 
     The phases divide a forcing cycle evenly. A step is the time between two phases.
 
     Attributes
     ----------
     begin : numpy.ndarray, shape (n,)
-        Time of the switching on, in steps.
+        Time at which the damper is switched on, in steps.
     limits : numpy.ndarray, shape (n,)
         Length of each hold in forcing cycles.
     states : numpy.ndarray, shape (n, moments, 2)
         Z1 and Z1'; undefined beyond the end of a hold.
     depth : numpy.ndarray, shape (n, moments)
-        Depth inside the release set; NaN beyond the end of a hold.
+        Depth inside the release set (distance from its boundary); NaN beyond the end of a hold.
     impacts : numpy.ndarray of int, shape (n, moments)
         Number of contacts begun before each moment.
     phases : int
@@ -46,15 +50,15 @@ class Recording(NamedTuple):
     phases: int
 
     def phase(self, rows, moments):
-        """Return the index of the phase at moments, which are given by their two indices."""
+        """Return the index of the phase at moments given by index arrays, rows being holds."""
         return (np.floor(self.begin[rows]).astype(int) + 1 + moments) % self.phases
 
     def cycles(self, rows, moments):
-        """Return the forcing cycles from the switching on to moments."""
+        """Return the forcing cycles between switching the damper on and the moments."""
         return (1 + moments - self.begin[rows] % 1) / self.phases
 
     def ahead(self, rows, moments):
-        """Return the forcing cycles from moments to the next strobe."""
+        """Return the forcing cycles from the moments to the strobe after each."""
         return (self.phases // 4 - self.phase(rows, moments)) % self.phases / self.phases
 
 

@@ -1,9 +1,11 @@
 """The release set: states and phases from which the free motion settles to the goal.
 
-The goal is the non-resonance motion. If the damper is switched off at a state and phase of the
-release set, the free motion settles to the goal. The set is computed on a grid of states at each of
-several phases of the forcing. Each state of the grid has a depth: its distance from the boundary of
-the set, positive inside. The distance is in units of Z1, with Z1' divided by the frequency W.
+The goal is the non-resonance motion, the smaller of the two motions of period 1 that the oscillator
+has without the damper. If the damper is switched off at a state and phase of the release set, the
+free motion settles to the goal. The set is computed on a grid of states Z1, Z1' at each of several
+phases of the forcing. Each state of the grid has a depth: its distance from the boundary of the
+set, positive inside and negative outside. The distance is in units of Z1, with Z1' divided by the
+frequency W.
 """
 
 import math
@@ -16,7 +18,8 @@ from impact_damper.attraction.labels import label_states
 from impact_damper.kernel.compiling import kernel
 from impact_damper.system.packed import FREQUENCY
 
-# Half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the free resonance motion.
+# Half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the resonance motion, the larger
+# of the two free motions. Larger states count as outside the set.
 WIDTH = 1.6
 # Number of cells of the fine grid in a cell of the coarse grid, along an axis; a power of 2.
 REFINED = 4
@@ -28,7 +31,7 @@ class ReleaseSet(NamedTuple):
     Attributes
     ----------
     depth : numpy.ndarray, shape (phases, cells, cells)
-        Distance from the boundary for each phase, Z1' and Z1; negative outside the set.
+        Depth for each phase, Z1' and Z1, in this order of axes.
     half : numpy.ndarray, shape (2,)
         Half widths of the grid in Z1 and Z1'.
     """
@@ -54,7 +57,7 @@ def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> Rele
         Packed parameters without a damper.
     attractors : attraction.attractors.Attractors
     goal : int
-        Index of the goal among them.
+        Index of the goal among the attractors.
     phases : int
         Even number of phases.
     cells : int
@@ -81,8 +84,9 @@ def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> Rele
 def _refined(inside, half, cells):
     """Return the mask of the cells of the fine grid that lie inside a set, shape (n, n).
 
-    n is REFINED times `cells`. The function `inside` of states tells which states lie inside. It is
-    called for all cells of the coarse grid, and on finer grids only near the boundary.
+    n is REFINED times `cells`. The function `inside` takes states, shape (m, 2), and returns which
+    of them lie inside. It is called for all cells of the coarse grid, and on finer grids only for
+    cells near the boundary.
     """
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
@@ -114,7 +118,9 @@ def signed_distance(inside):
 def depth_of(depth, half, phase, x, v):
     """Return the depth of a state inside the release set at a phase.
 
-    It is the value of the cell that contains the state. Beyond the grid it is minus infinity.
+    `depth` and `half` are the attributes of a `ReleaseSet`, and `phase` is the index of a phase.
+    x and v are Z1 and Z1'. The depth is that of the cell which contains the state. Beyond the grid
+    it is minus infinity.
     """
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf

@@ -15,15 +15,25 @@ from impact_damper.rivals.methods import STATISTICS
 from impact_damper.system.packed import DASHPOT, FREQUENCY
 
 
-def of_run(p, run, begin, periods, batch):
-    """Return for each batch the contacts per cycle, and the mean over cycles of the largest |Z1|.
 
-    `run` is a `runs.Run` from the time `begin`, and `batch` is the number of cycles in a batch.
+def of_run(p, run, begin, periods, batch):
+    """Return the averages of a run in each batch of forcing cycles.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    run : runs.Run
+    begin : float
+        Time at which the run begins.
+    periods, batch : int
+        Number of forcing cycles of the run and of a batch.
 
     Returns
     -------
     dict
-        Arrays of shape (periods // batch,), keyed by the name of the statistic.
+        Arrays of shape (periods // batch,). "contact_rate": contacts per cycle. "displacement":
+        mean over the cycles of the largest displacement |Z1| of the primary mass in a cycle.
     """
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
@@ -39,7 +49,10 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch):
-    """Return the largest Lyapunov exponent per unit of time in each batch, by the Taylor series."""
+    """Return the largest Lyapunov exponent per unit of time T in each batch, by the Taylor series.
+
+    The arguments are those of `of_run`, with the state `start` at the strobe (W T = pi/2).
+    """
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -51,7 +64,7 @@ def exponents(p, start, tolerance, periods, batch):
 
 
 def rigid_exponents(restitution, p, start, tolerance, periods, batch):
-    """Return the largest Lyapunov exponent per unit of time in each batch, by the rigid model."""
+    """Return the same as `exponents` for rigid walls with a given restitution."""
     p = p.copy()
     p[DASHPOT] = 0.0
     y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[FREQUENCY]
@@ -64,15 +77,16 @@ def rigid_exponents(restitution, p, start, tolerance, periods, batch):
 
 
 def _renormalised(tangent):
-    """Return a tangent scaled to length 1, and the logarithm of its length before."""
+    """Return a tangent vector scaled to length 1, and the logarithm of its former length."""
     size = np.linalg.norm(tangent)
     return tangent / size, math.log(size)
 
 
 def estimates(batches):
-    """Return mean and standard error of each of STATISTICS, shape (2, 3), NaN for missing ones.
+    """Return the mean (row 0) and standard error (row 1) of each of STATISTICS, shape (2, 3).
 
-    `batches` is a dictionary from the name of a statistic to its values in the batches.
+    `batches` maps the name of a statistic to its values in the batches. The entries of a statistic
+    without values are NaN.
     """
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):

@@ -1,7 +1,7 @@
-"""Test cases (scenes) of the stage `accuracy`: motions on which methods are compared.
+"""Test cases, called scenes, of the stage `accuracy`: motions on which methods are compared.
 
-A motion that is not chaotic has a reference: the state at its end, its contacts and its amplitude
-from an 80-bit computation, taken as exact.
+A stage is a step of the workflow. A motion that is not chaotic has a reference: the state at its
+end, its contacts and its amplitude, computed with 80-bit numbers and taken as exact.
 """
 
 from typing import NamedTuple
@@ -28,13 +28,15 @@ class ComparisonScene(NamedTuple):
     periods : int
         Forcing cycles of a run.
     motion : str
-        "steady" for an orbit of period 1, which models of orbits compute too; "transient"; or
-        "chaotic".
+        "steady" for a periodic motion of one forcing cycle, which some models compute without a
+        run; "transient"; or "chaotic".
     accuracy : dict
         Accuracy that a user wants. The entry "quantity" is a name in `methods.ERRORS`, or in
-        `methods.STATISTICS` for a chaotic motion. The entry "within" is its largest error.
+        `methods.STATISTICS` for a chaotic motion. The entry "within" is the largest error that the
+        user accepts.
     tolerance : float or None
-        Tolerance with which other stages run such motions; None if no other stage runs them.
+        Tolerance of the integrator with which other stages run such motions; None if no other stage
+        runs them.
     """
 
     name: str

@@ -1,8 +1,10 @@
 """The equations of motion for integrators that evaluate the rate (time derivative) of the state.
 
-These are equations (3), (4) and (20) to (24). The state is a tuple (Z1, Z1', Z2, Z2'). The contact
-force acts while |Z2| exceeds the clearance. A contact therefore ends at zero penetration, and the
-dashpot's force jumps when the contact begins and when it ends.
+These are equations (3), (4) and (20) to (24) of the paper. The state is a tuple (Z1, Z1', Z2, Z2'),
+the displacement of the primary mass and its displacement relative to the loose mass, with their
+velocities. The contact force, of a spring and a dashpot, acts while |Z2| exceeds the clearance. A
+contact therefore ends at zero penetration, and the dashpot's force jumps when the contact begins
+and when it ends.
 """
 
 from impact_damper.kernel.compiling import kernel, kernel_only
@@ -28,7 +30,7 @@ def wall_at(p, z):
 
 @kernel
 def rate(p, side, t, y):
-    """Return the rate of the state (Z1, Z1', Z2, Z2') at the time t.
+    """Return the time derivative of the state (Z1, Z1', Z2, Z2') at the time t.
 
     `side` is the wall in contact: -1, 1, or 0 for none.
     """
@@ -37,7 +39,7 @@ def rate(p, side, t, y):
 
 @kernel_only
 def rate_under(p, side, drive, y):
-    """Return the same as `rate`, from the forcing `drive` in place of the time."""
+    """Return the time derivative of the state under the external force `drive`."""
     x, v, z, w = y
     force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
     a = drive - p[DAMPING] * v - spring(p, x) - force
@@ -46,7 +48,10 @@ def rate_under(p, side, drive, y):
 
 @kernel_only
 def rate_by_position(p, drive, y):
-    """Return the rate with the wall chosen by the position Z2, to integrate through the kink."""
+    """Return the time derivative of the state, with contact if |Z2| exceeds the clearance.
+
+    Integrators that do not locate contacts use this function.
+    """
     return rate_under(p, wall_at(p, y[2]), drive, y)
 
 

@@ -1,7 +1,7 @@
 """Fixed-step methods: Heun, velocity Verlet, the classical Runge-Kutta method, Runge-Kutta-Merson.
 
-Contacts are not located; the methods go through the kink of the force. Each evaluation of the rate
-adds the contact force if its position Z2 is beyond a wall.
+Contacts are not located. Each evaluation of the rate (time derivative of the state) adds the
+contact force if the position Z2 is beyond a wall.
 """
 
 import math
@@ -17,9 +17,10 @@ from impact_damper.system.packed import FREQUENCY
 NAMES = ("heun", "verlet", "runge_kutta_4", "merson")
 HEUN, VERLET, RUNGE_KUTTA_4, MERSON = range(4)
 
-# Largest product h omega of step and frequency for which the computed motion of an undamped
-# oscillator does not grow. There |R(i h omega)| = 1 for the method's stability function R, which
-# for Merson's method is R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 + z^5/144.
+# Largest product h omega of step h and frequency omega for which the computed motion of an undamped
+# linear oscillator does not grow. At this product |R(i h omega)| = 1 with the stability function R,
+# the factor of a step for y' = z y/h. For Merson's method R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 +
+# z^5/144.
 STABILITY_LIMIT = {
     "heun": 0.0,
     "verlet": 2.0,
@@ -28,14 +29,14 @@ STABILITY_LIMIT = {
 }
 # A run has diverged once |Z1| + |Z1'| + |Z2'| exceeds BEYOND.
 BEYOND = 1e3
-# Number of steps in one call of a compiled function, which runs at least one forcing cycle. Ctrl-C
-# takes effect only after a call.
+# Largest number of steps in one call of a compiled function, unless one forcing cycle takes more.
+# Ctrl-C takes effect only after a call.
 STEPS_AT_ONCE = 10**6
 
 
 @kernel
 def forcing(p, t, h):
-    """Return the forcing at t, t + h/3, t + h/2 and t + h."""
+    """Return the external force at t, t + h/3, t + h/2 and t + h, a tuple of four numbers."""
     return (
         external_force(p, t),
         external_force(p, t + h / 3.0),
@@ -105,7 +106,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, strobes, largest):
-    """Run with a whole number of equal steps in each forcing cycle, and return the cycles run.
+    """Run with a whole number of equal steps in each forcing cycle.
 
     Parameters
     ----------
@@ -122,6 +123,11 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
     strobes, largest : array, shapes (n, 4) and (n,)
         Receive the state at the end of each of n cycles and the largest |Z1| in each cycle. If the
         run diverges (`BEYOND`), the entries from this cycle on are NaN.
+
+    Returns
+    -------
+    int
+        Number of cycles completed before a divergence; n without one.
     """
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])

@@ -1,9 +1,10 @@
 """Runge-Kutta-Merson with step control, the method of the paper, with or without locating contacts.
 
-Merson's estimate of the error is exact for linear equations. Step control keeps it below the
-tolerance times 1 + |y| in each component y. Contacts are located as in common codes: if the
-distance to the wall, or in contact the penetration, is negative at the end of a step, the step is
-shortened until the distance or penetration is zero at its end.
+For linear equations Merson's estimate of the error equals the leading term of the error. Step
+control keeps the estimate below the tolerance times 1 + |y| in each component y. Contacts are
+located as in common codes. In flight the distance to the wall is checked at the end of each step,
+in contact the penetration. If this number is negative, the step is shortened until the number is
+zero at its end.
 """
 
 import math
@@ -22,7 +23,8 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 # takes more than MOST_STEPS steps.
 SHORTEST = 1e-12
 MOST_STEPS = 10**6
-# Largest number of steps whose ends are stored, in a forcing cycle and in a flight.
+# A run whose steps do not fit into memory fails. Largest number of steps whose ends are stored, in
+# a forcing cycle and in a flight.
 MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
 # Length of the first step, in forcing cycles.
 FIRST = 1e-3
@@ -32,11 +34,11 @@ PERIODS_AT_ONCE = 10
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state after one step, and the ratio of its estimated error to the largest error.
+    """Return the state after one step, and the ratio of its estimated error to the allowed error.
 
-    The largest error follows from the tolerance. `side` is the wall in contact (-1, 1, or 0 for
-    none). With `by_position` the argument `side` is ignored, and each evaluation of the rate
-    determines the wall in contact from Z2.
+    The step goes from the state y at the time t to t + h. `side` is the wall in contact (-1, 1, or
+    0 for none). With `by_position` the argument `side` is ignored, and each evaluation of the time
+    derivative determines the wall in contact from Z2.
     """
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
@@ -59,7 +61,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 def ahead(p, side, y):
     """Return the distance to the nearest wall in flight, or the penetration in contact.
 
-    The value decreases through zero when a contact begins or ends.
+    Both decrease through zero, the distance when a contact begins, the penetration when it ends.
     """
     if side == 0:
         return p[CLEARANCE] - abs(y[2])
@@ -68,10 +70,11 @@ def ahead(p, side, y):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return the step that ends at an event, the state at its end, and the number of steps tried.
+    """Return the length of the step that ends at an event, the state there, and the steps tried.
 
-    The event is the beginning or end of a contact within the step h. The step is halved until it
-    ends before the event. Then the Illinois variant of regula falsi finds the length of the step.
+    The event is the beginning or end of a contact within the step from t to t + h. The step is
+    halved until it ends before the event. Then the Illinois variant of regula falsi finds the
+    length with which it ends at the event.
     """
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
@@ -111,9 +114,9 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     Parameters
     ----------
     p, y : array
-        Packed parameters, and the state at t, which is replaced by the state at the end.
+        Packed parameters, and the state at t, which is replaced by the state at `end`.
     side : int
-        Wall in contact, -1 or 1, or 0 for none; unused without `locate`.
+        Wall in contact at t: -1 or 1, or 0 for none. Unused without `locate`.
     t, end, h, tolerance : float
         Times of beginning and end, length of the first step, and tolerance.
     locate : bool
@@ -126,17 +129,18 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     side : int
         Wall in contact at the end.
     h : float
-        Length of the next step.
+        Length for the next step.
     steps : int
         Number of accepted steps. It is -1 if the tolerance could not be met, if more than
         MOST_STEPS steps were needed, or if the run diverged (`BEYOND`).
     contacts : int
-        Number of contacts begun. Without `locate` only contacts that exist at the end of a step are
-        counted.
+        Number of contacts begun. Without `locate`, a contact that begins and ends within one step
+        is not counted.
     largest : float
         Largest |Z1|.
     tries : int
-        Number of computed steps, also rejected ones, of five evaluations of the rate each.
+        Number of computed steps, including rejected steps and trials of `located`. Each takes five
+        evaluations of the time derivative.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, contacts, largest, tries = 0, 0, 0.0, 0
@@ -179,10 +183,11 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
 
 @kernel
 def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
-    """Run over forcing cycles; return the cycles run, the wall in contact and the next step.
+    """Run over forcing cycles, and return the completed cycles, the wall and the next step.
 
-    `side` is the wall in contact at the beginning, and h the length of the first step. `tolerance`
-    and `locate` are those of `advance_merson`, the other arguments those of `fixed_step.run_fixed`.
+    `side` is the wall in contact at the beginning, and h the length of the first step. The second
+    and third result are `side` and h at the end. `tolerance` and `locate` are those of
+    `advance_merson`, the other arguments those of `fixed_step.run_fixed`.
     """
     y = start.copy()
     none = np.empty((0, 5))
@@ -190,8 +195,8 @@ def run_merson(p, start, side, h, t, tolerance, locate, strobes, largest):
     strobes[:] = np.nan
     largest[:] = np.nan
     for k in range(len(strobes)):
-        # Each cycle is integrated from the same time t. In a long run the rounding errors of a
-        # growing time would become larger.
+        # Each cycle is integrated from the same time t, because the forcing is periodic. With a
+        # growing time its rounding errors would grow too.
         side, h, steps, _, most, _ = advance_merson(
             p, y, side, t, t + period, h, tolerance, locate, none
         )
@@ -211,7 +216,11 @@ class Merson(FixedStep):
         super().__init__("merson")
 
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None):
-        """Return the run. Its counted work includes rejected steps and steps to locate contacts."""
+        """Return the `runs.Run`.
+
+        Its counted work, the number of floating-point operations, includes rejected steps and steps
+        to locate contacts.
+        """
         y, period = start.copy(), 2 * math.pi / p[FREQUENCY]
         side, h, tries = side_of(p, y), FIRST * period, 0
         times, states = [np.array([begin])], [start[None]]

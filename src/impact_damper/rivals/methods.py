@@ -1,9 +1,9 @@
 """The integrators that are compared: their names, and the stages that compare them.
 
-Figures, tables and the check of the configuration read this module. Therefore only the function
-`integrators` imports kernels. To add an integrator, write a subclass of `runs.Integrator` in a
-module of this room (subpackage), describe it in `METHODS`, create an instance in `integrators`, and
-name it in `COMPARED`.
+A stage is a step of the workflow. Figures, tables and the check of the configuration read this
+module. Importing it must be fast, so only the function `integrators` imports compiled functions. To
+add an integrator, write a subclass of `runs.Integrator` in a module of this subpackage, describe it
+in `METHODS`, create an instance in `integrators`, and name it in `COMPARED`.
 """
 
 from typing import NamedTuple
@@ -25,12 +25,13 @@ class Method(NamedTuple):
     fixed : bool
         Whether the stages set the number of steps in a forcing cycle in place of a tolerance.
     slow : bool
-        Whether runs stop after a number of evaluations of the rate. A slow integrator is run with
-        fewer tolerances and, for chaotic motions, over fewer cycles.
+        Whether runs stop after a number of evaluations of the rate (the time derivative of the
+        state). A slow integrator is run with fewer tolerances and, for chaotic motions, over fewer
+        cycles.
     implicit : bool
-        Whether the integrator is an implicit one. With such an integrator the stage
-        `missed_contacts` runs only the first `implicit_passages` passages, which are random flights
-        without contact.
+        Whether the integrator is an implicit one. Because such an integrator is slow, the stage
+        `missed_contacts` runs it only on the first `implicit_passages` of its test cases, which are
+        random flights without contact (`passages`).
     """
 
     title: str
@@ -81,9 +82,12 @@ COMPARED = {
     ),
 }
 
-# The stage `method_verdicts` determines the period of a run. LAST: number of last states, one for
-# each forcing cycle, that must repeat. LONGEST_PERIOD: longest period that is tested.
-# VERDICT_PERIODS_RANGE: allowed numbers of forcing cycles of a run, which suffice for the test.
+# The stage `method_verdicts` determines the period of a run from the states at the ends of its last
+# forcing cycles.
+# LAST: number of states at the end that must equal the states a period before.
+# LONGEST_PERIOD: longest period that is tested, in forcing cycles.
+# VERDICT_PERIODS_RANGE: allowed numbers of forcing cycles of a run; the least is what the test
+#     needs.
 LAST, LONGEST_PERIOD = 6, 6
 VERDICT_PERIODS_RANGE = PERIODS_RANGE | {"least": LAST + LONGEST_PERIOD}
 
@@ -92,7 +96,8 @@ VERDICT_PERIODS_RANGE = PERIODS_RANGE | {"least": LAST + LONGEST_PERIOD}
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
-# Models of a steady motion, which the stage `accuracy` compares with the integrators.
+# Models of a steady motion (`orbit_models`), which the stage `accuracy` compares with the
+# integrators.
 ORBIT_MODELS = (
     "rigid",
     "rigid_mended",
@@ -106,9 +111,10 @@ ORBIT_MODELS = (
 # harmonic balance with this highest harmonic.
 START_HARMONICS = 15
 
-# Keys in the section `comparison` of the configuration. TOLERANCE_KEYS: keys of lists of
-# tolerances. LIMITED: keys of its entry `evaluations`, which holds the largest number of
-# evaluations of a run.
+# Keys in the section `comparison` of the configuration.
+# TOLERANCE_KEYS: keys whose values are lists of tolerances.
+# LIMITED: keys of its entry `evaluations`, which holds the largest number of evaluations in a run
+#     of each of these integrators.
 TOLERANCE_KEYS = tuple(
     dict.fromkeys(each.tolerances for each in METHODS.values() if each.tolerances)
 )
@@ -119,15 +125,18 @@ def name_and_mode(label):
     """Return the name in `METHODS` that a label contains, and whether contacts are located.
 
     A label is a name followed by "_located" if the integrator locates the beginnings and ends of
-    contacts. It is a name alone or followed by "_kink" if the integrator goes through the kinks of
-    the force. The Taylor series always locates contacts.
+    contacts. It is a name alone, or followed by "_kink", if the integrator does not locate them and
+    steps across the kinks of the force. The Taylor series always locates contacts.
     """
     name = label.removesuffix("_located").removesuffix("_kink")
     return name, label.endswith("_located") or name == "taylor"
 
 
 def title_with_mode(label):
-    """Return the title for a label with the treatment of contacts, such as "Merson, located"."""
+    """Return the title for a label, with the treatment of contacts, such as "Merson, located".
+
+    The treatment is left out for integrators that have only one.
+    """
     name, located = name_and_mode(label)
     method = METHODS[name]
     if method.fixed or name == "taylor":

@@ -2,10 +2,10 @@
 
 Unlike computing time, this number is the same on every computer. It is called the counted work of
 the function. An addition, subtraction, product, quotient or square root counts as one operation. A
-sine, logarithm or other elementary function counts as ELEMENTARY operations. Signs, absolute
-values, comparisons and subscripts do not count. An operation on a pair of numbers counts twice. Of
-two branches of an `if`, the branch with more operations counts, unless the arguments determine
-which branch is taken.
+sine, logarithm or other elementary function counts as ELEMENTARY operations, an assumed typical
+cost. Signs, absolute values, comparisons and subscripts do not count. An operation on a pair of
+numbers counts twice. Of two branches of an `if`, the branch with more operations counts, unless the
+arguments determine which branch is taken.
 """
 
 import ast
@@ -19,7 +19,7 @@ FUNCTIONS = {"cos", "sin", "exp", "log", "atan2", "pow"}
 
 
 class _Returned(Exception):
-    """Raised at a `return` that is certainly reached. The statements after it do not count."""
+    """Raised at a `return` that is certainly reached, since later statements do not count."""
 
 
 @cache
@@ -78,7 +78,8 @@ class _Counter(ast.NodeVisitor):
     rounds, without
         Arguments of `operations`.
     pairs : iterable of str
-        Names of variables that hold a pair of numbers (`kernel.straight_lines`).
+        Names of variables that hold a pair of numbers. Compiled functions use pairs to compute two
+        series at once (`kernel.straight_lines`).
     """
 
     def __init__(self, known, rounds, without, pairs=()):

@@ -1,8 +1,9 @@
 """Models that compute a steady motion, and the number of operations of each model.
 
-Most models solve for an orbit instead of integrating from a state. If a harmonic balance has
-several solutions, the solution nearest to the initial state of the test case (scene) is taken,
-which favours the model. The counted work of a model is its number of floating-point operations:
+A steady motion is a periodic motion of one forcing cycle. Most models solve for it instead of
+integrating from a state. If a harmonic balance has several solutions, the solution nearest to the
+initial state of the test case is taken, which favours the model. The numbers in brackets are those
+of equations in the paper. The counted work of a model is its number of floating-point operations:
 
 - Rigid balance (14): the eigenvalues of the companion matrices of a polynomial of degree 6 and of
   its derivative, with 10 n^3 operations for n eigenvalues, and a root by bracketing between
@@ -14,9 +15,9 @@ which favours the model. The counted work of a model is its number of floating-p
   for the linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M
   values (two with M = 16 N and three with M = 4 N). The balances with fewer harmonics, whose
   solutions are first guesses, are included.
-- Rigid impacts and shooting: for each map over a cycle in Newton's method, the steps of the Taylor
-  series with four solutions of the variational equations. The balance with START_HARMONICS, whose
-  solution is the first guess, is included.
+- Rigid impacts and shooting: Newton's method integrates the motion and its four variational
+  equations over a cycle, once for each iteration, by steps of the Taylor series. The balance with
+  `methods.START_HARMONICS`, whose solution is the first guess, is included.
 """
 
 import math
@@ -45,8 +46,9 @@ from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.harmonic_solutions import Solution, solve, state_of
 from impact_damper.theory.many_harmonics import Balance
 
+# See the module's docstring.
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
-# Largest distance of a rigid orbit from the first guess.
+# Largest distance of the state of a rigid orbit from the first guess.
 REACH = 10.0
 
 
@@ -75,10 +77,10 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the run of the rigid-impact model from the state `start` at the time t.
+    """Return the `Run` with rigid walls from the state `start` at the time t.
 
-    The phase W T is pi/2 at this time. Flights are integrated by the Taylor series. The peaks of
-    the run are the largest |Z1| in each forcing cycle. The times of the peaks are set to the
+    The phase W T is pi/2 at this time. Flights are integrated by the Taylor series. The field
+    `peaks` of the run holds only the largest |Z1| in each forcing cycle, and `peak_times` the
     middles of the cycles.
     """
     p = p.copy()
@@ -106,7 +108,7 @@ def rigid(p, restitution, start, t, periods, tolerance):
 
 
 def without(status, work=0.0):
-    """Return a `Model` without a motion. The status is the reason."""
+    """Return a `Model` without a motion. The status says why there is none."""
     return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
 
 
@@ -125,7 +127,7 @@ def nearest(models, state):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the model by the single-term balance with rigid walls, equations (13) and (14)."""
+    """Return the `Model` by balance of one harmonic with rigid walls, equations (13) and (14)."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     work = 10 * (6**3 + 5**3) + 6 * 10 * 12
@@ -141,9 +143,10 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def single_terms(oscillator, damper, frequency):
-    """Return the coefficients, shape (1 or 2, 1), of all single-term solutions.
+    """Return a list of the complex amplitudes of all solutions with one harmonic.
 
-    They solve (7) with e = 1, or the cubic equation of the free oscillator if `damper` is None.
+    Each has the shape (2, 1), for Z1 and Z2, or (1, 1) if `damper` is None. They solve equation (7)
+    with the restitution 1, or the cubic equation of the oscillator without a damper.
     """
     if damper is None:
         solutions = free_solutions(oscillator, frequency)
@@ -159,7 +162,7 @@ def single_terms(oscillator, damper, frequency):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the model by single-term balance: (7), or without a damper the cubic equation."""
+    """Return the `Model` by balance of one harmonic (`single_terms`)."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -170,9 +173,9 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the coefficients of the single-term solution nearest to `state`, and the work.
+    """Return the solution of `single_terms` nearest to `state`, or None, and the work.
 
-    The coefficients are None if there is no solution. The work is that of finding all solutions.
+    The work is the number of operations to find all solutions.
     """
     work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
     if damper is None:
@@ -190,7 +193,7 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
     """Return a dictionary of models by harmonic balance, keyed by their highest harmonic.
 
     The highest harmonics are 3, 7, 15, ... up to `highest`. The first guess of Newton's method is
-    the last solution that converged, at first a single-term solution.
+    the last solution that converged, and for harmonic 3 the solution with one harmonic.
     """
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
@@ -224,8 +227,9 @@ def _transform(samples):
 def rigid_impacts(oscillator, damper, frequency, start):
     """Return a dictionary of two models: "rigid" walls, and corrected walls ("rigid_mended").
 
-    The correction (`contact.rigid_orbits`) reduces the error to the order 1/r1. The first guess of
-    Newton's method is the model `start`.
+    The corrected walls (`contact.rigid_orbits`) account for the duration of a contact. Their error
+    is of the order 1/r1, with the contact stiffness r1. The first guess of Newton's method is the
+    model `start`.
     """
     models = {"rigid": without("not_applicable"), "rigid_mended": without("not_applicable")}
     if damper is None:
@@ -256,7 +260,7 @@ def _phases(p, run):
 
 
 def shooting(oscillator, damper, frequency, start):
-    """Return the model by shooting with the Taylor series; its first guess is the model `start`."""
+    """Return the `Model` by shooting with the Taylor series, with the first guess `start`."""
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
     begin = strobe_time(p)

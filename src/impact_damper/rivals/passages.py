@@ -1,9 +1,10 @@
-"""Passages: flights without walls, whose largest |Z2| is known.
+"""Passages: flights of the loose mass without walls, whose largest |Z2| is known.
 
-|Z2| is the distance of the loose mass from the middle of the gap. A wall that is placed slightly
-nearer than the largest |Z2| is touched once, for a short time. A wall that is placed slightly
-further away is not touched. A method that computes the distance to the wall only at the ends of its
-steps can hardly distinguish the two cases.
+They are test cases for integrators that detect contacts. |Z2| is the distance of the loose mass
+from the middle of the gap. A wall that is placed slightly nearer than the largest |Z2| is touched
+once, for a short time. A wall that is placed slightly further away is not touched. A method that
+computes the distance to the wall only at the ends of its steps can hardly distinguish the two
+cases.
 """
 
 import math
@@ -16,9 +17,9 @@ from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, polynomial, step, workspace
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Number of parts of a step, each of which is searched for an extremum, and tolerance of the
-# flights.
+# Number of parts of a step. In each part one extremum of Z2 can be found.
 PIECES = 16
+# Tolerance of the Taylor series.
 TOLERANCE = 1e-15
 
 
@@ -41,11 +42,11 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Return time, value and |second derivative| of the largest |Z2| of a flight over [t, end].
+    """Return the time and value of the largest |Z2| of a flight over [t, end], and |Z2''| there.
 
     Each step of the Taylor series is divided into PIECES parts. In a part in which Z2' changes its
-    sign, bisection finds the extremum to rounding. If |Z2| is largest at an end of the flight, the
-    second derivative is returned as 0. y, the state at t, is replaced by the state at the end.
+    sign, bisection finds the extremum to rounding. If |Z2| is largest at an end of the flight,
+    0 is returned in place of |Z2''|. y, the state at t, is replaced by the state at the end.
     """
     work = workspace()
     none = np.empty((0, 4))

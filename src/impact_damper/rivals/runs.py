@@ -43,18 +43,18 @@ class Run(NamedTuple):
 
 
 def stopped(status, work):
-    """Return a run that did not reach its end."""
+    """Return a `Run` that did not reach its end, with NaN in place of its results."""
     none = np.empty(0)
     return Run(status, work, np.full(4, np.nan), none, none, none, np.nan)
 
 
 class Integrator:
-    """The interface that the stages of the workflow use.
+    """The interface of an integrator for the stages (steps) of the workflow.
 
     A subclass implements the methods for those stages that compare it (`methods.COMPARED`). The
     docstring of each method names its stage. The methods have these arguments in common: `p`,
     packed parameters; `start`, the state (4,) at the time `begin`; `periods`, the number of forcing
-    cycles; `locate`, whether contacts are located.
+    cycles; `locate`, whether a step ends where a contact begins or ends.
 
     Attributes
     ----------
@@ -68,7 +68,8 @@ class Integrator:
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations) -> Run:
         """Return the run, for the stage `accuracy`.
 
-        Slow integrators stop after `most_evaluations` evaluations of the rate.
+        Slow integrators (`methods.Method.slow`) stop after `most_evaluations` evaluations of the
+        time derivative of the state.
         """
         raise NotImplementedError
 
@@ -83,7 +84,8 @@ class Integrator:
     def flight(self, p, state, end, resolution, time):
         """Return |Z2| at the ends of the steps of a flight over [0, end], and |Z2| at `time`.
 
-        Return None if the run fails. For the stage `missed_contacts`.
+        For the stage `missed_contacts`. `state` is the state at the time 0, and `resolution` is
+        that of `strobes`. Return None if the run fails.
         """
         raise NotImplementedError
 
@@ -100,7 +102,7 @@ class Integrator:
 
 
 def check_resolutions(tolerances, steps):
-    """Return tolerances, and the numbers of steps in a forcing cycle that replace them.
+    """Check tolerances, and the numbers of steps with which methods of fixed steps replace them.
 
     Parameters
     ----------
@@ -112,8 +114,8 @@ def check_resolutions(tolerances, steps):
     Returns
     -------
     numpy.ndarray, list of int
-        The tolerances, and the numbers of steps in decreasing order, because the smallest number of
-        steps corresponds to the largest tolerance.
+        The tolerances, and the numbers of steps in a forcing cycle in decreasing order, because
+        the smallest number of steps corresponds to the largest tolerance.
 
     Raises
     ------
@@ -132,8 +134,9 @@ def check_resolutions(tolerances, steps):
 def read_off(p, work, times, ends):
     """Return the `Run` with given times (n,) and states `ends` (n, 4) at the ends of its steps.
 
-    Beginnings of contacts and maxima of |Z1| within a step are located on the polynomial of degree
-    5 that agrees with the states and rates at both ends of the step.
+    `work` is its number of operations. Beginnings of contacts and maxima of |Z1| within a step are
+    located on the polynomial of degree 5 that agrees with the states and their time derivatives at
+    both ends of the step.
     """
     if not np.isfinite(ends).all():
         return stopped("failed", work)
@@ -143,7 +146,7 @@ def read_off(p, work, times, ends):
 
 
 def beginnings(p, times, ends):
-    """Return the times at which contacts begin.
+    """Return the times at which contacts begin. The arguments are those of `read_off`.
 
     A contact begins in each step from a state between the walls to a state at or beyond a wall.
     """
@@ -157,7 +160,10 @@ def beginnings(p, times, ends):
 
 
 def turning_points(p, times, ends):
-    """Return the times at which Z1' is zero and |Z1| at these times; both ends are included."""
+    """Return the times at which Z1' is zero, and |Z1| at these times.
+
+    The beginning and the end of the run are included. The arguments are those of `read_off`.
+    """
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = quintics(p, times, ends, 0, steps)
     fraction = root(polyder(course), 0.0, 1.0)
@@ -170,10 +176,11 @@ def turning_points(p, times, ends):
 
 
 def quintics(p, times, ends, index, steps):
-    """Return coefficients (6, m) of polynomials for a component of the state in m steps.
+    """Return coefficients (6, m) of polynomials for component `index` of the state in m steps.
 
     The variable of each polynomial goes from 0 to 1 over the step. This is Hermite interpolation:
-    value, first and second derivative agree with the state and its rate at both ends of the step.
+    value, first and second derivative agree with the state and its time derivative at both ends of
+    the step.
     """
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])

@@ -1,6 +1,7 @@
-"""SciPy's integrators with a compiled rate of the state.
+"""SciPy's integrators with a compiled rate (time derivative) of the state.
 
-The integrators go through the kinks of the force, or locate contacts as events of `solve_ivp`.
+The force has a kink where a contact begins or ends. The integrators step across these kinks, or
+locate contacts as events of `solve_ivp`.
 """
 
 import math
@@ -17,18 +18,20 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Components of the state.
 SIZE = 4
-# Operations for each evaluation of the rate, in addition to those of the rate. A stage of DOP853
-# adds on average 6 products to each of the 4 components. The final values and the two error
-# estimates add 4 products for each stage. LSODA updates and predicts an array of about 6
-# derivatives, with 21 additions per component, and solves with LU factors, 2 n^2. An iteration of
-# Radau has 3 evaluations. It takes 9 products per component to transform them and 9 to transform
-# back, and solves a real and a complex system.
+# Floating-point operations of a method for each evaluation of the rate, in addition to those of the
+# rate itself. n is SIZE, and a product with its addition counts as two operations.
+# DOP853: for each evaluation and component on average 6 products for the next state, and 4 for the
+#     final values and the two error estimates.
+# LSODA: an array of about 6 derivatives is predicted and corrected, with 21 additions per component
+#     each. A system is solved with LU factors, 2 n^2.
+# Radau: an iteration has 3 evaluations. Per component they take 9 products to transform and 9 to
+#     transform back. A real and a complex system are solved, 2 n^2 and 8 n^2.
 COMBINING = {
     "DOP853": SIZE * 2 * (6 + 4),
     "LSODA": SIZE * 2 * 21 + 2 * SIZE**2,
     "Radau": SIZE * 2 * 6 + (2 + 8) * SIZE**2 // 3,
 }
-# Operations of a factorisation, 2/3 n^3. For Radau the mean of a real and a complex factorisation.
+# Operations of a factorisation, 2/3 n^3 if real and 8/3 n^3 if complex; for Radau the mean of both.
 FACTORISING = {"DOP853": 0, "LSODA": 2 * SIZE**3 // 3, "Radau": (2 + 8) * SIZE**3 // 3 // 2}
 # Value of the argument `side` with which the position Z2 determines the wall in contact.
 BY_POSITION = 2
@@ -57,7 +60,7 @@ def derivative(t, y, p, side, left):
 def ahead(t, y, p, side, left):
     """Return the distance to the nearest wall in flight, or the penetration in contact.
 
-    The value decreases through zero when a contact begins or ends.
+    Both decrease through zero, the distance when a contact begins, the penetration when it ends.
     """
     return p[CLEARANCE] - abs(y[2]) if side == 0 else side * y[2] - p[CLEARANCE]
 
@@ -73,8 +76,9 @@ def pieces(method, p, start, t, end, tolerance, locate, left, times=None):
     """Yield the results of `solve_ivp` for successive parts of a run.
 
     With `locate` the beginning or end of a contact is an event, which ends a part. The next part
-    begins at the event, with a fixed wall in contact. Without `locate` the run is one part, and
-    each evaluation of the rate determines the wall from the position Z2.
+    begins at the event. Within a part the wall in contact, or the absence of contact, is fixed.
+    Without `locate` the run is one part, and each evaluation of the rate determines the wall in
+    contact from the position Z2.
 
     Parameters
     ----------
@@ -135,9 +139,8 @@ class SciPy(Integrator):
     def run(self, p, start, begin, periods, tolerance, locate, most_evaluations):
         """Return the run.
 
-        Its counted work includes all evaluations of the rate, also those for Jacobians by
-        differences, the combination of rates in each evaluation (`COMBINING`), and factorisations
-        (`FACTORISING`).
+        Its counted work, the number of floating-point operations, includes all evaluations of the
+        rate, also for Jacobians by differences, and the operations in COMBINING and FACTORISING.
         """
         left, factorisations = np.array([most_evaluations]), 0
         times, ends, status = [np.array([begin])], [start[None]], "failed"
@@ -194,7 +197,7 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
     def end(self, p, start, begin, periods, tolerance, locate):
-        """Return the state at the end, without the states after each cycle to save time."""
+        """Return the state at the end. To save time, states after each cycle are not computed."""
         left, end = np.array([MOST_TIMED]), begin + periods * 2 * math.pi / p[FREQUENCY]
         locate = locate and p[CLEARANCE] < math.inf
         try:

@@ -1,10 +1,11 @@
 """Runs by the event-driven Taylor series, with series of any orders, and their counted work.
 
-There are three kinds of steps: in flight, in flight until a contact begins, and in contact. The
-counted work of a run is the sum over the kinds of the number of steps times the operations of such
-a step (`operations.operations`), including the operations of the Taylor series. The operations do
-not include the search for a contact that the step did not expect, and repeated iterations of a
-search, because few steps need these.
+The integrator takes steps by Taylor series and ends a step where a contact begins or ends. There
+are three kinds of steps: in flight, in flight until a contact begins, and in contact. The counted
+work of a run is its number of floating-point operations: the sum over the kinds of the number of
+steps times the operations of a step (`operations.operations`). Two parts are left out because few
+steps need them: the search for a contact that the step did not expect, and repeated iterations of a
+search.
 """
 
 import math
@@ -36,10 +37,11 @@ from impact_damper.system.packed import FREQUENCY
 
 # Kinds of steps: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
+# Orders of the series in flight and in contact with which this package integrates by default.
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# ROWS: largest number of steps in one call of `take_steps`. A row for a step holds the time at its
-# beginning, its length, the wall in contact before it and after it, and from column SERIES on the
-# coefficients of the Taylor series of Z1.
+# A step is stored as a row: the time at its beginning, its length, the wall in contact before it
+# and after it (-1, 1, or 0 for none), and from column SERIES on the coefficients of the Taylor
+# series of Z1. ROWS: largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
 # Number of parts of a step. In each part Z1' is assumed to vanish at most once.
 PARTS = 8
@@ -47,10 +49,11 @@ PARTS = 8
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps from t to `end`; return their number, and time and wall after them.
+    """Fill `rows` with steps from t to `end`, or until no row is left.
 
-    `steps` is the array that `steps_of` returns. y, the state at t, is replaced by the state after
-    the steps. Coefficients that do not fit into the rows are omitted.
+    `steps` is the array that `steps_of` returns, and `side` the wall in contact at t. y, the state
+    at t, is replaced by the state after the steps. Coefficients that do not fit into the rows are
+    omitted. Return the number of steps, and the time and the wall in contact after them.
     """
     work = aligned(steps[3])
     a, count = pointer(work), 0
@@ -77,8 +80,8 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 def steps_of(orders):
     """Return the first argument of `take_steps` for series of these orders.
 
-    It is an array with the addresses of three compiled functions and the size of a workspace. The
-    functions take a step in flight, take a step in contact, and compute the series that are the
+    It is an array with the addresses of three compiled functions and the size of their workspace.
+    The functions take a step in flight, take a step in contact, and compute the series that are the
     same in all steps (`kernel.series`).
     """
     module = instance(1, *orders)
@@ -87,7 +90,7 @@ def steps_of(orders):
 
 
 def name_of(orders):
-    """Return the label of the Taylor series with given orders in flight and in contact."""
+    """Return the label of the Taylor series with given orders, such as "taylor_20_24"."""
     return "taylor_{}_{}".format(*orders)
 
 
@@ -108,7 +111,10 @@ def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def taylor(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return the run from a state at t, with given orders of the series in flight and contact."""
+    """Return the `Run` from the state `start` at the time t.
+
+    `orders` are the orders of the series in flight and in contact.
+    """
     rows, end = all_steps(p, start, t, periods, tolerance, orders)
     work = steps_work(counted(rows), orders=orders)
     if not np.isfinite(end).all():
@@ -124,7 +130,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points_of_series(rows):
-    """Return the times at which Z1' is zero within steps, and |Z1| at these times."""
+    """Return the times at which Z1' is zero within the steps `rows`, and |Z1| at these times."""
     c = rows[:, SERIES:].T
     slopes = c[1:] * np.arange(1, len(c))[:, None]
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
@@ -144,7 +150,10 @@ def counted(rows):
 
 
 def steps_work(counts, tangents=0, orders=ORDERS):
-    """Return the number of operations of steps, whose numbers of each kind are `counts`."""
+    """Return the number of operations of steps, given the number of steps of each kind.
+
+    `tangents` and `orders` are the arguments of `step_work`.
+    """
     return sum(count * step_work(kind, tangents, orders) for kind, count in enumerate(counts))
 
 

@@ -1,4 +1,4 @@
-"""Names of test cases and of models of orbits in words, for figures and tables."""
+"""Titles of test cases, models and integrators, for figures and tables."""
 
 from impact_damper.rivals.methods import METHODS, name_and_mode, title_with_mode
 
@@ -16,7 +16,7 @@ CASES = {
     "free_fold_after": "beyond the resonance's end",
     "subharmonic": "free one-third subharmonic",
 }
-# Models that solve for an orbit directly.
+# Models that solve for a periodic motion directly (`methods.ORBIT_MODELS`).
 MODELS = {
     "rigid": "rigid impacts",
     "rigid_mended": "rigid, corrected",
@@ -28,10 +28,10 @@ MODELS = {
 
 
 def method_in_words(label) -> str:
-    """Return the title of a model or of an integrator.
+    """Return the title of a model or of an integrator; an unknown label is returned unchanged.
 
-    The title of an integrator includes the treatment of contacts or the orders of the series if
-    these are part of the label.
+    If the label of an integrator contains the treatment of contacts ("_located", "_kink") or the
+    orders of the Taylor series, the title does too.
     """
     if label in MODELS:
         return MODELS[label]
