@@ -1,4 +1,4 @@
-"""Our side of the comparisons against SciPy: decays, basins, jumps, impacts."""
+"""Numbers that this package compares with published ones, checked by SciPy."""
 
 import numpy as np
 import pytest
@@ -22,14 +22,14 @@ def test_observed_order():
     assert_allclose(observed_order(values, 3 * values**1.7), 1.7)
 
 
-def test_decay_is_that_of_rigid_impacts():
-    """With stiff contacts; SciPy locates rigid impacts half a period after half a period."""
+def test_decay_with_stiff_contacts_agrees_with_rigid_impacts():
+    """SciPy integrates half a cycle after another, with an event at each rigid impact."""
     mass, restitution = 0.02, 0.5
     absorber = VibroImpactAbsorber(mass, restitution)
     oscillator = Oscillator(1e-9, 1.0, cubic=0.0, force=0.0)
     speed = 2 * START / np.pi
     after = (2 * mass - (1 - restitution) / (1 + restitution)) * speed
-    # With x2 = Z1 - Z2, a hair after an impact at Z2 = -d0.
+    # Displacements and velocities of both masses, at 1e-9 from the wall after an impact.
     state = np.array([START - 1, after, START - 1e-9, -speed])
     damper, time, times, sizes = Damper(mass, 1.0, restitution), 0.0, [], []
     while not sizes or sizes[-1] > absorber.amplitude(LAST) * 0.9:
@@ -44,8 +44,8 @@ def test_decay_is_that_of_rigid_impacts():
 
 
 @pytest.mark.thorough
-def test_basins_are_those_of_scipy():
-    """Starts that SciPy runs to the same motion as the published start of that motion."""
+def test_shares_agree_with_scipy():
+    """SciPy integrates all starts, and counts those that end in the motion of a published start."""
     found = basin_shares(150, 7, Settling())
     assert_allclose(sum(each.ours for each in found), 1)
     generator = np.random.default_rng(7)
@@ -59,7 +59,7 @@ def test_basins_are_those_of_scipy():
     given = np.array([motion.start for motion in published.MOTIONS])
     every = np.concatenate([given, starts]).T.ravel()
     turn = 2 * np.pi / published.FREQUENCY
-    # Motions of periods 1, 2 and 3 all repeat after six periods.
+    # Motions of periods 1, 2 and 3 all repeat after six cycles.
     times = turn * np.arange(120, 127)
     run = solve_ivp(rate, (0, times[-1]), every, t_eval=times, rtol=1e-8, atol=1e-10)
     states = run.y.reshape(2, -1, len(times))[:, :, :-1]
@@ -77,7 +77,7 @@ def test_published_shares_are_within_random_errors():
 
 @pytest.mark.parametrize("cubic", [-1.0, 1.0])
 def test_jumps_are_folds_of_the_period_map(cubic):
-    """By SciPy: a fixed point of the map over a period with a multiplier 1."""
+    """SciPy finds a fold as a fixed point of the map over a cycle with a multiplier 1."""
     damping, force = 0.02, 0.018
     large, small = jump_frequencies([cubic], [damping], force / damping)
 
@@ -105,7 +105,7 @@ def test_jumps_are_folds_of_the_period_map(cubic):
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0])
-def test_hertz_is_the_integrated_impact(speed):
+def test_hertz_formulas_agree_with_an_integrated_impact(speed):
     mass = BALL * MACHINE / (BALL + MACHINE)
     modulus = STEEL.youngs_modulus / (2 * (1 - STEEL.poissons_ratio**2))
     factor = 4 / 3 * modulus * np.sqrt(RADIUS)

@@ -1,4 +1,4 @@
-"""Symmetric orbits over the speed of the loose mass, and where they lose stability."""
+"""Symmetric orbits found by the speed of the loose mass, and where they lose stability."""
 
 import numpy as np
 import pytest
@@ -27,8 +27,8 @@ def test_both_searches_find_the_same_orbit():
     assert_allclose(same.modulus, one.modulus, rtol=1e-7)
 
 
-def test_orbit_is_a_motion():
-    """The state of an orbit repeats after a period of a simulation, mirrored after half of it."""
+def test_orbit_repeats_in_a_simulation():
+    """After half a period the simulated state is the mirror image, after a period the same."""
     found = orbit_with_speed(LINEAR, Damper(0.05, 1.0, 0.4, 1e5), 1.0, 0.6)
     motion = simulate(
         LINEAR,
@@ -51,7 +51,7 @@ def test_boundaries_are_where_multipliers_pass_the_unit_circle(frequency):
     damper = Damper(0.05, 1.0, 0.4, 1e6)
     for boundary in stability_boundaries(LINEAR, damper, frequency):
         found = boundary_near(LINEAR, damper, frequency, boundary)
-        # A fold is a maximum of the clearance, which fixes the ratio to half the digits.
+        # A fold is found as a maximum of the clearance, which determines s to half the digits only.
         assert_allclose(found.modulus, 1, atol=1e-5 if boundary.event == "fold" else 1e-9)
         assert_allclose(found.clearance, boundary.motion.clearance, rtol=1e-3)
 

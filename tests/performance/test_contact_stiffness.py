@@ -1,4 +1,4 @@
-"""Contact stiffness after Hertz, that of the motion which has this stiffness."""
+"""The linear stiffness that replaces Hertz's contact, in the motion with this stiffness."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ def test_a_contact_after_hertz_agrees_with_its_motion():
     frequency = MACHINE.natural_frequency
     found = idm.hertz_stiffness(MACHINE, soft, frequency)
     assert int(found["hertz_status"]) == flag("hertz_status", "consistent")
-    # of the motion with this stiffness, run anew
+    # The motion with this stiffness is computed again.
     linear = replace(DAMPER, contact_stiffness=float(found["hertz_stiffness"]))
     steady = idm.steady_motion(MACHINE, linear, frequency)
     run = idm.periodic_orbit(

@@ -1,4 +1,4 @@
-"""Costs of motions: against SciPy in SI units, conservation laws, and Hertz's formulas."""
+"""Costs of motions compared with SciPy in SI units, conservation laws, and Hertz's formulas."""
 
 import math
 
@@ -30,7 +30,7 @@ def damper_of(machine, **others):
 
 
 def by_scipy(machine, damper, frequency, state, time):
-    """Last state and works in SI units (`SiMotion`), largest force and acceleration."""
+    """Last values of the equations of `SiMotion` (state and works), largest force, acceleration."""
     angular = 2 * math.pi * frequency
     amplitude = machine.force if machine.force else machine.unbalance * angular**2
     motion = SiMotion(machine, damper, lambda t: amplitude * math.cos(angular * t))
@@ -84,7 +84,7 @@ def test_an_impulse_is_the_change_of_momentum_and_powers_balance(impacting_orbit
 
 
 def test_powers_balance_in_chaos():
-    """What is not lost is stored, in a motion that does not repeat."""
+    """In a motion that does not repeat, the work that is not lost is stored as energy."""
     p = pack(PAPER, DESIGN, 1.9)
     found = measured_costs(p, np.array([1.0, 0.5, -0.3, 2.0]), strobe_time(p), 200)
     assert found["costs_status"] == flag("costs_status", "impacts")
@@ -94,7 +94,7 @@ def test_powers_balance_in_chaos():
 
 
 def test_the_phase_of_the_first_state_does_not_matter():
-    """A contact that the first state interrupts is counted once, as a whole."""
+    """If the first state lies in a contact, this contact is counted once, as a whole."""
     damper = damper_of(LINEAR)
     steady = idm.steady_motion(LINEAR, damper, 20.5)
     expected = motion_costs(LINEAR, damper, 20.5, steady["state"].values, int(steady["period"]))

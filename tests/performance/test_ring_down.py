@@ -1,4 +1,4 @@
-"""Ring-down: decay in closed form without a damper, and SciPy with it."""
+"""Ring-down compared with closed forms without a damper, and with SciPy with a damper."""
 
 import math
 
@@ -30,7 +30,11 @@ def beginnings(found, equipment):
 
 
 def test_a_linear_machine_decays_exponentially():
-    """A window begins near a peak, up to the drift of the damped period against the undamped."""
+    """Without the damper the envelope is an exponential.
+
+    A window begins near a peak of the displacement, but not exactly at it, since its length is the
+    undamped period.
+    """
     found = ring_down(LINEAR, LINEAR.damper(**DAMPER), 0.01)
     times, largest = beginnings(found, "bare")
     rate = 0.005 * 2 * math.pi * LINEAR.natural_frequency
@@ -42,8 +46,9 @@ def test_a_linear_machine_decays_exponentially():
 
 
 def test_a_cubic_machine_decays_at_a_third_of_the_rate():
-    """Of the energy of x^4, 2/3 is kinetic in the mean: E falls as exp(-4 c t/(3 m)), x as its
-    fourth root.
+    """With a purely cubic spring, 2/3 of the energy E is kinetic in the mean.
+
+    E therefore falls as exp(-4 c t/(3 m)), and the amplitude as its fourth root.
     """
     machine = idm.Machine(mass=12, cubic_stiffness=4e9, damping=10, force=40)
     found = ring_down(machine, machine.damper(**DAMPER), 0.01)
@@ -125,7 +130,7 @@ def test_period_is_that_of_the_equation_of_motion(stiffness, cubic, amplitude):
         rtol=1e-12,
         atol=1e-13,
     )
-    # at the other end of the motion
+    # The event is at the other end of the motion, after half a period.
     assert run.t_events[0][-1] == pytest.approx(period / 2, rel=1e-9)
     energy = stiffness * amplitude**2 / 2 + cubic * amplitude**4 / 4
     assert unforced_amplitude(stiffness, cubic, energy) == pytest.approx(amplitude, rel=1e-13)

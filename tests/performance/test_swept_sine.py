@@ -1,4 +1,4 @@
-"""Swept sine: against SciPy on a truly continuous sweep, and closed forms of linear machines."""
+"""Swept sine compared with SciPy's continuous sweep, and with closed forms of linear machines."""
 
 import json
 import math
@@ -18,12 +18,16 @@ LINEAR = idm.Machine(**SPRING, force=40)
 HARD = idm.Machine(**SPRING, cubic_stiffness=4e8, force=40)
 DAMPER = {"mass": 0.6, "gap": 0.008, "restitution": 0.7, "contact_stiffness": 2e7}
 NATURAL = LINEAR.natural_frequency
-# At this rate (Hz/s) the frequency crosses the width of the resonance within a few times of decay.
+# At this rate (Hz/s) the frequency crosses the width of the resonance in a few times the decay
+# time of the machine.
 RATE = (0.005 * NATURAL) ** 2
 
 
 def continuous(machine, damper, first, slope, edges):
-    """Largest displacement (m) and contacts in each period of a continuous sweep, by SciPy."""
+    """Return the largest displacement (m) and the contacts in each cycle of a continuous sweep.
+
+    SciPy integrates the sweep. `edges` are the times at which the cycles begin and end.
+    """
     count = len(edges) - 1
 
     def force(t):
@@ -35,7 +39,7 @@ def continuous(machine, damper, first, slope, edges):
         contacts[begun] += wall != 0
         turns = np.concatenate([run.t_events[1], edges[(edges >= run.t[0]) & (edges <= run.t[-1])]])
         for moment in turns:
-            # a turn at the edge of two periods is in both
+            # A turning point at the edge of two cycles counts in both.
             after = np.searchsorted(edges, moment, side="right") - 1
             before = np.searchsorted(edges, moment, side="left") - 1
             for k in {min(after, count - 1), max(before, 0)}:
@@ -54,7 +58,10 @@ def continuous(machine, damper, first, slope, edges):
 def test_a_sweep_in_steps_is_as_good_as_a_continuous_one(
     machine, damped, first, slope, count, error
 ):
-    """The envelopes differ by `error` of the largest value, until chaos lets motions diverge."""
+    """The envelopes differ by at most `error` times the largest value.
+
+    With the damper only 40 cycles are compared, because chaos makes the motions diverge later.
+    """
     damper = machine.damper(**DAMPER) if damped else None
     begins, frequencies = sweep_periods(first, slope, count)
     edges = np.append(begins, begins[-1] + 1 / frequencies[-1])
@@ -77,7 +84,10 @@ def test_periods_are_those_of_the_continuous_phase(first, slope):
 
 
 def test_a_slow_sweep_meets_the_resonance_peak():
-    """1/(2 zeta sqrt(1 - zeta^2)) static deflections; at a rate four times as high it is lower."""
+    """In a slow sweep the peak has the height of the steady state, in faster ones it is lower.
+
+    In steady state this is 1/(2 zeta sqrt(1 - zeta^2)) static deflections.
+    """
     damper = LINEAR.damper(**DAMPER)
     peak = 1e3 * 40 / 2e5 / (2 * 0.005 * math.sqrt(1 - 0.005**2))
     for rate, share in ((RATE / 4, 0.999), (RATE, 0.9905), (4 * RATE, 0.938)):

@@ -1,4 +1,4 @@
-"""A published number and the number computed by this package, and the order of their difference."""
+"""A published number beside the number computed by this package."""
 
 from typing import NamedTuple
 
@@ -11,16 +11,16 @@ class Comparison(NamedTuple):
     Attributes
     ----------
     publication : str
-        A flag of the variable `publication`.
+        A flag of the dataset variable `publication`.
     quantity : str
         Name of the quantity with its parameters, unique among all comparisons.
     published, ours : float
         The published number, and the number computed by this package.
     reason : str
-        Reason why the two numbers differ, a flag of the variable `difference_reason`.
+        Reason why the two numbers differ, a flag of the dataset variable `difference_reason`. It
+        may name a parameter on which the difference depends.
     order : float
-        Exponent n of |ours - published| ~ parameter^n , where `reason` names the parameter;
-        NaN if the parameter is not varied.
+        Exponent n of |ours - published| ~ parameter^n with this parameter; NaN if it is not varied.
     limit : float
         `ours` extrapolated to the limit in which the closed form holds (rigid walls); NaN without
         extrapolation.
@@ -42,6 +42,6 @@ class Comparison(NamedTuple):
 
 
 def observed_order(parameters, differences) -> float:
-    """Return the exponent n of |difference| ~ parameter^n, from the last two parameters."""
+    """Return the exponent n of |difference| ~ parameter^n from the last two of each array."""
     (first, last), (before, after) = parameters[-2:], differences[-2:]
     return float(np.log(abs(after / before)) / np.log(last / first))

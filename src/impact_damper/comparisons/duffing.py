@@ -1,4 +1,9 @@
-"""Comparisons for the oscillator alone: published basin shares, and jumps of the response."""
+"""Comparisons for the oscillator without a damper: published basin shares, jumps of the response.
+
+The share of a motion is the fraction of random initial states that lead to it. On a curve of
+amplitude over frequency, a motion ends at a fold, where the curve turns back. A slow sweep of the
+frequency then jumps to another motion.
+"""
 
 import numpy as np
 
@@ -16,7 +21,8 @@ from impact_damper.system.parameters import Oscillator
 
 # A settled state belongs to an orbit if it differs by at most SAME from a state of the orbit.
 SAME = 1e-3
-# Range of forcing frequencies, divided by the natural frequency, over which branches are followed.
+# Range of forcing frequencies, divided by the natural frequency, over which periodic motions are
+# followed.
 SPAN = 0.6, 1.4
 
 
@@ -80,7 +86,9 @@ def basin_shares(starts, seed, settling):
 
 
 def jump_frequencies(springs, damping_ratios, peak):
-    """Compare closed-form jump frequencies with the folds of branches of exact orbits.
+    """Compare closed-form jump frequencies with the folds of branches of computed orbits.
+
+    A branch is the curve of the periodic orbits over the frequency.
 
     Parameters
     ----------

@@ -23,8 +23,11 @@ APART, SAMPLES = 1e-6, 4000
 FREQUENCY = 1000.0
 # Damping h of the machine, the smallest that `Oscillator` allows; 0 is not allowed.
 UNDAMPED = 1e-9
-# Relative increase of the duration, and relative decrease of the largest force, of an impact on the
-# linear spring.
+# Differences expected from theory between an impact on the linear spring and one by Hertz's theory.
+# LONGER: relative increase of the duration, which is pi compression/speed on the linear spring and
+#     DURATION compression/speed by Hertz's theory.
+# WEAKER: relative decrease of the largest force. At the same energy and compression the force is 2
+#     energy/compression on the linear spring and 5/2 energy/compression by Hertz's theory.
 LONGER, WEAKER = np.pi / DURATION - 1, 1 / 5
 
 
@@ -61,9 +64,9 @@ def hertz_impacts(speeds):
 
 
 def _simulated(stiffness, speed):
-    """Return duration (s) and largest compression (m) of a simulated impact.
+    """Return duration (s) and largest compression (m) of a simulated impact on the linear spring.
 
-    The simulation uses the units mm and s.
+    `stiffness` is in N/m and `speed` in m/s. The simulation uses the units mm and s.
     """
     motion = simulate(
         Oscillator(UNDAMPED, 0.0, cubic=0.0, force=0.0),

@@ -1,7 +1,8 @@
 """The symmetric motion of Masri and Caughey, compared with orbits for increasing contact stiffness.
 
-The closed form of Masri and Caughey holds for rigid walls. The orbits of this package have contacts
-of finite stiffness r1.
+In this motion the loose mass meets each wall once in a forcing cycle, and half a cycle later the
+motion is the mirror image. The closed form of Masri and Caughey holds for rigid walls. The orbits
+of this package have contacts of finite stiffness r1.
 """
 
 from dataclasses import replace
@@ -28,7 +29,7 @@ EVENTS = {
 
 
 def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, stiffnesses):
-    """Compare displacements, multipliers and boundaries of stability.
+    """Compare displacements, Floquet multipliers, and gaps at which stability is lost.
 
     The comparisons are made for all combinations of the values in the sequences.
 
@@ -80,7 +81,11 @@ def rigid_walls(damping_ratio, restitutions, mass_ratios, gaps, frequencies, sti
 
 
 def _at_gap(oscillator, dampers, frequency, clearance, words):
-    """Return comparisons of the displacement and, if stable, of the largest multiplier."""
+    """Return comparisons at one clearance: of the displacement and, if stable, the multiplier.
+
+    `dampers` has one damper for each contact stiffness, and `words` names the other parameters. If
+    the closed form has several motions, the one with the smallest multiplier is compared.
+    """
     dampers = [replace(each, clearance=clearance) for each in dampers]
     motions = [x for x in two_impact_motions(oscillator, dampers[0], frequency) if x.room > 0]
     if not motions:
@@ -100,7 +105,11 @@ def _at_gap(oscillator, dampers, frequency, clearance, words):
 
 
 def _compared(quantity, published, ours, stiffnesses):
-    """Return the comparison of `ours`, one number for each stiffness, with the published number."""
+    """Return the comparison of `ours`, one number for each stiffness, with the published number.
+
+    The limit for rigid walls is extrapolated from the last two numbers, which differ from it by
+    c r1^ORDER with an unknown constant c.
+    """
     ours = np.array(ours)
     gain = (stiffnesses[-1] / stiffnesses[-2]) ** -ORDER - 1
     limit = float(ours[-1] + (ours[-1] - ours[-2]) / gain)

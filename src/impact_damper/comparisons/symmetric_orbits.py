@@ -1,8 +1,9 @@
 """Symmetric orbits with two compliant contacts in a cycle, found by the speed of the loose mass.
 
-Let s be the speed of the loose mass divided by the clearance. For a linear spring and a given force
-and frequency, the clearance of a symmetric orbit is a function of s. Two orbits, with a fold
-between them, may have the same clearance, but only one orbit has a given s. Therefore orbits are
+An orbit is a periodic motion. It is symmetric if half a forcing cycle later the motion is its
+mirror image. Let s be the speed of the loose mass between contacts, divided by the clearance. For a
+linear spring and a given force and frequency, the clearance of a symmetric orbit is a function of
+s. Two orbits may have the same clearance, but only one orbit has a given s. Therefore orbits are
 computed for a given s.
 """
 
@@ -22,10 +23,10 @@ from impact_damper.system.packed import pack
 # orbit, relative to its state.
 ITERATIONS = 15
 RESIDUAL = 1e-9
-# Relative change of the clearance in difference quotients of the map.
+# Relative change of the clearance in difference quotients of the map over half a cycle.
 NUDGE = 1e-6
-# A change of stability is searched for between 1 - width and 1 + width times the ratio s of the
-# closed form, first for the smallest of these widths.
+# The closed form for rigid walls has its loss of stability at a ratio s. The loss of stability of
+# the orbits is searched for between 1 - width and 1 + width times s, with the smallest width first.
 WIDTHS = 0.005, 0.02, 0.08
 
 
@@ -35,7 +36,8 @@ class SymmetricOrbit(NamedTuple):
     Attributes
     ----------
     orbit : Orbit
-        The orbit. Its state is the state in the middle of the flight from the wall Z2 = -d0.
+        The orbit. Its state is taken in the middle of the flight from the wall Z2 = -d0 to the
+        other wall.
     clearance : float
         d0.
     ratio : float
@@ -48,7 +50,7 @@ class SymmetricOrbit(NamedTuple):
 
     @property
     def modulus(self) -> float:
-        """Largest modulus of the multipliers of the map over half a cycle."""
+        """Largest modulus of the multipliers of the map over half a cycle; above 1 if unstable."""
         return float(np.max(np.abs(np.linalg.eigvals(self.orbit.root))))
 
     @property
@@ -94,8 +96,8 @@ def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
         p = pack(oscillator, replace(damper, clearance=clearance), frequency)
         return shoot(p, state, 1, rigid.phase, symmetric=True)
 
-    # The derivative of the map with respect to the clearance is computed only once, because the
-    # walls are nearly rigid and the first guess is close to the orbit.
+    # The first guess is close to the orbit, because the walls are nearly rigid. So the derivative
+    # of the map with respect to the clearance is computed only once.
     step = NUDGE * rigid.clearance
     ahead, behind = (mapped(rigid.state, rigid.clearance + h)[1] for h in (step, -step))
     matrix = np.zeros((5, 5))
@@ -112,7 +114,13 @@ def orbit_with_speed(oscillator, damper, frequency, ratio) -> SymmetricOrbit:
 
 
 def _checked(orbit, clearance):
-    """Return the `SymmetricOrbit`, or raise ArithmeticError if it is not one with two contacts."""
+    """Return the `SymmetricOrbit` of an orbit.
+
+    Raises
+    ------
+    ArithmeticError
+        If the orbit has not converged or does not have two contacts.
+    """
     size = np.max(np.abs(orbit.state))
     if not orbit.residual < RESIDUAL * max(1.0, size) or orbit.record["contacts"] != CONTACTS:
         raise ArithmeticError(

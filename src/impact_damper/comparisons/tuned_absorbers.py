@@ -1,4 +1,8 @@
-"""Closed forms for tuned mass dampers and the nonlinear absorber, compared with responses."""
+"""Closed forms for tuned mass dampers and the nonlinear absorber, compared with responses.
+
+A tuned mass damper is a mass on a spring and a dashpot whose natural frequency is close to the
+resonance of the primary mass. The nonlinear absorber also has a cubic spring.
+"""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -14,8 +18,9 @@ from impact_damper.literature.tuned_mass_damper import (
     peaks,
 )
 
-# Direct search for the tuning and damping that minimise the maximum of the response. TOLERANCE: of
-# tuning, damping and maximum. MOST_STEPS: largest number of iterations.
+# Direct search for the tuning and damping that minimise the maximum of the response.
+# TOLERANCE: accuracy of tuning, damping and maximum.
+# MOST_STEPS: largest number of iterations.
 TOLERANCE = 1e-10
 MOST_STEPS = 1000
 
@@ -23,8 +28,9 @@ MOST_STEPS = 1000
 def tuned_mass_dampers(mass_ratios):
     """Compare published peaks, tunings and damping ratios with those of the computed response.
 
-    The height of the fixed points of Den Hartog's absorber is compared with the highest peak of the
-    response. The exact optimum is compared with the result of a direct search.
+    Den Hartog tuned the absorber by the two fixed points, through which the response passes for
+    every damping. Their height is compared with the highest peak of the response. The exact optimum
+    of Nishihara and Asami is compared with the result of a direct search.
 
     Parameters
     ----------
@@ -64,7 +70,7 @@ def tuned_mass_dampers(mass_ratios):
 
 
 def _least_maximum(mass) -> Tuning:
-    """Return the tuning that minimises the maximum, by a direct search from Den Hartog's tuning."""
+    """Return the `Tuning` with the smallest maximum of the response, by a direct search."""
     best = minimize(
         lambda values: peaks(Tuning(mass, *values))[1].max(),
         den_hartog(mass)[1:],
@@ -75,7 +81,7 @@ def _least_maximum(mass) -> Tuning:
 
 
 def nonlinear_absorbers(mass_ratio, forces):
-    """Compare the ratio of the two peaks of the nonlinear absorber with the design value 1.
+    """Compare the ratio of the two peaks of the response with its design value 1.
 
     Parameters
     ----------

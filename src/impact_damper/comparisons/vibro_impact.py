@@ -1,9 +1,10 @@
 """The slow invariant manifold of the vibro-impact absorber, compared with orbits and decays.
 
-The closed forms are those of `literature.slow_invariant_manifold`, of first order in the mass ratio
-rm. The speed w of the loose mass is stated as the ratio t = pi w/(2 W d0), with the forcing
-frequency W and the clearance d0. The computed numbers come from orbits and simulations with finite
-rm.
+The slow invariant manifold is the relation between the amplitude of the primary mass and the speed
+of a loose mass that meets each wall once in a cycle. Its closed forms
+(`literature.slow_invariant_manifold`) hold for a small mass ratio rm. The speed w of the loose mass
+is stated as the ratio t = pi w/(2 W d0), with the forcing frequency W and the clearance d0. The
+computed numbers come from orbits and simulations with finite rm.
 """
 
 import numpy as np
@@ -17,8 +18,8 @@ from impact_damper.motions.simulate import simulate
 from impact_damper.system.checks import check_increasing
 from impact_damper.system.parameters import Damper, Oscillator
 
-# Speed ratios t in an unforced decay. The simulation begins at START, and the time from t = FIRST
-# to t = LAST is measured. Between START and FIRST a few impacts bring the motion to the manifold.
+# Speed ratios t in an unforced decay. The simulation begins at START. Between START and FIRST a few
+# impacts bring the motion to the manifold. The time from t = FIRST to t = LAST is measured.
 START, FIRST, LAST = 1.6, 1.5, 1.1
 # Damping h of the oscillator in an unforced decay, the smallest that `Oscillator` allows; 0 is not
 # allowed.
@@ -31,7 +32,9 @@ APART = 1e-9
 
 
 def vibro_impact(restitution, damping_share, mass_ratios, contact_stiffness):
-    """Compare thresholds of the force, ends of the manifold and the optimum clearance.
+    """Compare thresholds of the force, speeds at the ends of the manifold, and the best clearance.
+
+    The thresholds are the extreme values of the force along the stable part of the manifold.
 
     Parameters
     ----------
@@ -43,8 +46,8 @@ def vibro_impact(restitution, damping_share, mass_ratios, contact_stiffness):
         Two or more values of rm in descending order. The order of convergence is estimated from
         each pair of neighbouring values.
     contact_stiffness : float
-        r1 of the computed orbits. It must be so large that the difference caused by finite r1 is
-        small compared with the difference caused by finite rm.
+        Contact stiffness r1 of the computed orbits. It must be so large that the difference caused
+        by finite r1 is small compared with the difference caused by finite rm.
 
     Returns
     -------
@@ -86,7 +89,7 @@ def _series(rows, mass_ratios, words):
     """Return comparisons of each quantity at each mass ratio, with the order of convergence.
 
     `rows` has a dictionary for each mass ratio, which maps each quantity to a pair: the value of
-    the closed form and the computed number.
+    the closed form and the computed number. `words` names the other parameters.
 
     Raises
     ------
@@ -155,9 +158,9 @@ def _thresholds(restitution, damping_share, mass, contact_stiffness):
 def decay_time(absorber, contact_stiffness) -> float:
     """Return the time in which t falls from FIRST to LAST, from a simulated unforced decay.
 
-    The amplitude of the undamped primary mass is constant between contacts. The amplitude at a
-    contact is defined as the mean of the amplitudes before and after it. The manifold gives the
-    amplitudes that correspond to t = FIRST and t = LAST.
+    The manifold gives the amplitudes of the primary mass at t = FIRST and t = LAST. Between
+    contacts the amplitude is constant, because the primary mass is undamped. The amplitude at a
+    contact is defined as the mean of the amplitudes before and after the contact.
 
     Parameters
     ----------

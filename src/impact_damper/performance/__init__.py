@@ -1,1 +1,1 @@
-"""Performance of a machine with a given damper: costs, transients, contact stiffness."""
+"""Behaviour of a machine with a given damper: costs of a motion, transients, contact stiffness."""

@@ -15,8 +15,9 @@ from impact_damper.motions.steady import steady_motion
 from impact_damper.system.bounds import shown
 
 _simulate, _steady_motion = map(takes_machine, (simulate, steady_motion))
-# Search for the stiffness. MOST_MOTIONS: largest number of motions that are computed. AGREED: the
-# search has converged when the relative change of the stiffness is below AGREED.
+# Search for the stiffness.
+# MOST_MOTIONS: largest number of motions that are computed.
+# AGREED: the search has converged when the relative change of the stiffness is smaller.
 MOST_MOTIONS = 30
 AGREED = 1e-6
 
@@ -24,11 +25,11 @@ AGREED = 1e-6
 def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, settling=None):
     """Find the linear contact stiffness that replaces Hertz's contact in a steady motion.
 
-    The linear spring has the same largest compression as Hertz's contact. Its stiffness grows with
-    the speed of impact, and the speed of impact depends on the stiffness. Therefore stiffness and
-    motion are computed alternately until they agree. The first speed is the speed with which the
-    loose mass crosses the gap in half a forcing cycle. Each motion starts from the state of the
-    motion before.
+    The linear spring has the same largest compression as Hertz's contact in the fastest impact of
+    the motion. Its stiffness grows with the speed of impact, and the speed of impact depends on the
+    stiffness. Therefore stiffness and motion are computed alternately until they agree. The first
+    stiffness is that for the speed with which the loose mass crosses the gap in half a forcing
+    cycle. Each motion starts from a state of the motion before.
 
     Parameters
     ----------
@@ -46,8 +47,8 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
     xarray.Dataset
         `hertz_stiffness` (N/m), for use in `dataclasses.replace(damper, contact=None,
         contact_stiffness=...)`; speed, compression, force and duration of the fastest impact of the
-        motion; the largest displacement of the motion; and `hertz_status`, the status of the
-        search. Unknown numbers are NaN.
+        motion; the largest displacement of the motion; the number of computed motions; and
+        `hertz_status`, how the search ended. Unknown numbers are NaN.
 
     Raises
     ------
@@ -108,9 +109,10 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
 
 
 def _fastest_impact(machine, damper, frequency, steady):
-    """Return the largest speed of impact (m/s) of a steady motion, and its state at time 0.
+    """Return the largest speed of impact (m/s) of a steady motion, and a state of the motion.
 
-    `steady` holds the state at a quarter of a forcing cycle.
+    The state (m, m/s) is that at the beginning of a forcing cycle. `steady` is the dataset from
+    `steady_motion`, which holds the state a quarter of a forcing cycle later.
     """
     run = _simulate(
         machine,

@@ -7,13 +7,13 @@ by f/rm. A contact loses the work of the dashpot. Over a time after which a moti
     work of the external force = loss in the machine's dashpot + loss in contacts.
 
 Over other times the difference is stored as energy of the motion. The variable `power_error` states
-the relative error of this balance.
+the relative error of this balance, with the stored energy included.
 
-The measure of noise is n <J^2>, the sum of the squares of the impulses J of impacts per unit of
-time at a rate n of impacts. By Campbell's theorem this is the two-sided spectral density of the
-force of impacts at random times, for frequencies between the rate of impacts and the inverse of
-their duration. It is the density with which impacts excite the panels of a machine. (S. O. Rice,
-Bell System Technical Journal 23, 1944, section 1.5.)
+The measure of noise is n <J^2>, the number n of impacts per unit of time times the mean square of
+their impulses J. By Campbell's theorem this is the two-sided spectral density of the force of
+impacts at random times, for frequencies between n and the inverse of the duration of an impact.
+With this density impacts excite the thin plates of a machine's casing, which radiate noise.
+(S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
 """
 
 import numpy as np
@@ -39,7 +39,7 @@ from impact_damper.system.packed import (
 )
 from impact_damper.system.parameters import check_damper, describe
 
-# Forcing cycles within which the loose mass must leave the wall if the first state is in a contact.
+# If the first state is in a contact, the next flight is sought within PATIENCE forcing cycles.
 PATIENCE = 2
 # Largest number of forcing cycles of a motion. Each cycle takes about 10 kB of memory.
 MOST_PERIODS = 10**4
@@ -71,11 +71,12 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
     xarray.Dataset
         In SI units, with the variables of `measured_costs` and of `pressure_costs`.
 
-        For a machine on a moving base, let y be the displacement of the base, and k and c the
-        stiffness and damping of the machine. Then `force_power` is the power of the force
-        k y + c y', and `dashpot_power` the power of the dashpot force c times the machine's
-        velocity in space. Neither is the power of the base's drive or the loss in the dashpot,
-        because both ends of the dashpot move. Their difference is the power that impacts lose.
+        For a machine on a moving base the two powers have a special meaning. Let y be the
+        displacement of the base, and k and c the stiffness and damping of the machine. Then
+        `force_power` is the power of the force k y + c y'. `dashpot_power` is the power of the
+        force c x', with the machine's displacement x in space. Because both ends of the dashpot
+        move, `force_power` is not the power of the base's drive, and `dashpot_power` is not the
+        loss in the dashpot. Their difference is the power that impacts lose.
 
     Raises
     ------
@@ -91,7 +92,7 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
 
 
 def pressure_costs(machine, damper, contact, speed) -> dict:
-    """Return force and pressure of an elastic impact by Hertz's theory, and whether it yields.
+    """Return force and pressure of an elastic impact by Hertz's theory, and whether walls yield.
 
     Parameters
     ----------
@@ -104,7 +105,8 @@ def pressure_costs(machine, damper, contact, speed) -> dict:
     Returns
     -------
     dict
-        `hertz_force` (N) and `contact_pressure` (Pa), NaN without a contact; `contact_yields`.
+        `hertz_force` (N) and `contact_pressure` (Pa), NaN if `contact` is None; the flag
+        `contact_yields`, which says whether the material yields at this pressure.
     """
     force = pressure = np.nan
     yields = "unknown"
@@ -144,16 +146,17 @@ def measured_costs(p, y, begin, periods) -> dict:
         State Z1, Z1', Z2, Z2' at the time `begin`.
     begin : float
     periods : int
-        Number of forcing cycles. If the state is in a contact, they begin in the next flight.
+        Number of forcing cycles. If the state is in a contact, the cycles begin in the next flight.
 
     Returns
     -------
     dict
-        Values of registered variables (`data.variables.costs`), keyed by name. They are
-        dimensionless; forces and powers are divided by the primary mass. The log, the impulse and
-        the loss of contacts are arrays with one entry for each whole contact. All other values are
-        scalars. Means over impacts are NaN without impacts. Rates, forces and powers are NaN after
-        an escape.
+        Values of dataset variables (`data.variables.costs`), keyed by name. They are dimensionless;
+        forces and powers are divided by the primary mass. Variables that begin with "contact_",
+        except `contact_force`, and the velocities of approach and departure are arrays with one
+        entry for each whole contact. All other values are scalars. Means over impacts are NaN
+        without impacts. Rates, forces and powers are NaN if the motion escapes over the barrier of
+        a softening spring.
     """
     begin, y = _in_flight(p, y, begin)
     time = periods * 2 * np.pi / p[FREQUENCY]
@@ -166,9 +169,10 @@ def measured_costs(p, y, begin, periods) -> dict:
 
 
 def _in_flight(p, y, begin):
-    """Return a time and a state of the motion in flight.
+    """Return a time at which the loose mass is in flight, and the state at this time.
 
-    They are `begin` and y if y is in flight, otherwise the middle of the next flight.
+    They are `begin` and y if y is in flight, otherwise the middle of the next flight and the state
+    there. If the contact does not end within PATIENCE, `begin` and y are returned.
     """
     if side_of(p, y) == 0:
         return begin, y
@@ -182,14 +186,20 @@ def _in_flight(p, y, begin):
 
 
 def _penetration(p, panels):
-    """Return penetration and rate of penetration at the nodes of panels, 0 in flight."""
+    """Return penetration and its time derivative at the nodes of panels, both 0 in flight.
+
+    Panels are short intervals of time with nodes at which the state is known (`panels`).
+    """
     wall = panels.wall[:, None]
     depth = np.where(wall, wall * panels.states[..., 2] - p[CLEARANCE], 0.0)
     return depth, wall * panels.states[..., 3]
 
 
 def _impacts(p, panels, time):
-    """Return the log of whole contacts, and impulses, losses, speeds and rate of the impacts."""
+    """Return the variables of single contacts, and the means, rates and noise of all contacts.
+
+    A contact that is cut by the beginning or end of the motion is left out.
+    """
     depth, rate = _penetration(p, panels)
     force = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     impulse, loss = (
@@ -216,7 +226,7 @@ def _impacts(p, panels, time):
 
 
 def _extremes_and_powers(p, panels, time):
-    """Return the largest force, penetration and acceleration, and the mean powers."""
+    """Return the variables of largest force, penetration and acceleration, and of mean powers."""
     depth, rate = _penetration(p, panels)
     contact = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     x, v = panels.states[..., 0], panels.states[..., 1]

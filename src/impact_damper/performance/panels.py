@@ -1,8 +1,9 @@
 """A motion sampled such that integrals and maxima of smooth functions of the motion are accurate.
 
 Time is divided at the beginnings and ends of contacts, and further into short intervals called
-panels. In each panel a polynomial through the Chebyshev nodes represents the motion to about twelve
-digits. (L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12.)
+panels. In each panel the motion is represented by its states at the Chebyshev nodes. The polynomial
+through these states is accurate to about twelve digits. (L. N. Trefethen, Spectral Methods in
+MATLAB, 2000, chapters 6 and 12.)
 """
 
 from typing import NamedTuple
@@ -15,21 +16,23 @@ from impact_damper.motions.records import trace
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
-# NODES: nodes of a panel on [-1, 1]. COEFFICIENTS: matrix that maps values at the nodes to
-# coefficients of Chebyshev polynomials. WEIGHTS: weights of an integral (Clenshaw and Curtis). The
-# integral of the Chebyshev polynomial of even degree k is 2/(1 - k^2).
+# NODES: nodes of a panel, scaled to [-1, 1].
+# COEFFICIENTS: matrix that maps values at the nodes to coefficients of Chebyshev polynomials.
+# _INTEGRALS: integral of each Chebyshev polynomial over [-1, 1].
+# WEIGHTS: weights of the values at the nodes in an integral (rule of Clenshaw and Curtis).
 NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 _INTEGRALS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))]
 WEIGHTS = _INTEGRALS @ COEFFICIENTS
-# FINE: matrix that maps values at the nodes to values at 33 points. The largest value within a
-# panel exceeds the largest of these 33 values relatively by less than MISSED.
+# FINE: matrix that maps values at the nodes to values at 33 points.
+# MISSED: the largest value in a panel exceeds the largest of these 33 values by less than this
+#     share. Only panels within this share of the largest value are searched for the exact maximum.
 FINE = chebyshev.chebvander(np.linspace(-1, 1, 33), len(NODES) - 1) @ COEFFICIENTS
 MISSED = 0.01
-# Longest panel, as an angle (radian) of the fastest oscillation.
+# The fastest oscillation of the motion turns by at most this angle (radian) in a panel.
 LONGEST_ANGLE = 2.0
-# SAMPLES: number of samples in a forcing cycle, from which the size of the motion is estimated.
-# FIRST_LOG: number of contacts for which the first log has room.
+# SAMPLES: number of states in a forcing cycle from which the largest |Z1| is estimated.
+# FIRST_LOG: number of contacts for which the array of contacts has room at first.
 SAMPLES = 32
 FIRST_LOG = 256
 
@@ -40,7 +43,8 @@ class Panels(NamedTuple):
     Attributes
     ----------
     log : numpy.ndarray, shape (contacts, 5)
-        Log of the contacts, from `records.trace`.
+        One row for each contact, from `records.trace`: wall, times of its beginning and end, Z2' at
+        both.
     lengths : numpy.ndarray, shape (panels,)
         Lengths of the panels in units of T.
     times : numpy.ndarray, shape (panels, nodes)
@@ -103,10 +107,10 @@ def sampled(p, state, begin, end) -> Panels:
 
 
 def logged(p, state, begin, times, room=FIRST_LOG):
-    """Return the states of a motion at given times, and the log of its contacts.
+    """Return the states of a motion at given times, shape (n, 4), and the log of its contacts.
 
-    `room` is the number of contacts for which the first attempt has room. If there are more, the
-    motion is integrated again.
+    The log is that of `Panels`. `room` is the number of contacts for which it has room at first. If
+    there are more contacts, the motion is integrated again.
     """
     states = np.empty((len(times), 4))
     while True:
@@ -123,7 +127,7 @@ def integrals(panels, values):
 
 
 def largest(values) -> float:
-    """Return the largest modulus of a function with `values` at the nodes, 0 without panels."""
+    """Return the largest modulus of a function with `values` at the nodes; 0 without panels."""
     if len(values) == 0:
         return 0.0
     fine = np.max(np.abs(values @ FINE.T), axis=1)

@@ -17,11 +17,11 @@ from impact_damper.system.families import FORCING
 from impact_damper.system.packed import cubic_spring, pack
 
 # A ring-down ends when the energy has fallen to the energy at REST times the first displacement, or
-# after MOST_WINDOWS periods of the unforced vibration.
+# after MOST_WINDOWS windows. A window is a period of the unforced vibration.
 REST = 1e-3
 MOST_WINDOWS = 10**4
-# The period on a softening spring has no upper bound. The longest window is LONGEST periods of
-# small vibrations.
+# With a softening spring the period tends to infinity at the barrier over which the machine
+# escapes. A window is therefore at most LONGEST periods of small vibrations.
 LONGEST = 2.0
 
 
@@ -46,11 +46,12 @@ def ring_down(machine, damper, displacement):
         undamped unforced vibration with the energy that the motion has at the beginning of the
         window.
 
-        - (equipment, window): `time` at the middle of the window, `frequency`, `envelope` and
-          `window_contacts`, NaN after the end of the ring-down.
+        - (equipment, window): `time` at the middle of the window, `frequency` (the inverse of the
+          window's length), `envelope` (largest displacement in the window) and `window_contacts`
+          (number of contacts), NaN after the end of the ring-down.
         - (equipment): `transient_status`: at_rest if the energy of both masses has fallen to the
-          energy at a thousandth of the displacement; escaped if the motion has crossed the barrier
-          of a softening spring; limit after MOST_WINDOWS windows.
+          energy of the machine at REST times the displacement; escaped if the motion has crossed
+          the barrier of a softening spring; limit after MOST_WINDOWS windows.
 
     Raises
     ------
@@ -75,7 +76,7 @@ def ring_down(machine, damper, displacement):
 
 
 def _unforced(machine, damper):
-    """Return the packed parameters of a machine without forcing.
+    """Return the packed parameters of a machine without forcing, with its damper or None.
 
     The forcing frequency in these parameters has no effect.
     """
@@ -87,7 +88,7 @@ def _unforced(machine, damper):
 
 
 def _decay(p, displacement):
-    """Compute the unforced decay of an oscillator from a displacement.
+    """Compute the unforced decay of an oscillator from a displacement, in dimensionless numbers.
 
     Returns
     -------
@@ -113,7 +114,7 @@ def _decay(p, displacement):
 
 
 def _window(p, left):
-    """Return the length of a window that begins with the energy `left`."""
+    """Return the length of a window: the undamped period at the energy `left`, up to LONGEST."""
     stiffness, cubic = cubic_spring(p)
     period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
     if cubic >= 0:

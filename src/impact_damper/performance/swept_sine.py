@@ -1,9 +1,10 @@
 """A swept sine, up and down, on a machine with its damper and without.
 
-The forcing frequency changes at a constant rate. Kernels require a fixed frequency, so in the
-simulation each forcing cycle has a fixed frequency, its mean frequency in the continuous sweep. The
-cycles therefore begin and end at the same times as those of the continuous sweep. Within a cycle
-the phases differ by at most pi/4 times the relative change of the frequency in this cycle.
+The forcing frequency changes at a constant rate. The integrator requires a fixed frequency. In the
+simulation each forcing cycle therefore has a fixed frequency: the mean frequency of this cycle in
+the continuous sweep. The cycles begin and end at the same times as those of the continuous sweep.
+Within a cycle the phases of the two differ by at most pi/4 times the relative change of the
+frequency in this cycle.
 """
 
 import json
@@ -20,6 +21,7 @@ from impact_damper.system.bounds import shown
 from impact_damper.system.packed import FORCE, FREQUENCY, UNBALANCE, pack
 
 DIRECTIONS = ("up", "down")
+# The machine without the damper, and with it.
 EQUIPMENT = ("bare", "damped")
 # Largest local error of an integration step.
 TOLERANCE = 1e-10
@@ -38,7 +40,7 @@ def swept_sine(machine, damper, band, rate):
     A sweep begins at rest, with the loose mass in the middle of the gap. First the first frequency
     is held until the transients of the machine without the damper have decayed. In the sweep, the
     resonance peak of a lightly damped linear machine is lower than in steady state: by 1 % at the
-    rate (damping ratio x natural frequency)^2, and by 6 % at four times this rate.
+    rate (damping ratio x natural frequency in Hz)^2, and by 6 % at four times this rate.
 
     Parameters
     ----------
@@ -58,9 +60,9 @@ def swept_sine(machine, damper, band, rate):
 
         - (direction, window): `time` from the end of the hold to the middle of the window, and
           `frequency`.
-        - (direction, equipment, window): `envelope` and `window_contacts`. In the window of an
-          escape
-          the envelope is infinite, and after it both are NaN.
+        - (direction, equipment, window): `envelope` (largest displacement in the window) and
+          `window_contacts` (number of contacts). If the motion escapes over the barrier of a
+          softening spring, the envelope is infinite in this window, and both are NaN in later ones.
         - (direction, equipment): `transient_status`, completed or escaped.
 
         The attribute `sweep` (JSON) holds band, rate and the forcing cycles for which the first
@@ -97,7 +99,7 @@ def swept_sine(machine, damper, band, rate):
 
 
 def _check_sweep(machine, band, rate):
-    """Return least and greatest frequency (Hz) and rate (Hz/s).
+    """Check band and rate, and return least and greatest frequency (Hz) and rate (Hz/s).
 
     Raises
     ------
@@ -124,9 +126,10 @@ def _sweep(machine, damper, first, slope, count):
     Returns
     -------
     times, frequencies : numpy.ndarray, shape (count,)
-        In the scales of the machine.
+        Middles of the cycles and their frequencies, divided by the machine's scales of time and
+        frequency.
     runs : list of tuple
-        Envelope, contacts and status, without and with the damper.
+        Envelope, contacts and status, first without the damper and then with it.
     held : int
         Forcing cycles for which the first frequency was held.
     """
@@ -181,7 +184,8 @@ def forced(machine, damper, frequencies):
     for end in (frequencies.max(), frequencies.min()):
         p = pack(machine.oscillator(end), scaled, scales.from_si(end, "frequency"))
     rows = np.tile(p, (len(frequencies), 1))
-    # `machine.forcing` returns the force at one frequency, in which a moving base has no part V.
+    # `machine.forcing` returns the parts of the forcing at one frequency. Its third part, the
+    # shaker, is 0: it replaces the motion of the base only where the frequency varies.
     forces, unbalances, _ = np.array([machine.forcing(each) for each in frequencies]).T
     rows[:, FREQUENCY] = scales.from_si(frequencies, "frequency")
     rows[:, FORCE] = scales.from_si(forces, "force")
