@@ -9,7 +9,7 @@ FREQUENCIES = np.array([20.0, 21.0])
 
 
 def table(worst, shares):
-    """Comparison over gaps of 1 to 4 mm; the interval of a share ends at the share."""
+    """Comparison over gaps of 1 to 4 mm; the confidence interval of a share ends at the share."""
     shares = np.asarray(shares, float)
     numbers = {
         "worst_displacement": np.asarray(worst, float),
@@ -20,7 +20,7 @@ def table(worst, shares):
 
 
 def made_up(seed, quiet):
-    """Comparison with random displacements; about a share `quiet` of the gaps is quiet."""
+    """Comparison with random displacements; about the share `quiet` of the gaps is quiet."""
     generator = np.random.default_rng(seed)
     count = generator.integers(8, 16)
     loud = np.cumsum(generator.normal(size=count))  # neighbours are alike
@@ -30,10 +30,14 @@ def made_up(seed, quiet):
 
 
 def judged(comparison, gap, tolerance):
-    """Worst displacement, whether all is quiet, and loud share, within a tolerance of a gap."""
+    """Return three numbers on the gaps within a tolerance of a gap, by brute force.
+
+    They are the worst displacement, whether all gaps are quiet, and the largest share of starts
+    that are not quiet.
+    """
     gaps = comparison.gaps
     low, high = gap * (1 - tolerance), gap * (1 + tolerance)
-    # both are interpolated, so that they are largest at an end or at a gap compared
+    # Displacement and share are interpolated, so they are largest at an end or at a compared gap.
     tried = np.log([low, *gaps[(gaps > low) & (gaps < high)], high])
     worst = np.exp(np.interp(tried, np.log(gaps), np.log(comparison.worst))).max()
     shares = comparison.numbers["start_quiet_share"].mean(axis=1)
@@ -98,7 +102,7 @@ def test_gaps_left_out_are_not_chosen_again():
 
 def test_one_loud_frequency_makes_a_gap_loud():
     shares = np.ones((4, 2))
-    shares[2, 1] = 0.98  # its interval lies below the share
+    shares[2, 1] = 0.98  # its confidence interval, from 0.94, reaches below the required 0.95
     comparison = table(np.ones((4, 2)), shares)
     assert list(comparison.quiet) == [True, True, False, True]
 

@@ -1,4 +1,4 @@
-"""Ranges of quiet gaps that one cannot hold, with made-up edges."""
+"""Ranges of quiet gaps that are too narrow to build a gap in, with made-up edges."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def edges(low, high):
         (0.0, 0.1, False),
         (0.9 * HOLDABLE, 0.1, False),
         (1.1 * HOLDABLE, 0.1, True),
-        (0.003, 0.001, True),  # a closer tolerance was given
+        (0.003, 0.001, True),  # the user asked for a closer tolerance
         (0.001, 0.001, False),
     ],
 )
@@ -37,7 +37,11 @@ def test_a_gap_is_held_as_closely_as_one_can(width, tolerance, held):
 
 
 def quiet_ranges(monkeypatch, quiet, width):
-    """Choice among 9 gaps from 1 to 4 mm; quiet ranges reach a relative width beyond their gaps."""
+    """Return 9 gaps from 1 to 4 mm, and the result of `choose_with_edges` for them.
+
+    The gaps with the indices `quiet` are quiet. Each quiet range extends from such a gap up to
+    1 + `width` times this gap.
+    """
     shares = np.where(np.isin(np.arange(9), quiet), 1.0, 0.5)[:, None]
     gaps = np.geomspace(1, 4, 9)
     numbers = {"start_quiet_share": shares, "worst_displacement": np.ones((9, 1))}

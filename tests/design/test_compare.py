@@ -1,4 +1,8 @@
-"""Comparison of gaps: starts that become quiet late, second looks, and the chance of a mistake."""
+"""Comparison of gaps: starts that become quiet late, second looks, and the chance of a mistake.
+
+A look is a test of the share of quiet starts at a gap. The motions are made up: the first component
+of a start is the number of cycles after which its motion becomes quiet.
+"""
 
 import numpy as np
 import pytest
@@ -23,16 +27,16 @@ TASK = Task(
 )
 FREQUENCIES = np.array([20.4, 20.6])
 NEVER = 10**6
-# Periods after which a motion becomes quiet: within a comparison, and within the full time only.
+# Cycles after which a motion becomes quiet: within a short run, and only within the full time.
 EARLY, LATE = 50, TASK.hurried.limit + 1
 
 
 @pytest.fixture
 def made_up(monkeypatch):
-    """Compare gaps whose starts become quiet after given times, shape (cases, starts).
+    """A function that compares gaps whose starts become quiet after given times.
 
-    Starts without a time become quiet early. Returns the comparison, and the number of starts that
-    were run again with the full time.
+    The times have the shape (cases, starts). Further starts become quiet early. The function
+    returns the comparison, and the number of starts that were run again for the full time.
     """
 
     def made_up_comparison(gaps, times, starts=STARTS):
@@ -47,7 +51,7 @@ def made_up(monkeypatch):
         def run(task, cases, states, *, settling=None, **_):
             if settling is None:
                 counted.append(states.shape[0] * states.shape[1])
-            assert states.size  # an ensemble has motions
+            assert states.size  # never called without starts
             records = np.zeros(states.shape[:2], MOTION)
             records["outcome"] = SETTLED
             quiet = states[..., 0] <= (settling or task.settling).limit
@@ -111,7 +115,7 @@ def test_starts_too_few_for_a_claim_must_all_be_quiet(made_up):
 
 @pytest.mark.parametrize("share", [0.8, 0.95, 0.99])
 def test_two_looks_err_with_a_chance_below_five_per_cent(share):
-    """At exactly the share claimed, where a claim is as good as wrong, by the binomial law."""
+    """The probability of a claim if the true share equals the claimed one, by the binomial law."""
     least = next(n for n in range(1, 1000) if failures_allowed(share, n) == 0)
     for starts in range(least, 3 * least, max(1, least // 16)):
         total, loud = SECOND * starts, 1 - share
@@ -123,7 +127,10 @@ def test_two_looks_err_with_a_chance_below_five_per_cent(share):
 
 
 def candidates(monkeypatch, loud):
-    """Candidates if the coarse comparison misses loud motions up to a gap (mm)."""
+    """Result of `candidate_comparison` if the coarse comparison misses all violent motions.
+
+    Motions are violent at gaps up to `loud` (mm).
+    """
 
     def made_up(task, gaps, frequencies, limit, *_, **__):
         quiet = np.tile((np.asarray(gaps) > loud)[:, None], len(frequencies))
@@ -134,7 +141,7 @@ def candidates(monkeypatch, loud):
         }
         return Comparison(np.asarray(gaps), frequencies, numbers, limit, 0.95)
 
-    # the smaller the gap, the smaller the motions that 12 starts find
+    # In the coarse comparison all motions are quiet, and smaller for smaller gaps.
     gaps = np.geomspace(2, 12, 20)
     coarse = made_up(TASK, gaps, FREQUENCIES, 3.0)
     coarse.numbers["start_quiet_share"][:] = 1

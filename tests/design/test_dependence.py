@@ -1,4 +1,4 @@
-"""What the quiet orbit of a design depends on, against orbits found anew with other values."""
+"""Derivatives of the quiet orbit of a design, compared with orbits at slightly changed values."""
 
 from dataclasses import replace
 
@@ -12,13 +12,14 @@ from impact_damper.design.task import Task
 from impact_damper.design.tolerances import NOMINAL, VARIED
 from impact_damper.system.packed import CLEARANCE
 
+# Relative change of a value in a difference quotient.
 STEP = 4e-4
-# Factors of a task that change one parameter alone, where they have another name.
+# Names of factors of a task that differ from the name of the parameter.
 FACTORS = {"linear_stiffness": "stiffness"}
 
 
 def changed(task, gap, frequency, name, factor):
-    """Packed parameters of the damper and machine of a task with one value times a factor."""
+    """Packed parameters of a task in which the value `name` is multiplied by a factor."""
     if name == "mass":
         return replace(task, mass=factor * task.mass).packed(gap, frequency)
     if name == "frequency":

@@ -1,4 +1,8 @@
-"""Samples and corners of tolerances, and whether starts agree with a claim."""
+"""Samples and corners of tolerances, and whether starts agree with a claimed share.
+
+A corner is a set of values in which each deviates by its whole tolerance. A `Cloud` holds the
+results of starts at several sets of values.
+"""
 
 from dataclasses import replace
 
@@ -77,7 +81,7 @@ def cloud(least, starts=112, frequencies=9):
 
 
 def test_a_claim_that_holds_is_rarely_taken_for_broken():
-    """With exactly the share claimed at every frequency, by the binomial distribution."""
+    """If the true share equals the claimed one at every frequency, by the binomial distribution."""
     made, claimed = cloud(np.ones(21)), 0.95
     level = FALSE_ALARM / (made.frequencies * len(made.least))
     refused = [k for k in range(made.starts + 1) if binom.cdf(k, made.starts, claimed) < level]
@@ -95,7 +99,7 @@ def test_a_claim_that_holds_is_rarely_taken_for_broken():
     [
         (lambda gap: 1.0, lambda gap: gap, "least"),
         (lambda gap: 1.0, lambda gap: -gap, "most"),
-        # all tolerances together leave too few quiet starts at large gaps, which move less
+        # Displacements are smaller at larger gaps, but above 1.7 mm too few starts are quiet.
         (lambda gap: 1.0 if gap < 1.7 else 0.5, lambda gap: -gap, "below"),
         (lambda gap: gap / 10, lambda gap: gap, "most"),
     ],

@@ -1,4 +1,4 @@
-"""Steps of a design in files: read again if made from the same, otherwise computed again."""
+"""Steps of a design in files: read if they were made from the same inputs, else computed again."""
 
 import pytest
 import xarray as xr

@@ -7,7 +7,10 @@ from impact_damper.design.masses import is_best
 
 
 def brute_force(masses, costs):
-    """A damper is on the front unless another one is no worse in anything and better in one."""
+    """Return which dampers are on the front.
+
+    A damper is on it unless another one is no worse in mass and costs, and better in one of them.
+    """
     rows = [(mass, *cost) for mass, cost in zip(masses, costs.tolist(), strict=True)]
     rows = [[float("inf") if each != each else each for each in row] for row in rows]
     return [

@@ -1,4 +1,4 @@
-"""Motions of a chosen damper: those that the loose mass never touches are kept apart."""
+"""Motions with a chosen damper: those in which the loose mass touches no wall are kept apart."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,10 @@ TASK = Task(
 
 
 def test_a_motion_within_the_gap_is_not_counted_as_reached():
-    """The loose mass stays at rest where the bare machine moves less than half the gap."""
+    """At frequencies at which the machine alone moves less than half the gap, no wall is touched.
+
+    A loose mass at rest in the middle of the gap then stays at rest.
+    """
     damper = TASK.damper(1e-3 * GAP)
     response = takes_machine(frequency_response)(MACHINE, damper, TASK.grid, starts=TASK.starts)
     found = reached_motions(TASK, GAP, response, LIMIT, None)

@@ -29,8 +29,8 @@ MACHINES = {
     "base": SPRING | {"base_displacement": 2e-4},
 }
 BANDS = {"force": (26, 34), "unbalance": (22, 24), "base": (20.4, 20.7)}
-# Factors of mass, length and time: a circuit board, a machine of more than a ton, and one that no
-# power of two makes.
+# Factors of mass, length and time: for a circuit board, for a machine of more than a ton, and
+# factors that are not powers of two.
 BOARD, TON, ANY = (2.0**-5, 2.0**-3, 2.0**-2), (2.0**7, 2.0, 2.0**2), (0.3, 0.7, 1.9)
 
 
@@ -78,7 +78,7 @@ def test_the_first_look_finds_the_scaled_gap():
 
 
 def test_the_same_starts_end_quiet():
-    """To the last bit."""
+    """All numbers are equal to the last bit."""
     one, other = task("base"), task("base", TON)
     gaps = 1e3 * one.rule_gap(20.5) * np.array([0.8, 1.2])
     limit = one.bare.max() / 2

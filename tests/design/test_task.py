@@ -1,4 +1,4 @@
-"""Design tasks: bad ones are told in words before anything runs, and derived values."""
+"""Design tasks: error messages for wrong values, and derived values."""
 
 import math
 
@@ -42,7 +42,7 @@ def task(**changed):
         ({"machine": idm.Machine(**SPRING, force=0)}, r"without excitation nothing is to"),
     ],
 )
-def test_a_bad_task_is_told_in_words(changed, told):
+def test_a_wrong_value_is_refused_with_its_reason(changed, told):
     with pytest.raises(ValueError, match=told):
         task(**changed)
 

@@ -1,4 +1,8 @@
-"""The smallest quiet orbit as a trap, against rigid walls in closed form and binomial bounds."""
+"""The gap with the smallest quiet orbit is a trap: hardly any start leads to this orbit.
+
+The orbit is compared with the closed form for rigid walls, and shares of starts with binomial
+bounds. The cliff is the gap at which the share of quiet starts falls from 1 to nearly 0.
+"""
 
 from dataclasses import replace
 
@@ -37,7 +41,10 @@ def first_look():
 
 
 def rigid_best(task):
-    """Gap and displacement (mm) of the smallest stable motion, and the gap at which they end."""
+    """Return the gap and displacement (mm) of the smallest stable motion between rigid walls.
+
+    Also return the gap at which stable motions end (mm).
+    """
     oscillator, damper, frequency = task.system(5e-3, MACHINE.natural_frequency)
 
     def smallest(clearance):
@@ -64,7 +71,7 @@ def test_the_smallest_orbit_and_its_edge_are_those_of_rigid_walls(stiffness, err
 
 
 def quiet_starts(gap, count, limit):
-    """Run starts at a gap (mm) at resonance; return which end quiet, and their displacements."""
+    """Run starts at a gap (mm) at resonance; return which are quiet, and displacements (mm)."""
     cases = [Case(1e-3 * gap, MACHINE.natural_frequency)]
     records = run(TASK, cases, count, "unseen")[0]
     sizes = TASK.millimetres(records["maximum_displacement"])

@@ -1,4 +1,4 @@
-"""The conclusion of a design: which sentences stand when."""
+"""The conclusion of a design: which sentences it contains for which results."""
 
 from dataclasses import replace
 
@@ -68,7 +68,7 @@ def test_motions_that_never_repeat_have_a_lower_limit():
 def test_a_gap_that_needs_a_closer_tolerance_is_held_between_its_cliffs():
     words = said("needs_tolerance", cliff_gap=[6.5, 7.5], cliff_status=[0, 0])
     assert "hold it from 6.5 to 7.5 mm, a narrower range than the tolerance of 10 %" in words
-    # the comparison of gaps was too coarse to see this range
+    # The cliffs are located more finely than the compared gaps, and the range is wide enough.
     assert "hold it from 6 to 8.5 mm. The" in said("needs_tolerance", cliff_status=[0, 0])
 
 

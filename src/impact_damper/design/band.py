@@ -1,4 +1,4 @@
-"""Forcing frequencies of a design: the band, its resonances, and the grid of frequencies."""
+"""Forcing frequencies of a design: the band, the resonances in it, and the grid of frequencies."""
 
 import math
 from collections.abc import Sequence
@@ -11,11 +11,12 @@ from impact_damper.theory.free_oscillator import free_folds, maximum_response
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the lowest and the highest frequency at which the free machine resonates, Hz.
+    """Return the lowest and the highest frequency at which the machine without damper resonates.
 
-    The range contains the natural frequency of small vibrations, if the spring has a linear part,
-    and the peak and the folds of the free response by harmonic balance. A cubic spring moves the
-    peak away from the natural frequency.
+    The frequencies are in Hz. The range contains the natural frequency of small vibrations, if the
+    spring has a linear part, and the peak of the response by harmonic balance. A cubic spring moves
+    the peak away from the natural frequency. The response over the frequency then bends, and the
+    range also contains its folds, the points at which it turns back.
     """
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
@@ -31,19 +32,19 @@ def resonance_of(machine) -> tuple[float, float]:
 
 
 def checked_band(machine, band, resonance) -> tuple[float, float]:
-    """Return the ends of a band, Hz.
+    """Check a band of frequencies, and return its ends, Hz.
 
     Parameters
     ----------
     machine : Machine
     band : sequence of 2 numbers, texts or pint.Quantity
     resonance : tuple of float
-        Of `resonance_of`.
+        Result of `resonance_of`.
 
     Raises
     ------
     TypeError, ValueError
-        If these are not two ascending frequencies, or the band does not contain a resonance.
+        If the band is not two ascending frequencies, or does not contain a resonance.
     """
     if not isinstance(band, Sequence | np.ndarray) or len(band) != 2:
         raise ValueError(f"band = {shown(band)}: must be least and greatest frequency")
@@ -60,7 +61,10 @@ def checked_band(machine, band, resonance) -> tuple[float, float]:
 
 
 def resonances_within(band, resonance, mass_ratio) -> list[float]:
-    """Return the resonances within a band, without the loose mass and with it attached, Hz."""
+    """Return the resonances within a band, Hz: without the loose mass, and with it fixed on.
+
+    `resonance` is the result of `resonance_of`. The fixed loose mass lowers the frequencies.
+    """
     ratio = math.sqrt(1 + mass_ratio)
     found = [each for end in resonance for each in (end / ratio, end)]
     return [each for each in found if band[0] < each < band[1]]
@@ -69,8 +73,8 @@ def resonances_within(band, resonance, mass_ratio) -> list[float]:
 def grid_over(band, count, resonances) -> np.ndarray:
     """Return `count` frequencies over a band, Hz.
 
-    The frequencies are evenly spaced, except that those nearest to the resonances are moved onto
-    them, since a lightly damped machine moves most there. The ends of the band stay.
+    The frequencies are evenly spaced, with one exception: the frequency nearest to each resonance
+    is moved onto it, since a lightly damped machine moves most there. The ends of the band stay.
     """
     values = np.linspace(*band, count)
     for frequency in resonances:

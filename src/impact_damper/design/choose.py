@@ -1,15 +1,23 @@
-"""Choice of the gap whose worst case over band, starts and deviation of the gap is best."""
+"""Choice of the gap whose worst case over band, starts and deviation of the gap is best.
+
+The gap is the full play of the loose mass. A start is a random initial state. The motion to which a
+start leads is quiet if its largest displacement is at most the quiet limit. A gap is called quiet
+if, at every frequency of the band, the share of starts that lead to quiet motions is large enough.
+The tolerance is the largest relative deviation of the built gap from the nominal one.
+"""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-# Displacement (mm) that represents a motion that escapes. Relative difference of displacements, and
-# difference of shares, below which two values count as equal.
+# Displacement (mm) in place of infinity for a motion that escapes, so that it can be interpolated.
 HUGE = 1e6
+# Two displacements count as equal if their relative difference is smaller, two shares if their
+# difference is smaller.
 ALIKE = 1e-3
-# Significant digits of a nominal gap, and their largest number if it must lie in a narrow range.
+# Significant digits of a nominal gap: usual number, and largest number if the gap must lie in a
+# narrow range.
 DIGITS, MOST_DIGITS = 3, 9
 
 
@@ -21,11 +29,11 @@ class Choice(NamedTuple):
     gap : float
         mm.
     kind : str
-        "robust": all gaps within the tolerance are quiet, and `gap` has the smallest worst
-        displacement within the tolerance. "needs_tolerance": only ranges narrower than the
-        tolerance are quiet, and `gap` is the middle of the widest. "least_worst": no gap is quiet,
-        or only ranges too narrow to be held, and at `gap` most starts within the tolerance and over
-        the band lead to quiet motions.
+        "robust": all gaps within the tolerance of `gap` are quiet, and of all such gaps, `gap` has
+        the smallest worst displacement within the tolerance. "needs_tolerance": only ranges
+        narrower than the tolerance are quiet, and `gap` is the middle of the widest. "least_worst":
+        no gap is quiet, or only ranges too narrow to be held, and at `gap` the share of quiet
+        starts is largest.
     """
 
     gap: float
@@ -42,11 +50,11 @@ class Comparison(NamedTuple):
     frequencies : numpy.ndarray, shape (n,)
         Hz.
     numbers : dict of numpy.ndarray, shape (m, n) or (m, n, 2)
-        As returned by `summarise`.
+        As returned by `outcomes.summarise`, for each gap and frequency.
     limit : float
         Quiet limit, the largest displacement of a quiet motion, mm.
     share : float
-        Least share of starts that must lead to quiet motions.
+        Least share of starts that must lead to quiet motions at every frequency.
     """
 
     gaps: np.ndarray
@@ -69,8 +77,9 @@ class Comparison(NamedTuple):
     def quiet(self) -> np.ndarray:
         """Whether a gap is quiet at all frequencies, shape (m,).
 
-        At each frequency the interval of the share of quiet starts lies above `share`. With too few
-        starts for this, all starts must lead to quiet motions.
+        At each frequency the 95 % confidence interval of the share of quiet starts must lie above
+        `share`. If there are too few starts for such an interval, all of them must lead to quiet
+        motions.
         """
         claimed = self.numbers["start_quiet_interval"][..., 0] >= self.share
         return (claimed | (self.numbers["start_quiet_share"] == 1)).all(axis=1)
@@ -78,8 +87,8 @@ class Comparison(NamedTuple):
     def choose(self, tolerance) -> Choice:
         """Return the nominal gap that is best if the gap deviates by up to a tolerance.
 
-        Worst displacements are interpolated between the gaps compared. A gap between two of these
-        counts as quiet if both neighbours are quiet.
+        Worst displacements are interpolated between the compared gaps. A gap between two compared
+        gaps counts as quiet if both are quiet.
 
         Parameters
         ----------
@@ -106,7 +115,7 @@ class Comparison(NamedTuple):
         return self._replace(gaps=self.gaps[kept], numbers=numbers)
 
     def without(self, low, high) -> "Comparison":
-        """Return the comparison without the gaps from one to another (mm)."""
+        """Return the comparison without the gaps from `low` to `high` (mm)."""
         return self.only((self.gaps < low) | (self.gaps > high))
 
     def joined(self, other) -> "Comparison":
@@ -120,20 +129,24 @@ class Comparison(NamedTuple):
         return self._replace(gaps=gaps[order], numbers=numbers)
 
     def robust_gaps(self, tolerance) -> np.ndarray:
-        """Return the nominal gaps within whose tolerance all gaps are quiet, mm."""
+        """Return the nominal gaps (mm) for which all gaps within the tolerance are quiet."""
         nominal, lows, highs, covered = self._nominal(tolerance)
         return nominal[covered & self._quiet_within(lows, highs)]
 
     def _nominal(self, tolerance):
-        """Return nominal gaps, the ends of their tolerances, and whether the comparison covers "
-        "them."""
+        """Return nominal gaps, the least and greatest gap of each, and whether both are covered.
+
+        Covered means that they lie between the first and the last compared gap.
+        """
         nominal = buildable(self.gaps[0], self.gaps[-1])
         lows, highs = nominal * (1 - tolerance), nominal * (1 + tolerance)
         return nominal, lows, highs, (lows >= self.gaps[0]) & (highs <= self.gaps[-1])
 
     def _widest(self):
-        """Return the ends of the widest range of quiet gaps; among equal widths, of the "
-        "quietest."""
+        """Return the ends of the widest range of quiet gaps (mm).
+
+        Of several ranges of equal width, the one with the smallest displacement is returned.
+        """
         begins, ends = runs_of(self.quiet)
         widths = np.log(self.gaps[ends] / self.gaps[begins])
         worst = [self.worst[a : b + 1].max() for a, b in zip(begins, ends, strict=True)]
@@ -141,7 +154,10 @@ class Comparison(NamedTuple):
         return self.gaps[begins[k]], self.gaps[ends[k]]
 
     def _quiet_within(self, lows, highs):
-        """Return whether all gaps between two ends, and the next ones outside, are quiet."""
+        """Return whether all compared gaps between `lows` and `highs` are quiet, shape (n,).
+
+        The nearest compared gap outside each end must be quiet too.
+        """
         first = np.searchsorted(self.gaps, lows, side="right") - 1
         last = np.searchsorted(self.gaps, highs, side="left")
         loud = np.concatenate([[0], np.cumsum(~self.quiet)])
@@ -149,7 +165,7 @@ class Comparison(NamedTuple):
 
 
 def buildable(least, most) -> np.ndarray:
-    """Return the numbers of DIGITS digits in a range, or its geometric middle if it has none."""
+    """Return the numbers of DIGITS digits in a range, or if there are none, its geometric mean."""
     exponents = range(math.floor(math.log10(least)), math.floor(math.log10(most)) + 1)
     first = 10 ** (DIGITS - 1)
     values = [
@@ -162,14 +178,14 @@ def buildable(least, most) -> np.ndarray:
 
 
 def largest_within(gaps, values, lows, highs) -> np.ndarray:
-    """Return the largest value between each pair of ends, interpolated over the logarithm.
+    """Return the largest value between each pair of ends, interpolated over log(gap), shape (n,).
 
     Parameters
     ----------
     gaps, values : array, shape (m,)
-        Ascending gaps.
+        Ascending gaps, and a value at each gap.
     lows, highs : array, shape (n,)
-        Ends. Beyond the first and the last gap the value stays constant.
+        Ends. Beyond the first and the last gap the value is that of the first or last gap.
     """
     ends = np.interp(np.log([lows, highs]), np.log(gaps), values).max(axis=0)
     between = (gaps >= np.reshape(lows, (-1, 1))) & (gaps <= np.reshape(highs, (-1, 1)))
@@ -177,7 +193,7 @@ def largest_within(gaps, values, lows, highs) -> np.ndarray:
 
 
 def _middle(nominal, scores):
-    """Return the middle of the longest run of gaps whose scores equal the best one."""
+    """Return the middle of the longest run of gaps whose scores equal the smallest score."""
     begins, ends = runs_of(scores <= scores.min() + ALIKE)
     k = int(np.argmax(ends - begins))
     return float(nominal[(begins[k] + ends[k]) // 2])
@@ -194,6 +210,6 @@ def middle_gap(first, last) -> float:
 
 
 def runs_of(flags) -> tuple[np.ndarray, np.ndarray]:
-    """Return the first and the last index of each run of true flags."""
+    """Return the first and the last index of each run of successive true flags, as two arrays."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
     return edges[::2], edges[1::2] - 1

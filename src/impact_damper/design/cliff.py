@@ -1,9 +1,14 @@
 """The basin cliff: gaps at which starts cease to lead to quiet motions, and stability of the orbit.
 
+The quiet orbit is the periodic motion for which a damper is designed. It is symmetric, and the
+loose mass presses each wall once in a forcing cycle. A start is a random initial state. A start is
+called quiet if it leads to a motion below the quiet limit, a bound on the displacement.
+
 With a contact that loses energy the quiet orbit is smallest close to the gap at which it loses its
-stability. There hardly any start leads to it, but at a smaller gap all starts do. Between the two
-gaps the share of quiet starts falls within a few per cent of the gap: this is the cliff. The other
-starts lead to chaos, which is a transient or lasts for good (an attractor).
+stability. At this gap hardly any start leads to the orbit, but at a smaller gap all starts do.
+Between the two gaps the share of quiet starts falls from 1 to nearly 0 while the gap grows by a few
+per cent: this is the cliff. The other starts lead to chaos, which is a transient or lasts for good
+(an attractor).
 """
 
 from typing import NamedTuple
@@ -22,15 +27,19 @@ from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.families import family_of
 
-# Number of bisections of each edge, and of the frequencies, those with the smallest shares, at
-# which an edge is searched for.
+# An edge is an end of a range of quiet gaps.
+# BISECTIONS: number of bisections between two compared gaps, of which only one is quiet.
+# CRITICAL: number of frequencies at which a gap is tested; those with the smallest shares.
 BISECTIONS, CRITICAL = 4, 2
-# Least width, divided by the gap, of a range in which a gap can be held; a closer tolerance of the
-# task reduces it.
+# Width of a range of gaps divided by the gap, below which a builder is assumed unable to keep a gap
+# within the range. If the task has a closer tolerance, twice this tolerance is the bound.
 HOLDABLE = 0.01
-# Lives of chaotic motions. Gaps divided by the gap of the cliff (inverse at the lower end); starts
-# at each gap; longest run, and initial time to be ignored because motions still approach the chaos,
-# in cycles; least number of motions that last longer than this initial time.
+# The life of a chaotic motion is the time until it becomes quiet.
+# LIFE_GAPS: gaps divided by the gap of the upper edge; the inverse at the lower edge.
+# LIFE_STARTS: starts at each gap.
+# LONGEST: longest run, in cycles.
+# LEAD: initial time that is ignored, in cycles, because motions still approach the chaos.
+# FEWEST: least number of motions that must last longer than LEAD to estimate a mean life.
 LIFE_GAPS = (0.99, 1.02, 1.06, 1.12, 1.2)
 LIFE_STARTS, LONGEST, LEAD, FEWEST = 32, 3000, 200, 5
 # Least and greatest gap and force of branches of quiet orbits, divided by the nominal values.
@@ -43,11 +52,11 @@ class Edge(NamedTuple):
     Attributes
     ----------
     gap : float
-        mm; the last gap known to be quiet. NaN if no range of gaps is quiet. The bisections test a
-        gap only at the frequencies at which the next gap of the comparison is least quiet.
+        mm; the last gap known to be quiet. NaN if no range of gaps is quiet. To save time, a gap of
+        a bisection is tested only at the CRITICAL frequencies.
     beyond : float
-        mm; the first gap known not to be quiet, NaN if all gaps up to the end of the comparison
-        are.
+        mm; the first gap known not to be quiet. NaN if all gaps up to the end of the comparison are
+        quiet.
     status : int
         Flag of `cliff_status`.
     frequency : float
@@ -67,7 +76,7 @@ def find_edges(task, comparison, gap, *, workers=1) -> tuple[Edge, Edge]:
     """Return the lower and the upper end of the range of quiet gaps around a gap.
 
     The comparison brackets each end between two gaps. Each bracket is bisected, with all starts at
-    the frequencies with the smallest shares.
+    the frequencies with the smallest shares of quiet starts.
 
     Parameters
     ----------
@@ -96,7 +105,10 @@ def find_edges(task, comparison, gap, *, workers=1) -> tuple[Edge, Edge]:
 
 
 def _bisect(task, comparison, last, beyond, workers):
-    """Return the edge between two neighbouring gaps of a comparison, the first of them quiet."""
+    """Return the edge between two neighbouring gaps of a comparison.
+
+    `last` is the index of the quiet gap, and `beyond` the index of the other gap.
+    """
     shares = comparison.numbers["start_quiet_share"][beyond]
     critical = comparison.frequencies[np.argsort(shares, kind="stable")[:CRITICAL]]
     inside, outside = comparison.gaps[last], comparison.gaps[beyond]
@@ -114,8 +126,8 @@ def _bisect(task, comparison, last, beyond, workers):
 def choose_with_edges(task, comparison, *, progress=None, workers=1):
     """Return the choice of a gap and the ends of the range of quiet gaps around it.
 
-    The ends of a range narrower than the tolerance are located. If the range is narrower than
-    HOLDABLE, a gap cannot be held in it: its gaps are left out, and the choice is made again.
+    If the range is narrower than HOLDABLE, a gap cannot be held in it. Then its gaps are left out,
+    and the choice is made again.
 
     Parameters
     ----------
@@ -147,15 +159,16 @@ def choose_with_edges(task, comparison, *, progress=None, workers=1):
 
 
 def can_be_held(edges, tolerance) -> bool:
-    """Return whether a gap that deviates by a tolerance can be held between two edges."""
+    """Return whether a gap can be kept between two edges by a builder, see HOLDABLE."""
     low, high = (edge.gap for edge in edges)
     return high - low >= min(HOLDABLE, 2 * tolerance) * np.sqrt(low * high)
 
 
 def _recentred(task, choice, edges, limit, workers):
-    """Return the choice, moved to the middle of a narrow range of quiet gaps if that is quiet.
+    """Return the choice, moved to the middle of a narrow range of quiet gaps.
 
-    The few gaps that the comparison has in such a range may lie close to its end.
+    The few gaps that the comparison has in such a range may lie close to its end. If the middle
+    turns out not to be quiet, the choice is returned unchanged.
     """
     gap = middle_gap(*(edge.gap for edge in edges))
     found = compare(task, [gap], task.grid, limit, task.starts, "middle", workers=workers)
@@ -170,11 +183,13 @@ class Lives(NamedTuple):
     gaps : numpy.ndarray, shape (k,)
         mm.
     share : numpy.ndarray, shape (k, 3)
-        Share of starts whose motions become quiet within LONGEST cycles, with its interval.
+        Share of starts whose motions become quiet within LONGEST cycles, with the ends of its 95 %
+        confidence interval.
     rate : numpy.ndarray, shape (k, 3)
-        Rate at which motions become quiet after LEAD cycles, per cycle, with its interval; NaN if
-        fewer than FEWEST motions last longer than LEAD. If the interval begins at 0, the chaos is
-        an attractor, or a transient whose mean life exceeds the inverse of the upper end.
+        Rate at which motions become quiet after LEAD cycles, per cycle, with the ends of its 95 %
+        confidence interval; NaN if fewer than FEWEST motions last longer than LEAD. If the interval
+        begins at 0, the chaos is an attractor, or a transient whose mean life exceeds the inverse
+        of the upper end.
     """
 
     gaps: np.ndarray
@@ -183,7 +198,7 @@ class Lives(NamedTuple):
 
 
 def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
-    """Return the lives of motions that are not quiet, at gaps on both sides of an edge.
+    """Return the lives of chaotic motions at the gaps LIFE_GAPS on both sides of an edge.
 
     Parameters
     ----------
@@ -198,7 +213,8 @@ def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
     outward = 1 if edge.beyond > edge.gap else -1
     gaps = edge.gap * np.array(LIFE_GAPS) ** outward
     cases = [Case(1e-3 * gap, edge.frequency) for gap in gaps]
-    # a chaotic transient would be stopped as chaotic, so only the end of the run may stop a motion
+    # By default a run stops once its motion is found chaotic. Here only the end of the run stops a
+    # motion that does not settle, so that the end of a chaotic transient is seen.
     running = {"settling": task.lasting(LONGEST), "workers": workers, "progress": progress}
     records = run(task, cases, LIFE_STARTS, "lives", **running)
     sizes = task.millimetres(records["maximum_displacement"])
@@ -206,7 +222,8 @@ def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
     settled = is_settled(records)
     lives = np.where(quiet & settled, records["periods_run"], LONGEST + 1)
     rates = []
-    # for a motion that becomes quiet without settling, the time at which it does is unknown
+    # A motion that becomes quiet without settling to an orbit is left out, because the time at
+    # which it becomes quiet is unknown.
     for row, known in zip(lives, settled | ~quiet, strict=True):
         lasting = row[known]
         enough = np.sum(lasting > LEAD) >= FEWEST
@@ -216,7 +233,7 @@ def find_lives(task, edge, limit, *, workers=1, progress=None) -> Lives:
 
 
 class QuietBranch(NamedTuple):
-    """A branch of quiet orbits over one parameter.
+    """A branch, the curve of the quiet orbits over one parameter.
 
     Attributes
     ----------
@@ -235,8 +252,7 @@ class QuietBranch(NamedTuple):
 def quiet_orbit(task, gap, frequency, *, workers=1) -> Orbit | None:
     """Return the smallest quiet orbit to which starts lead at a gap (mm) and frequency (Hz).
 
-    A quiet orbit is symmetric and has two contacts in a cycle. Return None if no start leads to
-    one.
+    Return None if no start leads to a quiet orbit.
     """
     case = Case(1e-3 * gap, frequency)
     records = run(task, [case], task.starts, "orbit", workers=workers)[0]
@@ -249,7 +265,7 @@ def quiet_orbit(task, gap, frequency, *, workers=1) -> Orbit | None:
 
 
 def quiet_branch(task, gap, frequency, orbit, parameter) -> QuietBranch | None:
-    """Return the branch of a quiet orbit over a parameter; None if there is no orbit.
+    """Return the branch of a quiet orbit over a parameter; None if `orbit` is None.
 
     Parameters
     ----------

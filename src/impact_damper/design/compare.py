@@ -1,9 +1,12 @@
-"""Comparisons of gaps by the random starts that lead to quiet motions, over the band.
+"""Comparisons of gaps by the share of random starts that lead to quiet motions, over the band.
 
-Gaps are first compared coarsely, with few starts at some of the frequencies. Candidates around the
-best of these gaps are then run from all starts at all frequencies. A candidate that fails with the
-first starts is not run from the others. Runs of a comparison are short: a motion that is not quiet
-at their end is run for the full time of the task before its start counts as not quiet.
+A start is an initial state. A start, or its motion, is quiet if the largest displacement is at most
+the quiet limit. A gap is quiet if at each frequency of the band the share of quiet starts is at
+least `Task.share`. Gaps are first compared coarsely, with few starts at some of the frequencies.
+Candidates around the best of these gaps are then run from all starts at all frequencies. A
+candidate that fails with the first starts is not run from the others. Runs of a comparison are
+short: a motion that is not quiet at their end is run for the full time of the task before its start
+counts as not quiet.
 """
 
 from itertools import pairwise
@@ -24,26 +27,28 @@ from impact_damper.motions.records import MOTION
 
 # Coarse comparison: largest number of gaps (fewer with few candidates), of frequencies, of starts.
 COARSE_GAPS, COARSE_FREQUENCIES, COARSE_STARTS = 28, 9, 12
-# Number of starts after which a gap that can no longer be quiet is given up.
+# After TRIAL starts a gap is first tested, and given up if it can no longer be quiet.
 TRIAL = 24
-# Starts of both looks together, divided by the starts of the first look. The second look is taken
-# at frequencies at which the first one does not decide.
+# The share of quiet starts is tested with some starts and, at frequencies at which this does not
+# decide, a second time with SECOND times as many starts in all.
 SECOND = 3
 # The candidates cover the tolerated deviation from the best gap of the coarse comparison, times
-# this factor.
+# this factor, so that the cliff is seen if it is just outside.
 BEYOND = 1.15
-# Quiet limit divided by the worst displacement at the best gap of the coarse comparison. The factor
-# leaves room for gaps within the tolerance, at which the quiet motion is larger.
+# If the task has no displacement limit, the quiet limit is ABOVE times the worst displacement at
+# the best gap of the coarse comparison. The factor leaves room for gaps within the tolerance, at
+# which the quiet motion is larger.
 ABOVE = 2.5
-# Further candidates are compared beside a candidate with at least this share of quiet starts.
+# If no candidate is quiet, further candidates are compared beside a candidate at which the share of
+# quiet starts is at least PROMISING at all frequencies.
 PROMISING = 0.5
 
 
 def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progress=None):
-    """Return the motions at all gaps (mm) and frequencies (Hz).
+    """Return the comparison of the motions at all gaps (mm) and frequencies (Hz).
 
     The share of quiet starts is tested in at most two looks: with `starts` starts and, at
-    frequencies at which some of these are not quiet, with SECOND times as many. The probability
+    frequencies at which too many of these are not quiet, with SECOND times as many. The probability
     that one of the looks wrongly confirms the share is below 5 %. A gap is given up as soon as more
     starts at one of the frequencies are not quiet than the second look allows. The numbers for
     gaps that are not quiet therefore come from fewer starts.
@@ -97,17 +102,18 @@ def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progre
 
 
 def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
-    """Return motions, of which those that are not quiet at first are run for the full time.
+    """Return motions; those that are not quiet after a short run are run for the full time.
 
     All motions are run with the settling `Task.hurried`. Motions that are not quiet at the end are
-    run again with the settling of the task, some for each owner at a time. Once more motions than
-    allowed remain not quiet at one case, the owner is lost, and its other motions are not run
+    run again with the settling of the task, some for each gap at a time. Once more motions than
+    allowed remain not quiet at one frequency, the gap is lost, and its other motions are not run
     again.
 
     Parameters
     ----------
     task : Task
     cases : sequence of Case
+        A case is a gap with a frequency.
     starts : array, shape (cases, count, 4)
     limit : float
         Quiet limit, mm.
@@ -138,7 +144,7 @@ def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
 
 
 def _numbers(task, records, counts, limit):
-    """Return the numbers of `summarise` on the motions that were run, the first of each case."""
+    """Return the numbers of `summarise` for each case, from its first `counts` motions."""
     numbers = {}
     for count in np.unique(counts):
         places = np.flatnonzero(counts == count)
@@ -151,17 +157,17 @@ def _numbers(task, records, counts, limit):
 
 
 def _comparison(task, gaps, frequencies, numbers, limit):
-    """Return a comparison from numbers on cases, sorted by gap, then by frequency."""
+    """Return a comparison from the numbers of cases that are sorted by gap, then by frequency."""
     shape = len(gaps), len(frequencies)
     folded = {name: values.reshape(*shape, *values.shape[1:]) for name, values in numbers.items()}
     return Comparison(gaps, frequencies, folded, limit, task.share)
 
 
 def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STARTS, **running):
-    """Return a comparison of gaps over a whole range, with few starts, and the quiet limit.
+    """Return a comparison of gaps over a whole range, with few starts.
 
-    If the task has no displacement limit, `limit` is lowered to ABOVE times the largest
-    displacement of all motions at the best gap.
+    If the task has no displacement limit, the quiet limit of the comparison is `limit` or, if
+    smaller, ABOVE times the largest displacement of all motions at the best gap.
 
     Parameters
     ----------
@@ -194,10 +200,12 @@ def candidate_comparison(task, coarse, **running) -> Comparison:
     """Return a comparison of the candidates from all starts, with the limit of the coarse one.
 
     The candidates lie around the best gap of the coarse comparison. The few starts of the coarse
-    comparison may miss violent motions. Therefore, if no candidate is quiet within the tolerance,
-    further candidates are compared around the best gap beyond the candidates that are not quiet. If
-    that fails too, but most starts are quiet at one candidate at all frequencies, a quiet range may
-    lie beside this candidate, and further ones are compared there.
+    comparison may miss violent (not quiet) motions. If no choice from the candidates is "robust"
+    (`choose.Choice`), further candidates are added in one of two places:
+
+    - around a gap that is robust in the coarse comparison and lies beyond all violent candidates;
+    - if there is none and no candidate is quiet: on both sides of the candidate with the most quiet
+      starts, if their share is at least PROMISING. A narrow range of quiet gaps may lie there.
     """
     tolerance = task.tolerances.get("gap", 0.0)
     gaps = _around(coarse.choose(tolerance).gap, task)
@@ -218,16 +226,16 @@ def candidate_comparison(task, coarse, **running) -> Comparison:
 
 
 def _around(gap, task):
-    """Return the gaps of candidates around a gap; they cover more than its tolerance."""
+    """Return the gaps of candidates around a gap (mm); they cover more than its tolerance."""
     reach = BEYOND / (1 - task.tolerances.get("gap", 0.0))
     return gap * np.geomspace(1 / reach, reach, task.candidates)
 
 
 def _best_beyond(coarse, found, tolerance):
-    """Return the best gap of the coarse comparison beyond the violent candidates, or None.
+    """Return the best robust gap of the coarse comparison beyond the violent candidates, or None.
 
-    All gaps within its tolerance are quiet in the coarse comparison and lie below the first or
-    above the last candidate that is not quiet.
+    Beyond means below the first or above the last candidate that is not quiet. Of a robust gap
+    below and one above, the one with the smaller worst displacement is returned.
     """
     loud = found.gaps[~found.quiet]
     if not len(loud):

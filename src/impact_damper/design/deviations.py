@@ -1,4 +1,12 @@
-"""Tests of a design with deviating values: samples and corners of all tolerances."""
+"""Tests of a design with deviating values: samples and corners of all tolerances.
+
+A tolerance is the largest relative deviation of a value from its nominal one. In a sample the
+values deviate at random within their tolerances. At a corner each value deviates by its whole
+tolerance, up or down. At each set of values motions are run from random starts (initial states). A
+start is quiet if its motion stays below the quiet limit. A design claims, at 95 % confidence, that
+at least a given share of all starts is quiet at each frequency of the band. The promise is this
+claim to the user.
+"""
 
 import itertools
 from typing import NamedTuple
@@ -13,14 +21,16 @@ from impact_damper.design.outcomes import Case, run, summarise
 from impact_damper.design.task import spread
 from impact_damper.design.tolerances import NOMINAL, VARIED
 
-# Number of samples of the tolerances, a power of 2 for Sobol's sequence. Largest number of
-# frequencies, and starts, with which each sample is run.
+# SAMPLES: number of samples, a power of 2 for Sobol's sequence.
+# SAMPLE_FREQUENCIES, SAMPLE_STARTS: frequencies, and starts at each, with which a sample is run.
 SAMPLES, SAMPLE_FREQUENCIES, SAMPLE_STARTS = 16, 7, 24
-# Number of gaps that are tried with all tolerances, and of frequencies and starts for each gap.
+# TRIED: number of gaps that are tried with deviations of all values.
+# TRIED_FREQUENCIES, TRIED_STARTS: frequencies, and starts at each, with which a gap is tried.
 TRIED, TRIED_FREQUENCIES, TRIED_STARTS = 5, 5, 12
-# New starts, not used by the design, at the nominal values and at each corner; most corners.
+# UNSEEN: new starts, not used by the design, at the nominal values and at each corner.
+# CORNERS: largest number of corners; of more, some are drawn.
 UNSEEN, CORNERS = 1000, 20
-# Probability that new starts wrongly count as a breach of the promise.
+# Probability with which a promise that is true is called broken by chance.
 FALSE_ALARM = 0.05
 
 
@@ -36,10 +46,11 @@ class Cloud(NamedTuple):
     share : numpy.ndarray, shape (m, 3)
         Share of all starts over the band that lead to quiet motions, with its 95 % interval.
     least : numpy.ndarray, shape (m,)
-        Share at the worst frequency.
+        Share of quiet starts at the worst frequency.
     starts : int
         Starts at each frequency.
     frequencies : int
+        Number of frequencies.
     """
 
     factors: np.ndarray
@@ -50,11 +61,11 @@ class Cloud(NamedTuple):
     frequencies: int
 
     def keeps(self, share) -> np.ndarray:
-        """Return whether starts agree with a claimed share of quiet starts, shape (m,) of bool.
+        """Return whether the starts of each set agree with a claimed share, shape (m,) of bool.
 
-        They disagree if the share over the band is smaller, or if the share at one frequency is so
-        much smaller that, with the share claimed, the probability of such a frequency in any row is
-        below FALSE_ALARM.
+        They disagree in two cases. Either the share of quiet starts over the band is smaller than
+        claimed. Or the share at one frequency is much smaller: if the claim were true, a share so
+        small at any frequency of any set would have a probability below FALSE_ALARM.
         """
         chance = bdtr(np.rint(self.least * self.starts), self.starts, share)
         agree = chance >= FALSE_ALARM / (self.frequencies * len(self.least))
@@ -62,10 +73,11 @@ class Cloud(NamedTuple):
 
 
 def sampled_factors(task) -> np.ndarray:
-    """Return the nominal values, then SAMPLES deviations spread over the tolerances.
+    """Return the nominal values, then SAMPLES samples of the tolerances.
 
-    The deviations are the first points of a scrambled Sobol sequence. Without tolerances only the
-    nominal values are returned.
+    The rows are factors of the nominal values, in the order of VARIED. The samples are the first
+    points of a scrambled Sobol sequence, which fills the tolerances evenly. Without tolerances only
+    the nominal values are returned.
     """
     names = [name for name in VARIED if task.tolerances.get(name)]
     factors = np.ones((SAMPLES + 1 if names else 1, len(VARIED)))
@@ -77,14 +89,17 @@ def sampled_factors(task) -> np.ndarray:
 
 
 def _possible(task, factors):
-    """Return factors, those of the restitution reduced where it would exceed 1."""
+    """Return the factors, reduced for the restitution where it would exceed 1."""
     place = VARIED.index("restitution")
     factors[:, place] = np.minimum(factors[:, place], 1 / task.restitution)
     return factors
 
 
 def corner_factors(task) -> np.ndarray:
-    """Return the nominal values, then corners of the tolerances, at most CORNERS of them."""
+    """Return the nominal values, then at most CORNERS corners of the tolerances.
+
+    The rows are factors of the nominal values, in the order of VARIED.
+    """
     widths = [task.tolerances.get(name, 0.0) for name in VARIED]
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)
@@ -96,12 +111,12 @@ def corner_factors(task) -> np.ndarray:
 
 
 def deviating_factors(task) -> np.ndarray:
-    """Return the nominal values, samples of the tolerances, and their corners."""
+    """Return the rows of `sampled_factors`, then the corners of `corner_factors`."""
     return np.vstack([sampled_factors(task), corner_factors(task)[1:]])
 
 
 def run_cloud(task, gap, factors, frequencies, starts, limit, stream, **running) -> Cloud:
-    """Return the motions at each set of deviations, over frequencies.
+    """Run motions at each set of deviations and each frequency, and return their `Cloud`.
 
     Parameters
     ----------
@@ -134,9 +149,10 @@ def run_cloud(task, gap, factors, frequencies, starts, limit, stream, **running)
 
 
 def sample_tolerances(task, gap, frequency, limit, **running) -> Cloud:
-    """Return the motions at samples and corners of all tolerances.
+    """Return the `Cloud` of the motions at samples and corners of all tolerances.
 
-    The motions are run at some frequencies of the band, one of which is `frequency` (Hz).
+    The motions are run at some frequencies of the band, one of which is `frequency` (Hz). `gap` and
+    `limit` are in mm.
     """
     few = task.few(SAMPLE_FREQUENCIES, frequency)
     running = {"settling": task.hurried} | running
@@ -147,10 +163,10 @@ def sample_tolerances(task, gap, frequency, limit, **running) -> Cloud:
 def choose_with_tolerances(task, comparison, choice, **running) -> Choice:
     """Return the choice of a robust gap, moved to where all tolerances together do least harm.
 
-    A comparison covers deviations of the gap only. Several robust gaps are therefore run at samples
-    and corners of all tolerances. Among the gaps whose starts agree with the claim, the one with
-    the smallest worst displacement is returned. If there is none, the gap with most quiet starts at
-    its worst sample is returned.
+    At a robust gap, deviations of the gap alone leave the damper quiet. Several robust gaps are
+    therefore run at samples and corners of all tolerances. If at some gaps the share of quiet
+    starts is large enough at every sample and corner, the gap among these with the smallest worst
+    displacement is returned. Otherwise the gap whose smallest share is largest is returned.
 
     Parameters
     ----------
@@ -178,24 +194,25 @@ def choose_with_tolerances(task, comparison, choice, **running) -> Choice:
 
 
 def check_unseen(task, gap, limit, **running) -> Cloud:
-    """Return the motions of UNSEEN new starts at the nominal values and at each corner."""
+    """Return the `Cloud` of UNSEEN new starts at the nominal values and at each corner."""
     starts = -(-UNSEEN // len(task.grid))
     factors = corner_factors(task)
     return run_cloud(task, gap, factors, task.grid, starts, limit, "unseen", **running)
 
 
 def promise(task, kind, samples, unseen) -> str:
-    """Return the flag of `promise`: what a design promises, and whether new starts confirm it.
+    """Return the value of the flag `promise`.
 
-    A design with a quiet gap promises that at its nominal values, at each frequency, at least
-    `task.share` of the starts lead to quiet motions. A robust design promises this within all
-    tolerances, provided that the samples and corners of the tolerances agree.
+    The flag says what a design promises, and whether new starts confirm the promise. A design with
+    a quiet gap promises that at its nominal values, at each frequency, at least `task.share` of the
+    starts lead to quiet motions. A robust design promises this within all tolerances, provided that
+    the samples and corners of the tolerances agree.
 
     Parameters
     ----------
     task : Task
     kind : str
-        Of `choose.Choice`.
+        The attribute of `choose.Choice`.
     samples, unseen : Cloud
         Motions at samples of the tolerances, and from new starts at nominal values and corners.
     """

@@ -17,7 +17,7 @@ class KeptSteps:
         Without a folder nothing is kept.
     made : dict
         All inputs of the design. A step is computed again if its file was made from other inputs or
-        by other sources of this package.
+        by another version of this package's source files.
     """
 
     def __init__(self, folder, made):
@@ -48,7 +48,7 @@ class KeptSteps:
 
 
 def _sources():
-    """Return a digest of all sources of the package."""
+    """Return a digest of all source files of the package."""
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parents[1].rglob("*.py")):
         digest.update(path.read_bytes())

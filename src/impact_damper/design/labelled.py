@@ -1,4 +1,9 @@
-"""Datasets of the steps of a design, in mm, Hz, N and multiples of nominal values."""
+"""Datasets (xarray) of the steps of a design, in mm, Hz, N and multiples of nominal values.
+
+A quiet motion stays below the quiet limit, a bound on the displacement. The quiet orbit is the
+symmetric periodic motion for which a damper is designed. A start is a random initial state. The
+classes that are turned into datasets here explain their attributes.
+"""
 
 import numpy as np
 import xarray as xr
@@ -10,11 +15,12 @@ from impact_damper.design.masses import is_best
 from impact_damper.design.tolerances import VARIED
 from impact_damper.machine.results import shown_variable
 
+# Ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
-    """Return a dataset of registered variables in the units in which they are shown."""
+    """Return a dataset of registered variables, which have units and descriptions."""
     made = {name: shown_variable(name, value) for name, value in values.items()}
     known = {name: shown_variable(name, value) for name, value in coordinates.items()}
     return xr.Dataset(made, known, {"source": SOURCE})
@@ -44,7 +50,7 @@ def screening_dataset(task, screening) -> xr.Dataset:
 
 
 def restitutions_dataset(trials) -> xr.Dataset:
-    """Return a `restitutions.Trials` as a dataset."""
+    """Return a `restitutions.Trials`, the best gap for each restitution, as a dataset."""
     values = {
         "tried_gap": trials.gap,
         "tried_displacement": trials.worst,
@@ -54,7 +60,7 @@ def restitutions_dataset(trials) -> xr.Dataset:
 
 
 def comparison_dataset(coarse, candidates) -> xr.Dataset:
-    """Return both comparisons of gaps as a dataset."""
+    """Return the coarse comparison of gaps and that of the candidates as a dataset."""
     values = {
         "displacement_limit": candidates.limit,
         "coarse_displacement": coarse.worst,
@@ -72,7 +78,7 @@ def comparison_dataset(coarse, candidates) -> xr.Dataset:
 
 
 def comparison_of(data, task) -> Comparison:
-    """Return the comparison of the candidates in a dataset of `comparison_dataset`."""
+    """Return the comparison of the candidates that `comparison_dataset` stored in `data`."""
     names = [
         name
         for name, values in data.data_vars.items()
@@ -88,7 +94,7 @@ def comparison_of(data, task) -> Comparison:
 
 
 def cliff_dataset(choice, edges, lives) -> xr.Dataset:
-    """Return the gap chosen, the ends of the quiet gaps, and lives of motions near one end.
+    """Return a dataset of the chosen gap, the ends of the quiet gaps, and lives of chaotic motions.
 
     Parameters
     ----------
@@ -112,7 +118,9 @@ def cliff_dataset(choice, edges, lives) -> xr.Dataset:
 
 
 def branch_dataset(task, found, parameter) -> xr.Dataset:
-    """Return a branch of quiet orbits as a dataset, with the ends of their stability.
+    """Return a branch, the curve of quiet orbits over a parameter, as a dataset.
+
+    It includes the values of the parameter between which the orbit is stable.
 
     Parameters
     ----------
@@ -147,7 +155,10 @@ def branch_dataset(task, found, parameter) -> xr.Dataset:
 
 
 def _stability_end(found, step):
-    """Return coordinate and name of the first change of stability along a branch from its start."""
+    """Return where, and by which event, stability is first lost along a branch from its start.
+
+    The first result is the parameter of the branch. `step` is -1 or 1, the direction.
+    """
     branch, k = found.branch, found.start
     events = {place: event.kind for place, event in branch.events}
     while 0 <= k + step < len(branch.points):
@@ -159,7 +170,7 @@ def _stability_end(found, step):
 
 
 def dependence_dataset(dependence) -> xr.Dataset:
-    """Return a `refine.Dependence` as a dataset."""
+    """Return a `refine.Dependence`, derivatives of the quiet orbit, as a dataset."""
     values = {
         "displacement_change": dependence.displacement,
         "modulus_change": dependence.modulus,
@@ -168,13 +179,14 @@ def dependence_dataset(dependence) -> xr.Dataset:
 
 
 def deviations_dataset(samples, unseen, promise, limit) -> xr.Dataset:
-    """Return samples of the tolerances, motions from new starts, and the promise as a dataset.
+    """Return the tests of a design with deviating values as a dataset.
 
     Parameters
     ----------
     samples, unseen : deviations.Cloud
+        Motions at samples of the tolerances, and motions from new starts.
     promise : str
-        Flag of `promise`.
+        Result of `deviations.promise`.
     limit : float
         Quiet limit, mm.
     """
@@ -221,7 +233,10 @@ def maps_dataset(forces, dampers) -> xr.Dataset:
 
 
 def masses_dataset(found) -> xr.Dataset:
-    """Return a list of `masses.Alternative` as a dataset, by rising mass."""
+    """Return a list of `masses.Alternative`, dampers of other masses, as a dataset.
+
+    The dampers are sorted by rising mass.
+    """
     found = sorted(found, key=lambda each: each.task.mass)
     masses = np.array([each.task.mass for each in found])
     costs = np.array([(each.worst, each.force) for each in found])

@@ -1,4 +1,8 @@
-"""Dampers of other masses for the same machine and band, with their displacements and forces."""
+"""Dampers of other masses for the same machine and band, with their displacements and forces.
+
+A reduced design chooses the gap for each mass, with fewer frequencies, gaps and starts (initial
+states) than the design of the damper itself.
+"""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -13,8 +17,10 @@ from impact_damper.performance.costs import measured_costs
 
 # Masses divided by the nominal mass.
 MASSES = (0.5, 0.7, 1.4, 2.0)
-# A reduced design for each mass has at most these numbers of frequencies, of gaps and starts in the
-# coarse comparison, and of starts in the last comparison.
+# Largest numbers in a reduced design.
+# FREQUENCIES: frequencies of the band.
+# GAPS, COARSE_STARTS: gaps, and starts at each gap and frequency, from which the gap is chosen.
+# STARTS: starts at the chosen gap and at each frequency.
 FREQUENCIES, GAPS, COARSE_STARTS, STARTS = 5, 20, 8, 24
 # Cycles over which the contact force of a motion that is not periodic is measured.
 WATCHED = 100
@@ -26,15 +32,17 @@ class Alternative(NamedTuple):
     Attributes
     ----------
     task : Task
-        With this mass.
+        The task with this mass.
     gap : float
         mm.
     worst : float
         Largest displacement over the band, the starts and the tolerated deviation of the gap, mm.
     share : float
-        Share of starts that lead to quiet motions, at the worst frequency and gap.
+        Share of starts that lead to quiet motions, at the worst frequency, and at the worst gap
+        within the tolerance.
     force : float
-        Largest contact force of the largest motions at the nominal gap, N; NaN after an escape.
+        Largest contact force of the largest motion at each frequency at the nominal gap, N; NaN if
+        a motion escapes.
     """
 
     task: object
@@ -62,7 +70,7 @@ def alternatives(task, limit, *, workers=1, progress=None) -> list[Alternative]:
 
 
 def judge(task, gap, limit, **running) -> Alternative:
-    """Return the worst displacement and least share of a damper over band and tolerance.
+    """Return the damper with a given gap as an `Alternative`.
 
     Parameters
     ----------
@@ -87,7 +95,7 @@ def judge(task, gap, limit, **running) -> Alternative:
 
 
 def _largest_force(task, case, record):
-    """Return the largest contact force of a motion, N."""
+    """Return the largest contact force of a motion, N, from its `records.MOTION`."""
     if not np.isfinite(record["maximum_displacement"]):
         return np.nan
     p = task.packed(*case)
@@ -97,7 +105,10 @@ def _largest_force(task, case, record):
 
 
 def is_best(masses, costs) -> np.ndarray:
-    """Return which of several dampers are on the Pareto front: none other is better in all costs.
+    """Return which of several dampers are on the Pareto front.
+
+    A damper is on the front unless another one is at most as heavy, has at most the same costs, and
+    is lighter or better in one of the costs.
 
     Parameters
     ----------

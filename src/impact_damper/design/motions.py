@@ -1,4 +1,9 @@
-"""Motions with the damper chosen, over the band: sizes, peaks, impacts, forces and losses."""
+"""Motions with the chosen damper over the band: sizes, peaks, impacts, forces and losses.
+
+A start is an initial state. Random starts are drawn. Placed starts are chosen states: motions at
+neighbouring frequencies, and motions of the machine without the damper. A motion is quiet if its
+largest displacement is at most the quiet limit.
+"""
 
 import numpy as np
 import xarray as xr
@@ -14,9 +19,10 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.performance.costs import measured_costs, pressure_costs
 from impact_damper.system.packed import FREQUENCY
 
-# Samples in a cycle, and cycles over which a motion that is not periodic is measured.
+# SAMPLES: number of states in a forcing cycle from which a motion is measured.
+# WATCHED: number of cycles over which a motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
-# Variables over the frequency, with the costs that they hold.
+# Variables of the dataset, with the name of the cost (`performance.costs`) and its quantity.
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
     "contact_force_by_frequency": ("contact_force", "force"),
@@ -31,8 +37,9 @@ COSTS = {
 def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     """Return the largest motion to which starts lead at each frequency of the band, with its costs.
 
-    Motions in which the loose mass touches no wall are listed apart unless random starts lead to
-    them, since they require a loose mass that does not drift at all.
+    Motions in which the loose mass touches no wall require a loose mass that does not drift at all.
+    Unless random starts lead to such a motion, it is not counted here; the largest of them is
+    stored as `untouched_displacement`.
 
     Parameters
     ----------
@@ -40,10 +47,11 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     gap : float
         Gap of the design, mm.
     response : xarray.Dataset
-        Of `frequency_response` with this gap at the frequencies of the task, in SI units.
+        Result of `frequency_response` with this gap at the frequencies of the task, in SI units.
     limit : float
         Quiet limit, mm.
     contact : HertzContact or None
+        Radius and materials from which the pressure in the contact is computed.
     """
     sizes = response["maximum_displacement"].values
     quiet = are_quiet(sizes, response["outcome"].values, limit)
@@ -72,9 +80,10 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
 
 
 def _measured(task, case, size, state, periods, contact):
-    """Return the measurements of one motion, keyed by registered name.
+    """Return the measured numbers of one motion, keyed by the name of the dataset variable.
 
-    `size` is its largest displacement found so far (mm), `state` its state at the strobe.
+    `size` is the largest displacement that earlier runs found (mm), infinite after an escape.
+    `state` is a state of the motion at the strobe (W T = pi/2).
     """
     if not np.isfinite(size):
         unknown = ("motion_rms", "motion_peak_mean", "motion_peak_high", "pressure_by_frequency")

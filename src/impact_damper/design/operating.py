@@ -1,8 +1,11 @@
 """The operating range of a design: maps over two parameters, with the edges of the quiet orbit.
 
-A map counts in each cell the starts that lead to quiet motions. On the edges the quiet orbit folds,
-loses its symmetry or meets a Neimark-Sacker point. They bound the region in which the orbit is
-stable; starts need not lead to it there.
+A start is a random initial state, and a motion is quiet if its largest displacement is at most the
+quiet limit. In each cell of a map the starts that lead to quiet motions are counted. The quiet
+orbit is the symmetric periodic motion for which a damper is designed. The edges are curves on which
+it loses its stability: at a fold, by a loss of symmetry or at a Neimark-Sacker point. They bound
+the region in which the orbit is stable. Within the region many starts may still lead to other
+motions.
 """
 
 from typing import NamedTuple
@@ -16,9 +19,12 @@ from impact_damper.edges.maps import map_edges
 from impact_damper.orbits.shooting import shoot
 from impact_damper.system.bounds import RESTITUTION_RANGE
 
-# Largest number of cells along each axis of a map (fewer for a task with few candidates), and
-# starts in a cell. Largest ratio of a gap to the nominal one; least restitution.
+# CELLS: largest number of cells along each axis of a map; fewer for a task with few candidates.
+# CELL_STARTS: starts in a cell.
 CELLS, CELL_STARTS = 11, 12
+# Ends of the map over gap and restitution.
+# GAPS: least and greatest gap, divided by the nominal gap.
+# LEAST_RESTITUTION: least restitution; the greatest is 1.
 GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
 # Largest number of cells along each axis of the grid on which edges are found.
 EDGE_CELLS = 14
@@ -32,6 +38,7 @@ class Map(NamedTuple):
     Attributes
     ----------
     first, second : numpy.ndarray, shapes (m,), (n,)
+        Values of the two parameters.
     share, worst : numpy.ndarray, shape (m, n)
         Share of starts that lead to quiet motions, and largest displacement of all motions, mm.
     """
@@ -43,9 +50,9 @@ class Map(NamedTuple):
 
 
 def map_forces(task, gap, limit, shares, **running) -> Map:
-    """Return the motions over frequency (Hz) and `shares`, multiples of the nominal force.
+    """Return the `Map` over frequency (Hz) and force, given as multiples of the nominal force.
 
-    The quiet limit is proportional to the force.
+    `shares` are these multiples. The quiet limit is proportional to the force.
     """
     frequencies, shares = task.few(CELLS), np.asarray(shares)
     place = VARIED.index("force")
@@ -58,7 +65,7 @@ def map_forces(task, gap, limit, shares, **running) -> Map:
 
 
 def map_dampers(task, gap, frequency, limit, **running) -> Map:
-    """Return the motions at a frequency over gap (mm) and restitution."""
+    """Return the `Map` over gap (mm) and restitution at a frequency (Hz)."""
     count = min(CELLS, task.candidates + 3)
     gaps = gap * np.geomspace(*GAPS, count)
     restitutions = np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], count)
@@ -72,12 +79,15 @@ def map_dampers(task, gap, frequency, limit, **running) -> Map:
 
 
 def _with(place, factor):
-    """Return the nominal factors with one of them replaced."""
+    """Return the factors of the values in VARIED: 1, except `factor` at the index `place`."""
     return tuple(factor if k == place else 1.0 for k in range(len(VARIED)))
 
 
 def _map(task, first, second, cells, stream, running):
-    """Return the motions in the cells of a map, each with a quiet limit of its own."""
+    """Return the `Map` over `first` and `second`.
+
+    `cells` are pairs of a `Case` and its quiet limit (mm), sorted by `first`, then by `second`.
+    """
     cases, limits = zip(*cells, strict=True)
     running = {"settling": task.hurried} | running
     records = run(task, cases, CELL_STARTS, stream, **running)
@@ -93,7 +103,8 @@ class Curves(NamedTuple):
     Attributes
     ----------
     values : numpy.ndarray, shape (n, 2)
-        Points of all edges, one edge after the other, that bound a stable region.
+        Both parameters at the points of all edges, one edge after the other. Points at which the
+        orbit is unstable on both sides are left out.
     kind : numpy.ndarray of int, shape (n,)
         Flag of `edge_kind`.
     number : numpy.ndarray of int, shape (n,)
@@ -153,7 +164,12 @@ def damper_curves(task, gap, frequency, orbit) -> Curves:
 
 
 def _curves(family, orbit, values, axes):
-    """Return the edges of the branch of an orbit; none if no orbit is found near the given one."""
+    """Return the edges of a symmetric orbit over two parameters.
+
+    `family` maps both parameters to packed parameters, and `values` are the parameters of the
+    orbit. `axes` are the values of each parameter on a grid over which the orbit is followed. If it
+    cannot be followed, no edges are returned, and `lost` is 1.
+    """
     if orbit is None:
         return NO_CURVES
     symmetric, _ = shoot(family(*values), orbit.state, 1, orbit.phase, symmetric=True)

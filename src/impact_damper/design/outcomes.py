@@ -1,8 +1,9 @@
 """Quiet motions and others from random starts, for many gaps and frequencies at once.
 
-A motion is quiet if its largest displacement is at most the quiet limit, whether it is periodic or
-not. A motion that has not settled is known only for some cycles, and later peaks may be larger. It
-is quiet if LATER times its largest displacement is at most the limit.
+A start is an initial state. A motion is quiet if its largest displacement is at most the quiet
+limit, whether it is periodic or not. A motion that has not settled to a periodic orbit is known
+only for some cycles, and later peaks may be larger. It counts as quiet if LATER times its largest
+displacement is at most the limit.
 """
 
 from typing import NamedTuple
@@ -17,8 +18,8 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, CHAOTIC, NON_COLLIDING, SETTLED
 from impact_damper.motions.start_states import random_starts
 
-# Outcomes of motions that continue unchanged for good, and outcomes that a longer run would not
-# change.
+# LASTING: outcomes of motions that continue unchanged for good.
+# CERTAIN: outcomes that a longer run would not change.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST)
 CERTAIN = (*LASTING, CHAOTIC)
 # Purposes for which starts are drawn. Each purpose has its own random stream, so that no start is
@@ -53,17 +54,19 @@ class Case(NamedTuple):
 
 
 def draw_starts(task, cases, count, stream, *, workers=1):
-    """Return random starts, as wide as the machine of each case, shape (cases, count, 4).
+    """Return random starts for each case, shape (cases, count, 4).
+
+    Their range grows with the motions of the machine without the damper in each case.
 
     Parameters
     ----------
     task : Task
     cases : sequence of Case
     count : int
-        Random starts in each case.
+        Number of starts in each case.
     stream : str
-        One of STREAMS. The starts of a case are drawn with the seed of the task, the stream and the
-        index of the case.
+        One of STREAMS. The seed of the random numbers consists of the seed of the task, the index
+        of the stream and the index of the case.
     workers : int
         Threads. They find the free motions that determine the range of the starts.
     """
@@ -81,7 +84,7 @@ def draw_starts(task, cases, count, stream, *, workers=1):
 
 
 def run_starts(task, cases, starts, *, settling=None, workers=1, progress=None):
-    """Run motions from starts of all cases until they settle, in one ensemble.
+    """Run the motions from all starts of all cases until they settle.
 
     Parameters
     ----------
@@ -89,13 +92,14 @@ def run_starts(task, cases, starts, *, settling=None, workers=1, progress=None):
     cases : sequence of Case
     starts : array, shape (cases, count, 4)
     settling : Settling, optional
-        In place of the settling of the task.
+        Lengths and tolerances of the runs, in place of those of the task.
     workers, progress
         As in `ensemble.settle`.
 
     Returns
     -------
     numpy.ndarray of records.MOTION, shape (cases, count)
+        Outcome, largest displacement and other numbers of each motion.
     """
     count = starts.shape[1]
     rows = np.array([task.packed(*case) for case in cases])
@@ -121,19 +125,19 @@ def are_quiet(sizes, outcomes, limit) -> np.ndarray:
     Parameters
     ----------
     sizes, outcomes, limit : array
-        Largest displacements, flags of `outcome`, and displacement limits in the unit of `sizes`;
-        broadcast together.
+        Largest displacements, flags of `outcome`, and quiet limits in the unit of `sizes`. The
+        three are broadcast together.
     """
     return np.where(np.isin(outcomes, LASTING), 1.0, LATER) * sizes <= limit
 
 
 def quiet_motions(task, records, limit) -> np.ndarray:
-    """Return which of several motions are quiet, from their records; the limit is in mm."""
+    """Return which motions in an array of `records.MOTION` are quiet; the limit is in mm."""
     return are_quiet(task.millimetres(records["maximum_displacement"]), records["outcome"], limit)
 
 
 def summarise(task, records, limit) -> dict:
-    """Return numbers on the motions of each case, keyed by registered name.
+    """Return statistics of the motions of each case, keyed by the name of a dataset variable.
 
     Parameters
     ----------
@@ -145,11 +149,12 @@ def summarise(task, records, limit) -> dict:
     Returns
     -------
     dict of numpy.ndarray, shape (cases,)
-        `start_count`, `start_quiet_share` and `start_quiet_interval`, shape (cases, 2);
-        `worst_displacement` and `median_displacement` of the motions, mm; `quiet_time_median` and
-        `quiet_time_late`, the cycles in which quiet motions settle (NaN if none settles);
-        `chaotic_share`; `uncertain_share` of the motions that are neither settled nor certainly
-        chaotic.
+        `start_count`; `start_quiet_share` and its 95 % confidence interval `start_quiet_interval`,
+        shape (cases, 2); largest displacement of all motions, `worst_displacement`, and its median,
+        `median_displacement`, mm; cycles in which half of the quiet motions have settled,
+        `quiet_time_median`, and in which 95 % have, `quiet_time_late` (NaN if none settles);
+        `chaotic_share`; share of motions that are neither settled nor certainly chaotic,
+        `uncertain_share`.
     """
     size = task.millimetres(records["maximum_displacement"])
     count = size.shape[1]

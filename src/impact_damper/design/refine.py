@@ -1,9 +1,12 @@
 """The smallest stable quiet orbit over the gap, found exactly, and derivatives of its size.
 
-At each gap Newton's method gives the orbit, and the variational equations give the derivatives of
-its largest displacement and of the modulus of its largest multiplier. The displacement is smallest
-where its derivative with respect to the gap changes sign or, if the modulus reaches 1 before, at
-that end of stability.
+The quiet orbit is the symmetric periodic motion for which a damper is designed. At each gap
+Newton's method gives the orbit. The variational equations give the derivatives of its largest
+displacement and of the modulus of its largest Floquet multiplier. The displacement is smallest
+where its derivative with respect to the gap changes sign. If the modulus reaches 1 before, the
+smallest stable orbit lies at this end of stability.
+
+A map holds the quiet orbits at several gaps and frequencies. It serves as a first guess.
 """
 
 from typing import NamedTuple
@@ -21,9 +24,9 @@ from impact_damper.system.packed import (
     SIMPLE,
 )
 
-# Accuracy of logarithms of gaps.
+# Accuracy of the logarithms of gaps.
 ACCURACY = 1e-10
-# Words for parameters of `packed.DESIGN` that have other ones for a machine.
+# Names of parameters of `packed.DESIGN` that are called differently for a machine in SI units.
 SAID = {"cubic": "cubic_stiffness", "clearance": "gap", "mass_ratio": "mass"}
 
 
@@ -35,16 +38,18 @@ class BestOrbit(NamedTuple):
     frequency : float
         Hz.
     gap, displacement, modulus : float
-        mm, mm, and modulus of its largest Floquet multiplier; NaN if there is none.
+        Gap (mm), largest displacement (mm), and modulus of the largest Floquet multiplier; NaN if
+        there is no such orbit.
     edge : float
-        Smallest gap above `gap` at which the modulus reaches 1, mm; NaN if the orbits of the map
-        end before.
+        Smallest gap above `gap` at which the modulus reaches 1, mm; NaN if the modulus stays below
+        1 in the map.
     status : str
-        Flag of `best_orbit_status`. "smooth": the displacement has a minimum over the gap. "kink":
-        a minimum at which two peaks of the motion are equal. "stability_ends": the orbit is
-        smallest where it ceases to be stable. "range_ends": it is smallest at the first or last gap
-        of the map with an orbit. "not_refined": no orbit was found between gaps of the map, and the
-        numbers hold at a gap of the map. "absent": there is no stable orbit.
+        Value of the flag `best_orbit_status`. "smooth": the displacement has a smooth minimum over
+        the gap. "kink": it has a minimum with a kink, because two peaks of the motion are equal
+        there. "stability_ends": the orbit is smallest where it ceases to be stable. "range_ends":
+        it is smallest at the first or last gap of the map with an orbit. "not_refined": no orbit
+        was found between gaps of the map, and the numbers hold at a gap of the map. "absent": there
+        is no stable orbit.
     """
 
     frequency: float
@@ -61,8 +66,8 @@ NO_ORBIT = BestOrbit(np.nan, np.nan, np.nan, np.nan, np.nan, "absent")
 def refine(task, grid, stable) -> BestOrbit:
     """Return the smallest stable quiet orbit of a map.
 
-    It is searched for at one frequency: among those with a stable quiet orbit, the one at which the
-    machine alone moves most.
+    It is searched for at one frequency. Among the frequencies with a stable quiet orbit, this is
+    the one at which the machine without damper moves most.
 
     Parameters
     ----------
@@ -70,7 +75,7 @@ def refine(task, grid, stable) -> BestOrbit:
     grid : grid_following.Grid
         Quiet orbits over ascending gaps and the frequencies of the task.
     stable : array, shape (m, n)
-        Displacements of the stable ones, NaN elsewhere.
+        Largest displacements (mm) of the stable orbits, NaN elsewhere.
     """
     known = np.isfinite(stable).any(axis=0)
     if not known.any():
@@ -89,7 +94,15 @@ def refine(task, grid, stable) -> BestOrbit:
 
 
 class _Column:
-    """The quiet orbits at one frequency, as functions of the logarithm x of the clearance."""
+    """The quiet orbits at one frequency, as functions of the logarithm x of the clearance.
+
+    Parameters
+    ----------
+    grid : grid_following.Grid
+        The map. Its rows are gaps, and its columns frequencies.
+    place : int
+        Index of the frequency.
+    """
 
     def __init__(self, grid, place):
         self.x, self.found = np.log(grid.points[:, place, CLEARANCE]), {}
@@ -100,7 +113,8 @@ class _Column:
     def at(self, x) -> Sensitivity:
         """Return the orbit at x with its derivatives.
 
-        Newton's method starts on the tangent to the branch at the nearest orbit of the map.
+        The first guess of Newton's method is extrapolated linearly from the nearest orbit of the
+        map.
 
         Raises
         ------
@@ -134,8 +148,10 @@ class _Column:
         return found.modulus - 1, found.modulus_slopes[CLEARANCE] * np.exp(x)
 
     def smallest(self, row):
-        """Return the x of the smallest stable orbit near the smallest one of the map, and a "
-        "status."""
+        """Return the x of the smallest stable orbit near a row of the map, and a status.
+
+        The row is that of the smallest stable orbit of the map. The status is that of `BestOrbit`.
+        """
         here = self.x[row]
         step = 1 if self.slope(here) < 0 else -1
         if row + step not in self.orbits:
@@ -150,18 +166,18 @@ class _Column:
         return self.edge_between(here, there), "stability_ends"
 
     def edge_between(self, inside, outside):
-        """Return the x at which the modulus reaches 1, by Newton's method within a bracket."""
+        """Return the x at which the modulus reaches 1, between two values of x."""
         ends = sorted((inside, outside))
         (low, _), (high, _) = self.excess(ends[0]), self.excess(ends[1])
         guess = ends[0] + (ends[1] - ends[0]) * low / (low - high)
         found = root_scalar(self.excess, x0=guess, fprime=True, method="newton", xtol=ACCURACY)
         if found.converged and ends[0] <= found.root <= ends[1]:
             return float(found.root)
-        # where two multipliers meet, the modulus has a kink
+        # Newton's method fails if the modulus has a kink, where two multipliers meet.
         return brentq(lambda x: self.excess(x)[0], *ends, xtol=ACCURACY)
 
     def edge_above(self, row):
-        """Return the least x above a row at which the modulus reaches 1, or NaN."""
+        """Return the least x above a row of the map at which the modulus reaches 1, or NaN."""
         try:
             while self.at(self.x[row]).modulus < 1:
                 row += 1
@@ -173,15 +189,15 @@ class _Column:
 
 
 class Dependence(NamedTuple):
-    """Changes of an orbit, per cent, when a parameter of machine or damper grows by 1 per cent.
+    """Changes of an orbit, in per cent, if a parameter of machine or damper grows by 1 per cent.
 
     Attributes
     ----------
     names : list of str
         The parameters; "mass" is the mass of the damper.
     displacement, modulus : numpy.ndarray, shape (n,)
-        Changes of the largest displacement and of the modulus of the largest multiplier; NaN
-        without an orbit or where it has no derivative.
+        Changes of the largest displacement and of the modulus of the largest multiplier. NaN
+        without an orbit, or at a kink, which has no derivative.
     """
 
     names: list
@@ -190,7 +206,7 @@ class Dependence(NamedTuple):
 
 
 def dependence(task, orbit) -> Dependence:
-    """Return the exact relative derivatives of an orbit; NaN if there is no orbit."""
+    """Return the exact relative derivatives of an orbit as a `Dependence`; NaN without an orbit."""
     names = [SAID.get(name, name) for name in DESIGN]
     missing = np.full(len(names), np.nan)
     if orbit is None:

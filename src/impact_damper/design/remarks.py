@@ -1,4 +1,8 @@
-"""Remarks in the conclusion of a design on the excitation and on the restitution of the walls."""
+"""Remarks in the conclusion of a design on the excitation and on the restitution of the walls.
+
+The quiet orbit is the symmetric periodic motion for which a damper is designed. The excitation is
+the amplitude of the force, or what causes it, as a multiple of the nominal value.
+"""
 
 import numpy as np
 
@@ -7,9 +11,10 @@ from impact_damper.data.datasets import flag
 from impact_damper.data.design_ranges import known_range, stable_range
 from impact_damper.design.restitutions import best_of
 
-# Relative excess of the restitution of walls that cannot pull above which a remark is made.
+# In the model the dashpot of a wall may pull the loose mass at the end of a contact. A remark is
+# made if a wall that cannot pull has a restitution that is larger by more than this share.
 EXCESS = 0.1
-# Distance of an end of the range of excitations from 1 below which the range is called narrow.
+# A range of excitations is called narrow if one of its ends differs from 1 by less than CLOSE.
 CLOSE = 0.1
 NARROW = "This range is narrow: a small change of the excitation leaves it. "
 
@@ -17,8 +22,9 @@ NARROW = "This range is narrow: a small change of the excitation leaves it. "
 def excitations(data) -> str:
     """Return sentences on the excitations between which the quiet orbit is stable.
 
-    The map of edges covers the band. Its edges next to the nominal excitation bound the range that
-    holds at all frequencies.
+    An edge is a curve over frequency and excitation on which the orbit loses its stability. The
+    edges nearest to the nominal excitation, at any frequency of the band, bound the range of
+    excitations in which the orbit is stable at all frequencies.
     """
     here = stable_range(data, "force")
     if not here:
@@ -48,7 +54,7 @@ def excitations(data) -> str:
 
 
 def tried_restitutions(data) -> str:
-    """Return sentences on the best restitution, if it is free within a range."""
+    """Return sentences on the best restitution, if the user left it free within a range."""
     if "tried_restitution" not in data:
         return ""
     values = data["tried_restitution"].values

@@ -1,4 +1,4 @@
-"""Choice of a restitution that is free within a range, by coarse comparisons of gaps."""
+"""Choice of a restitution that the user left free within a range, by coarse comparisons of gaps."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -21,7 +21,7 @@ COUNT = 5
 
 
 class Trials(NamedTuple):
-    """The best gap for each of several restitutions.
+    """The best gap for each of n restitutions.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Trials(NamedTuple):
     worst : numpy.ndarray, shape (n,)
         Largest displacement over the band, the starts and the tolerated deviation of the gap, mm.
     kind : list of str
-        Of `choose.Choice`.
+        Kind of each choice, see `choose.Choice`.
     """
 
     restitution: np.ndarray
@@ -41,19 +41,23 @@ class Trials(NamedTuple):
 
 
 def best_of(worst, kinds) -> int:
-    """Return the index of the smallest worst displacement among those of the best kind of choice.
+    """Return the index of the best of n trials.
+
+    Among the trials with the best kind of choice, this is the one with the smallest displacement.
 
     Parameters
     ----------
     worst : array, shape (n,)
+        Largest displacement in each trial.
     kinds : array, shape (n,)
-        Flags of `tried_choice`; the best kind has the smallest number.
+        Kind of choice in each trial, as flags of `tried_choice`. The best kind has the smallest
+        number.
     """
     return int(np.lexsort((worst, kinds))[0])
 
 
 def try_restitutions(task, ends, **running) -> Trials:
-    """Return the best gap for several restitutions, by coarse comparisons.
+    """Return the best gap for COUNT restitutions, by coarse comparisons.
 
     Parameters
     ----------
@@ -80,7 +84,7 @@ def try_restitutions(task, ends, **running) -> Trials:
 
 
 def free_restitution(given, restitution, folder, running):
-    """Return the restitution of a design and, if it is free, a dataset of those tried.
+    """Return the restitution of a design and, if it is free, a dataset of the trials.
 
     Parameters
     ----------

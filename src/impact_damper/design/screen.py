@@ -1,10 +1,13 @@
-"""First look at a design: the machine alone, rules for the gap, and exact quiet orbits.
+"""Screening, the first look at a design: the machine alone, rules for the gap, exact quiet orbits.
 
-The screening answers each question with the cheapest model. Harmonic balance gives the response
-without the damper. The flight rule and, for a linear machine, the slow invariant manifold give the
-range of gaps. A few motions give quiet orbits, and Newton's method follows these orbits over gap
-and frequency with their multipliers. Motions from many starts are run only later, by the
-comparisons.
+The quiet orbit is the symmetric periodic motion for which a damper is designed. The loose mass
+presses each wall once in a forcing cycle. The screening answers each question with the cheapest
+model. Harmonic balance gives the response without the damper. Rule (18) of the paper gives the
+range of gaps. Two better rules are stored for comparison: the flight rule, in which the loose mass
+flies at constant speed between the walls, and, for a linear machine, the slow invariant manifold,
+a theory for small mass ratios. A few motions give quiet orbits, and Newton's method follows these
+orbits over gap and frequency. Motions from many starts (initial states) are run only later, by the
+comparisons of gaps.
 """
 
 from typing import NamedTuple
@@ -18,13 +21,17 @@ from impact_damper.literature.slow_invariant_manifold import VibroImpactAbsorber
 from impact_damper.orbits.quiet_orbits import dominant_root, is_symmetric_pair, quiet_orbits
 from impact_damper.system.packed import CLEARANCE
 
-# Gaps of the map of quiet orbits: the largest gap, divided by the gap of rule (18) at the lowest
-# frequency, and the number of gaps.
+# The map holds the quiet orbits at several gaps and frequencies.
+# MOST_GAP: largest gap, divided by the largest gap of rule (18) in the band.
+# GAPS: number of gaps.
 MOST_GAP, GAPS = 1.95, 40
-# Gap of the flight rule divided by that of rule (18), near e = 1 (`theory.straight_flight`).
+# Gap of the flight rule divided by the gap of rule (18), for a restitution near 1
+# (`theory.straight_flight`).
 FLIGHT = 1.14
-# First search for quiet orbits: random starts, gaps divided by the gap of the flight rule, and
-# number of frequencies.
+# First search for quiet orbits.
+# SEEDED: number of random starts at each gap and frequency.
+# SEED_GAPS: gaps, divided by the gap of the flight rule.
+# SEED_FREQUENCIES: number of frequencies.
 SEEDED = 16
 SEED_GAPS = (0.3, 0.5, 0.7, 0.9, 1.05)
 SEED_FREQUENCIES = 5
@@ -38,18 +45,19 @@ class Screening(NamedTuple):
     Attributes
     ----------
     rule_gap, manifold_gap : float
-        Gap by the flight rule at the worst frequency of the task, and gap by the slow invariant
-        manifold at the resonance, mm. `manifold_gap` is NaN unless the spring is linear and
-        contacts lose energy.
+        Gap by the flight rule at the frequency at which the machine without damper moves most, and
+        gap by the slow invariant manifold at the resonance, mm. `manifold_gap` is NaN unless the
+        spring is linear and contacts lose energy.
     gaps : numpy.ndarray, shape (m,)
         Gaps of the map of quiet orbits, mm.
     displacement, modulus : numpy.ndarray, shape (m, n)
-        Largest displacement of the quiet orbit (mm), and modulus of its largest multiplier over
-        half a period, at each gap and frequency of the task; NaN where no quiet orbit was found.
+        Largest displacement of the quiet orbit (mm), and modulus of its largest Floquet multiplier
+        over half a period, at each gap and frequency of the task; NaN where no quiet orbit was
+        found. The orbit is stable if the modulus is below 1.
     best : BestOrbit
         The smallest stable quiet orbit.
     limit : float
-        Provisional quiet limit, mm.
+        Provisional quiet limit, mm: a motion with a smaller displacement is quiet.
     motions : int
         Number of motions that were run.
     """
@@ -124,9 +132,9 @@ def screen(task, *, workers=1, progress=None) -> Screening:
 def _limit(task, best):
     """Return the provisional quiet limit, mm: the displacement limit of the task, if it has one.
 
-    Otherwise the limit is the geometric mean of the displacements of the machine alone and of the
-    best orbit at its frequency: a motion is quiet if, on a logarithmic scale, it is nearer to the
-    orbit. Without an orbit the limit is half of the displacement of the machine alone.
+    Otherwise the limit is the geometric mean of two displacements: that of the best orbit, and that
+    of the machine without damper at the same frequency. On a logarithmic scale a quiet motion is
+    nearer to the orbit. Without an orbit the limit is half of the displacement without damper.
     """
     if task.displacement_limit is not None:
         return 1e3 * task.displacement_limit
@@ -137,7 +145,10 @@ def _limit(task, best):
 
 
 def _manifold_gap(task):
-    """Return the gap (m) of smallest response at the natural frequency by the manifold, or NaN."""
+    """Return the gap (m) with the smallest response at the natural frequency, or NaN.
+
+    It follows from the slow invariant manifold (`literature.slow_invariant_manifold`).
+    """
     machine = task.machine
     if machine.cubic_stiffness or not machine.linear_stiffness or task.restitution == 1:
         return np.nan

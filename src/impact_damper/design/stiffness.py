@@ -4,15 +4,15 @@ from impact_damper.design.task import Task
 from impact_damper.machine.hertz import HertzContact
 from impact_damper.machine.machine import Machine
 
-# Contact stiffness of a typical damper, dimensionless.
+# Dimensionless contact stiffness that completes a task here. Any allowed value would do.
 TYPICAL = 2000.0
 
 
 def contact_stiffness_of(machine, mass, band, stiffness, contact):
     """Return the contact stiffness given or, without one, the stiffness of a contact after Hertz.
 
-    Hertz's contact is evaluated at the speed with which the loose mass crosses the gap of the
-    flight rule in half a cycle, at the middle of the band.
+    Its stiffness grows with the speed of impact. The speed taken here is that with which the loose
+    mass crosses the gap of rule (18) of the paper in half a cycle, at the middle of the band.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def contact_stiffness_of(machine, mass, band, stiffness, contact):
         raise ValueError("contact_stiffness: must be given, or contact in its place")
     if stiffness is not None:
         return stiffness
-    # restitution and stiffness have no effect on the gap of the flight rule
+    # A task needs a restitution and a stiffness, which have no effect on the gap of the rule.
     known = isinstance(machine, Machine)
     typical = machine.scales.to_si(TYPICAL, "stiffness") if known else TYPICAL
     asked = {"machine": machine, "mass": mass, "band": band}

@@ -1,4 +1,9 @@
-"""A design task: machine, loose mass, band of frequencies, tolerances and confidence."""
+"""A design task: machine, loose mass, band of frequencies, tolerances and confidence.
+
+Rule (18) of the paper is m2 w^2 (gap/2) = F, with the loose mass m2, the angular forcing frequency
+w and the amplitude F of the force. A start is a random initial state. A motion is quiet if its
+largest displacement is at most the quiet limit.
+"""
 
 import math
 from collections.abc import Mapping
@@ -29,15 +34,18 @@ from impact_damper.theory.free_oscillator import balance_amplitudes
 
 # Least gap that a design considers, divided by the gap of rule (18).
 LEAST_GAP = 0.3
-# Comparisons stop a chaotic motion after LEAST_PATIENCE cycles, or after PATIENT times the time in
-# which an unforced vibration decays by the factor e if that is longer.
+# Comparisons of many gaps run motions for a shorter time. Their unit is the decay time, in which an
+# unforced vibration of the machine decays by the factor e.
+# PATIENT, LEAST_PATIENCE: a chaotic motion is stopped after PATIENT decay times, but not before
+#     LEAST_PATIENCE cycles.
+# LONG, LEAST_LIMIT: any other motion is stopped after LONG * PATIENT decay times, but not before
+#     LEAST_LIMIT cycles.
 PATIENT, LEAST_PATIENCE = 5, 100
-# They stop every other motion after LONG times this time, but not before LEAST_LIMIT cycles.
 LONG, LEAST_LIMIT = 6, 600
-# Cycles over which motions that have not settled are measured. Over 50 cycles the largest peak of
-# chaos varies by a factor of two, so that shares would depend on chance.
+# Cycles over which a motion that has not settled is measured. With 50 cycles the largest peak of
+# chaos would vary by a factor of two, so that shares of quiet starts would depend on chance.
 WATCHED = 100
-# Largest displacement of chaos in a long run, divided by the largest one in the cycles watched.
+# Largest displacement of chaos in a long run, divided by the largest one in WATCHED cycles.
 LATER = 1.5
 
 
@@ -58,7 +66,7 @@ class Task:
     mass : float
         Loose mass, kg; at most the mass of the machine.
     band : tuple of float
-        Least and greatest forcing frequency, Hz. The resonance of the machine lies within.
+        Least and greatest forcing frequency, Hz. The resonance of the machine lies between them.
     restitution : float
     contact_stiffness : float
         N/m.
@@ -71,13 +79,14 @@ class Task:
     tolerances : dict
         Largest relative deviations, keyed by names of VARIED.
     displacement_limit : float or None
-        Quiet limit, the largest displacement of a quiet motion, m. If None, the screening finds
-        one.
+        Quiet limit, the largest displacement of a quiet motion, m. If None, the design sets a limit
+        (`screen`, `compare.coarse_comparison`).
     share : float
         Least share of starts that must lead to quiet motions, at 95 % confidence.
     seed : int
     settling : Settling
-        Motions that have not settled are watched for at least WATCHED cycles.
+        Lengths and tolerances of runs. Motions that have not settled are measured over at least
+        WATCHED cycles.
 
     Raises
     ------
@@ -162,17 +171,17 @@ class Task:
 
     @cached_property
     def resonance(self) -> tuple[float, float]:
-        """Frequencies between which the free machine resonates, Hz."""
+        """Lowest and highest frequency at which the machine without damper resonates, Hz."""
         return resonance_of(self.machine)
 
     @cached_property
     def hurried(self) -> Settling:
         """Settling for comparisons of many gaps: shorter runs, a few decay times of the machine.
 
-        After fewer cycles a share is smaller, because slow motions are not yet quiet. Therefore
-        `compare.run_until_sure` continues the motions that are not quiet.
+        After a short run fewer motions are quiet, because some become quiet slowly. Therefore
+        `compare.run_until_sure` runs motions that are not quiet for the full time.
         """
-        # cycles in which an unforced vibration decays by the factor e
+        # Decay time of the machine in forcing cycles.
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, self.settling.patience))
         limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, self.settling.limit))
@@ -180,12 +189,12 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances within the band, without the loose mass and with it attached, Hz."""
+        """Resonances within the band, Hz: without the loose mass, and with it fixed on."""
         return resonances_within(self.band, self.resonance, self.mass / self.machine.mass)
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Frequencies over the band, Hz: evenly spaced, except for `resonances`."""
+        """Frequencies over the band, Hz: evenly spaced, but some are moved onto `resonances`."""
         return grid_over(self.band, self.frequencies, self.resonances)
 
     @cached_property
@@ -202,7 +211,11 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return some evenly spread frequencies of `grid`, all resonances, and `others`, Hz."""
+        """Return some frequencies, Hz, ascending.
+
+        They are `count` evenly spread frequencies of `grid`, the worst frequency, all resonances,
+        and `others`.
+        """
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(spread(self.grid, count), [self.worst_frequency, *resonances, *others])
 
@@ -216,9 +229,9 @@ class Task:
         return replace(self.settling, patience=periods, limit=periods)
 
     def rule_gap(self, frequency) -> float:
-        """Return the gap (m) by rule (18), m2 w^2 (gap/2) = F for a force of the amplitude F.
+        """Return the gap (m) by rule (18) of the paper at a frequency (Hz).
 
-        The force alone would move the loose mass with half of this gap as amplitude.
+        If the force acted on the loose mass alone, the amplitude would be half of this gap.
         """
         force = self.machine.oscillator(frequency).forcing_amplitude(
             self.scales.from_si(frequency, "frequency")
@@ -226,9 +239,10 @@ class Task:
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m), its values times factors in the order of VARIED.
+        """Return the damper with a gap (m).
 
-        A restitution above 1 becomes 1.
+        Gap, restitution and contact stiffness are multiplied by their `factors`, which are in the
+        order of VARIED. A restitution above 1 becomes 1.
         """
         varied = dict(zip(VARIED, factors, strict=True))
         return MachineDamper(
@@ -241,7 +255,7 @@ class Task:
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
         """Return the oscillator, the damper and the frequency W, dimensionless.
 
-        The scales are those of the nominal machine, whatever the factors.
+        They are made dimensionless by the scales of the nominal machine, whatever the factors.
         """
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator(frequency)
@@ -257,7 +271,11 @@ class Task:
         return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
 
     def _force(self, frequency, varied):
-        """Return the factor of the force; with a moving base it depends on spring and dashpot."""
+        """Return the factor of the force.
+
+        The force of a moving base also depends on the deviations of spring and dashpot, which
+        transmit it.
+        """
         machine = self.machine
         if machine.force is not None or machine.unbalance is not None:
             return varied["force"]

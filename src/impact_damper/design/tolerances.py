@@ -5,6 +5,9 @@ from collections.abc import Mapping
 from impact_damper.machine.units import check_si
 from impact_damper.system.bounds import shown
 
+# VARIED: names of the quantities. "stiffness", "damping" and "force" belong to the machine.
+# NOMINAL: factors of these quantities without a deviation.
+# TOLERANCES: largest relative deviations by default.
 VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}

@@ -1,4 +1,9 @@
-"""The conclusion of a design in sentences; each number comes from its datasets."""
+"""The conclusion of a design in sentences; each number comes from the datasets of the design.
+
+A start is a random initial state. A motion is quiet if its largest displacement is at most the
+quiet limit. The cliff is the gap beyond which fewer starts lead to quiet motions. A corner is a set
+of values in which each deviates by its whole tolerance.
+"""
 
 import numpy as np
 
@@ -9,6 +14,7 @@ from impact_damper.design.deviations import UNSEEN
 from impact_damper.design.remarks import excitations, pulling_walls, tried_restitutions
 from impact_damper.design.task import LATER
 
+# First sentence, by the kind of choice (`choose.Choice`) or the result of the check.
 SUMMARY = {
     "robust": ("{build}; any gap from {low:.3g} to {high:.3g} mm will do. {promise} {worst}"),
     "nominal": (
@@ -37,6 +43,7 @@ PROMISE = (
     "At each frequency of the band at least {share} of all starts, however machine and loose mass "
     "begin to move, lead to such a quiet motion, at 95 % confidence."
 )
+# Second sentence, by the result of the check (`deviations.promise`).
 VERDICTS = {
     "none_made": "Nothing is promised.",
     "nominal_kept": (
@@ -58,7 +65,7 @@ def conclusion(task, kind, data) -> list[str]:
     ----------
     task : Task
     kind : str
-        Of `choose.Choice`.
+        Kind of the choice of the gap, see `choose.Choice`.
     data : xarray.Dataset
         Result of `stages.machines.design_damper` before the conclusion is added.
     """
@@ -66,7 +73,8 @@ def conclusion(task, kind, data) -> list[str]:
     tolerance = task.tolerances.get("gap", 0.0)
     edges = data["cliff_gap"].values
     ends = gap * (1 - tolerance), gap * (1 + tolerance)
-    # the cliff is located more finely than the spacing of the gaps that decided the kind
+    # The kind was decided with the compared gaps. The cliff is located more finely, so the range
+    # may turn out to be as wide as the tolerance.
     narrow = edges[0] > ends[0] or edges[1] < ends[1]
     checked = decode(data["promise"]).item()
     limit = float(data["displacement_limit"])
@@ -104,7 +112,7 @@ def _percent(share, digits=3):
 
 
 def _moves(size):
-    """Return the words "moves up to ... mm", or that the machine escapes."""
+    """Return the words "moves up to ... mm", or "escapes over its barrier" for an infinite size."""
     return f"moves up to {size:.3g} mm" if np.isfinite(size) else "escapes over its barrier"
 
 
@@ -143,7 +151,7 @@ def _never_repeating(data):
 
 
 def _untouched(data, gap):
-    """Return sentences on motions in which the machine moves less than half the gap."""
+    """Return sentences on motions in which the loose mass touches no wall."""
     limit = float(data["displacement_limit"])
     size = float(np.fmax.reduce(data["untouched_displacement"].values))
     texts = []
@@ -186,7 +194,7 @@ def _sureness(data):
 
 
 def _margins(data, gap):
-    """Return the distances to the basin cliff and to the end of stability."""
+    """Return sentences on the distances from the gap to the cliff and to the end of stability."""
     found, quiet = [], []
     for k, (side, way) in enumerate((("below", "down"), ("above", "up"))):
         edge = float(data["cliff_gap"][k])
