@@ -1,4 +1,8 @@
-"""Criteria of claims on harmonic balance: made-up data on both sides of each border."""
+"""Criteria of claims on harmonic balance: made-up data on both sides of each border.
+
+The data are those of `helpers.made_up.world`, with which all claims are reproduced. A change makes
+a criterion just hold or just fail. Wp is the peak frequency without the damper.
+"""
 
 import numpy as np
 import pytest
@@ -17,7 +21,7 @@ BY_NUMBER = {claim.number: claim for claim in CLAIMS}
 
 
 def unstable_balance(ratio):
-    """A change of the made-up data: no stable solution of (7) near a frequency over the peak."""
+    """A change of the made-up data: no stable solution of (7) near the frequency `ratio` Wp."""
 
     def change(data):
         old = data["harmonic_balance"]["figure_03b"]
@@ -29,7 +33,7 @@ def unstable_balance(ratio):
 
 
 def double_period(ratio):
-    """A change of the made-up data: a small motion of period 2 near a frequency over the peak."""
+    """A change of the made-up data: a small motion of period 2 near the frequency `ratio` Wp."""
 
     def change(data):
         old = data["response"]["figure_05a"]
@@ -40,16 +44,17 @@ def double_period(ratio):
 
 
 def orbits_times(factor, names=ELASTIC):
-    """A change of the made-up data: larger exact orbits."""
+    """A change of the made-up data: max |Z1| of exact orbits is multiplied by a factor."""
     return each(names, lambda name: scale("branches", name, orbit_displacement=factor))
 
 
 def sweep_ratio(factor):
-    """A change of the made-up data: the ratio of max |Z1| at rm = 0.18 to that at rm = 0.12."""
+    """A change of the made-up data: the ratio of max |Z1| at rm = 0.18 to 0.12 is `factor`."""
     usual = (0.12 / 0.18) ** 0.25
     return scale("optimum", "0.215_0.18_1.0", quiet_displacement=factor / usual)
 
 
+# Number of a claim, a change of the data, and the verdict with it.
 BORDERS = [
     ("3", unstable_balance(1.12), REPRODUCED),
     ("3", unstable_balance(1.08), NOT_REPRODUCED),

@@ -1,4 +1,7 @@
-"""Claims: every verdict follows from the data and changes with the data."""
+"""Claims: every verdict follows from the data and changes with the data.
+
+The data are made up (`helpers.made_up.world`) such that all claims are reproduced.
+"""
 
 import math
 import re
@@ -47,6 +50,7 @@ def data():
     return world()
 
 
+# Changes of the data with which each claim is not reproduced.
 REFUTED = {
     "1": scale("harmonic_balance", "figure_03a_rule", quiet_amplitude=1000),
     "2": scale("harmonic_balance", "figure_05a", rigid_amplitude=1.1),
@@ -75,6 +79,7 @@ REFUTED = {
     "S6": renamed("optimum", "0.215_0.12_0.75", frequency=1.0),
 }
 
+# Changes of the data with which a claim is reproduced with a difference.
 DIFFERENCES = {
     "3": unstable("figure_05a", 0.8, 0.85),
     "4": assign("design_orbit", "figure_03b", orbit_multiplier_real=1.01),
@@ -96,7 +101,8 @@ def test_every_claim_misprint_and_gap_is_there_in_order():
 
 
 def test_all_are_reproduced_in_a_world_made_so(data):
-    # claims 15 and S5 compute the time in contact and the peak by closed forms, without any data
+    # Claim 15 computes the time in contact and S5 the peak by closed forms. So their verdicts do
+    # not follow from the made-up data.
     expected = dict.fromkeys(BY_NUMBER, REPRODUCED) | {"15": DIFFERENT}
     expected |= {f"S{k}": "the print is consistent" for k in range(1, 4)}
     expected["S4"] = "the printed value is a right rounding"
@@ -137,7 +143,7 @@ def test_evidence_and_measures_have_the_same_names(claim, data):
 
 
 def fitting(claim):
-    """Made-up evidence within all bounds of a claim."""
+    """Return made-up evidence within all bounds of a claim."""
     values = dict.fromkeys((measure.name for measure in claim.measures), 0.0)
     for measure in claim.measures:
         values[measure.name] = np.clip(values[measure.name], measure.least, measure.most)
@@ -162,13 +168,13 @@ def test_made_up_evidence_flips_the_verdict(claim):
             assert claim.verdict(values | {measure.name: math.nan}) == NOT_DECIDABLE
 
 
-# Names that are written so in texts of the paper.
+# Names with an underscore that may occur in a sentence, because the paper uses them as symbols.
 SYMBOLS = {"omega_l"}
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
 def test_a_sentence_for_each_verdict_says_its_reason(claim, data):
-    """Each number beyond its bounds changes the sentence; unknown ones are named."""
+    """A number beyond its bounds changes the sentence; an unknown number is named in it."""
     values = claim.evidence(data) | fitting(claim)
     told = {claim.sentence(values)}
     for measure in claim.measures:
@@ -217,7 +223,7 @@ NOTE = Measure("note", "the note")
 
 
 def made_up(evidence):
-    """Claim with the measures above, for this evidence."""
+    """Return a claim with the measures above, for this evidence."""
     return Claim(
         "1", "", "", "", (SHARP, FULL, NOTE),
         evidence=lambda datasets: evidence,
@@ -255,7 +261,10 @@ def test_words():
 
 
 def test_suppression_band(data):
-    """The band begins where high orbits end, or chaotic motions above, to a step of the grid."""
+    """The band begins above the last violent orbit or chaotic motion.
+
+    The end of chaotic motions is known only to a step of the grid of frequencies.
+    """
     peak = PEAKS[0.215]
     band = suppression_band(data, "figure_05a")
     assert band.lower == pytest.approx(0.95 * peak)
@@ -293,7 +302,10 @@ def test_a_quiet_orbit_is_stable_and_smaller_than_half_the_resonance(data):
 
 
 def test_between_neighbouring_orbits_a_straight_line_is_close():
-    """Compare with motions simulated at frequencies in between; stable pieces end at the folds."""
+    """Interpolated orbits agree with motions simulated at frequencies between two orbits.
+
+    The stable parts of the branch end at its folds.
+    """
     oscillator, span = Oscillator(damping=0.215), (1.2, 2.6)
     free = orbit_branch(oscillator, None, 1.8, (2.2, 0.1), span=span)
     part = exact_orbits.pieces(free)

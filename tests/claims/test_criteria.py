@@ -1,4 +1,8 @@
-"""Criteria of claims on motions and migration: made-up data on both sides of each border."""
+"""Criteria of claims on motions and migration: made-up data on both sides of each border.
+
+The data are those of `helpers.made_up.world`, with which all claims are reproduced. A change makes
+a criterion just hold or just fail.
+"""
 
 import numpy as np
 import pandas as pd
@@ -38,7 +42,10 @@ def scale(data, stage, name, **factors):
 
 
 def steepen(data, name, steepness):
-    """Give a made-up sweep a displacement that rises linearly on both sides of the optimum."""
+    """Give a made-up sweep over the clearance a displacement with a minimum at the optimum.
+
+    The displacement rises linearly on both sides.
+    """
     old = data["optimum"][name]
     away = np.abs(old.clearance / old.optimum_clearance - 1)
     data["optimum"][name] = old.assign(quiet_displacement=0.02 * (1 + steepness * away))
@@ -49,7 +56,7 @@ def verdict(number, data):
 
 
 def damped(name, *parts, mass_ratio):
-    """Return branches of made-up orbits with a damper: quiet ones everywhere, and `parts`."""
+    """Return made-up branches with a damper: quiet orbits at all frequencies, and `parts`."""
     frequency = np.linspace(0.5, 1.5, 201) * PEAK
     size = quiet_size(frequency, PEAK, mass_ratio)
     phase = np.where(frequency < PEAK, np.pi, 0.0)
@@ -69,7 +76,7 @@ def test_width_in_which_different_values_coexist():
 
 @pytest.mark.parametrize("overlap, expected", [(0.004, REPRODUCED), (0.006, DIFFERENT)])
 def test_regions_of_contact_number_overlap(overlap, expected, data):
-    """High orbits with four contacts end at 1.9, those with six begin shortly before."""
+    """Violent orbits with four contacts end at W = 1.9, those with six begin shortly below."""
     below = np.array([1.0, 1.5, 1.9])
     above = np.array([1.9 - overlap, 1.93, 1.95])
     high = [
@@ -102,8 +109,8 @@ def test_starts_that_collide(colliding, expected, data):
 
 
 @pytest.mark.parametrize("steepness, expected", [(1.99, REPRODUCED), (2.01, DIFFERENT)])
-def test_one_yardstick_for_the_rise_from_the_optimum(steepness, expected, data):
-    """10 % from the optimum the made-up displacement rises by a tenth of its steepness."""
+def test_relative_rise_from_the_optimum(steepness, expected, data):
+    """At 10 % from the optimum the made-up displacement has risen by a tenth of its steepness."""
     name = "0.215_0.12_1.0"
     steepen(data, name, steepness)
     values = BY_NUMBER["9"].evidence(data)
@@ -133,7 +140,7 @@ def test_displacement_beside_the_optimum_over_the_free_resonance(size, expected,
 
 @pytest.mark.parametrize("steepness, expected", [(1.49, REPRODUCED), (1.51, DIFFERENT)])
 def test_response_is_flatter_with_lower_restitution(steepness, expected, data):
-    """With elastic contact the steepness is 1.5."""
+    """The steepness of the made-up displacement with elastic contact is 1.5."""
     name = "0.215_0.12_0.75"
     steepen(data, name, steepness)
     values = BY_NUMBER["11"].evidence(data)
@@ -143,7 +150,7 @@ def test_response_is_flatter_with_lower_restitution(steepness, expected, data):
 
 @pytest.mark.parametrize("factor, expected", [(0.99, REPRODUCED), (1.01, DIFFERENT)])
 def test_step_that_raises_the_optimum_is_named(factor, expected, data):
-    """From e = 1 to 0.9 the optimum changes by the factor, then falls."""
+    """From e = 1 to 0.9 the optimum changes by `factor`, and at lower e it falls."""
     middle = sweep(0.215, 0.18, 0.9)
     hard = data["optimum"]["0.215_0.18_1.0"]
     stretch = factor * float(hard.optimum_clearance / middle.optimum_clearance)
@@ -159,7 +166,7 @@ def test_step_that_raises_the_optimum_is_named(factor, expected, data):
 
 @pytest.mark.parametrize("width, narrow", [(0.0009, True), (0.0011, False)])
 def test_narrow_branches_are_reported_by_themselves(width, narrow, data):
-    """Below the band a branch of period 3 has 1.2 times the free amplitude, over a given width."""
+    """A branch of period 3 below the band has 1.2 times the free amplitude, over `width` in W."""
     third = branch(np.array([1.7, 1.7 + width]), 0.96, period=3)
     high = branch(np.array([1.0, 1.84]), np.array([1.0, 1.9]), contacts=4.0)
     data["branches"]["figure_05b"] = damped("figure_05b", high, third, mass_ratio=0.25)
@@ -185,7 +192,7 @@ def test_subharmonics_at_lower_damping_are_reported_only(data):
 
 @pytest.mark.parametrize("fall, expected", [(1.06, REPRODUCED), (1.04, NOT_REPRODUCED)])
 def test_fall_of_the_subharmonic_at_lower_damping(fall, expected, data):
-    """At h = 0.107 all of the subharmonic is removed; at 0.215 half of the starts keep a part."""
+    """At h = 0.107 no start leads to a subharmonic; at h = 0.215 half do, to a smaller one."""
     part = 2 * (1 - 1 / fall)
     size = float(data["subharmonic"]["figure_05a"].free_subharmonic[0])
     data["subharmonic"]["figure_05a"] = subharmonic("figure_05a", damped=part * size)
@@ -233,7 +240,7 @@ def test_phase_of_a_motion_of_longer_period_decides(share, decides, data):
 
 
 def policies(data, name, by_hold):
-    """Add made-up policies of migration to a case, of which the policy `hold` has a success."""
+    """Add made-up policies to a case; `by_hold` is the share of success of the policy `hold`."""
     from claims.test_policies import policies as made_up_policies
 
     case = data["migration"][name]
@@ -276,7 +283,7 @@ def test_runs_that_could_arrive_by_the_better_way(within, by_hold, expected, dat
     ],
 )
 def test_early_releases_reach_period_3(third, reached, expected, data):
-    """Of 1000 early releases some lead to period 3, half of the others back to resonance."""
+    """Of 1000 early releases `third` lead to period 3 and 500 back to resonance."""
     case = data["migration"]["figure_16"].copy(deep=True)
     for motion, count in (
         ("subharmonic", third),

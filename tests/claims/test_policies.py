@@ -1,4 +1,7 @@
-"""Policies of migration as evidence, from made-up data."""
+"""Policies of migration as evidence for claims, from made-up data.
+
+A policy decides when the damper is switched off, so that the oscillator reaches its small motion.
+"""
 
 import math
 
@@ -18,7 +21,10 @@ def data():
 
 
 def policies(case, frequency):
-    """Return policies with the damper of a case, whose success is 0.1, 0.2 ... in order."""
+    """Return a dataset of policies with the damper of a case.
+
+    Their shares of success are 0.1, 0.2, ... in the order of SHARES.
+    """
     damper = damper_of(case)
     share = np.arange(1, len(SHARES) + 1) / 10
     bounded = share[:, None] + [0, -0.05, 0.05]

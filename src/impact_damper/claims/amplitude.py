@@ -1,4 +1,10 @@
-"""Claim 17, on the amplitude in the suppression band over the mass ratio (section 3, figure 5)."""
+"""Claim 17, on the amplitude in the suppression band over the mass ratio (section 3, figure 5).
+
+The suppression band is the range of the forcing frequency W around the peak in which no motion with
+the damper is violent (large). rm is the mass ratio and d0 the clearance. The quiet orbit is the
+small periodic motion for which a damper is designed. Numbers in brackets are equations of the
+paper.
+"""
 
 import numpy as np
 
@@ -10,11 +16,11 @@ from impact_damper.data.datasets import oscillator_of
 
 
 def amplitude_by_mass(datasets):
-    """Measures of claim 17: the larger rm, the lower the amplitude in the suppression band.
+    """Return the measures of claim 17: the larger rm, the lower the amplitude in the band.
 
     For the dampers of figure 5 amplitudes are averaged over the frequencies that lie in the bands
-    of all of them. For dampers with rm W^2 d0 = 1 they are those of the clearance sweeps of
-    figure 6, whose frequency W is the design frequency of the paper.
+    of all three. For dampers with rm W^2 d0 = 1 the amplitudes come from the clearance sweeps of
+    figure 6. A sweep computes the quiet orbit over d0 at the design frequency W of the paper.
     """
     designs = extract.select(datasets, "harmonic_balance", extract.BY_MASS)
     lower, upper = (
@@ -52,7 +58,10 @@ def amplitude_by_mass(datasets):
 
 
 def elastic_sweeps(datasets, design):
-    """Return the elastic sweeps of the stage `optimum` for a design's oscillator, by rm."""
+    """Return the clearance sweeps with elastic contact for a design's oscillator, sorted by rm.
+
+    The stage `optimum` computes them.
+    """
     found = [
         sweep
         for sweep in datasets.get("optimum", {}).values()

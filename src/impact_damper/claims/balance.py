@@ -1,7 +1,9 @@
 """Claims 1 and 2, on solutions of harmonic balance (sections 2 and 3).
 
-Equation (7) is harmonic balance with elastic contacts, equation (14) its limit of rigid walls; a is
-the amplitude of the primary mass. W is the forcing frequency.
+Equation (7) of the paper is harmonic balance with elastic contacts, equation (14) its limit of
+rigid walls. a is the amplitude of the primary mass, rm the mass ratio, d0 the clearance and W the
+forcing frequency, with the value Wp at the peak of the response without the damper. Rule (19) is
+rm Wp^2 d0 = 1. A solution is called impacting if the loose mass touches the walls.
 """
 
 import numpy as np
@@ -12,14 +14,15 @@ from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.findings import balance as balance_findings
 from impact_damper.data.datasets import flag
 
-NEAR = 0.1  # largest relative difference of an orbit that agrees with a solution of (7)
+# An orbit agrees with a solution of (7) if their amplitudes differ relatively by at most NEAR.
+NEAR = 0.1
 
 
 def small_motion(datasets):
-    """Measures of claim 1: at rm W^2 d0 = 1 equations (14) and (7) have a small stable solution.
+    """Return the measures of claim 1: at rm W^2 d0 = 1, (14) and (7) have a small stable solution.
 
-    They are computed from harmonic balance for dampers whose clearance follows rule (19), and from
-    the exact orbits for the dampers of figures 5 and 8.
+    They are computed by harmonic balance for dampers whose clearance follows rule (19), and from
+    the exact periodic orbits for the dampers of figures 5 and 8.
     """
     designs = extract.select(datasets, "harmonic_balance", extract.RULES)
     vanishing = []
@@ -49,9 +52,10 @@ def small_motion(datasets):
 
 
 def rigid_against_elastic(datasets):
-    """Measures of claim 2: the larger solutions of (14) and (7) agree.
+    """Return the measures of claim 2: the larger solutions of (14) and (7) agree.
 
-    The smallest solution at each frequency is left out. Exact orbits are compared with (7) as well.
+    The smallest solution at each frequency is left out. Exact periodic orbits are compared with (7)
+    as well.
     """
     designs = extract.damped(datasets, "harmonic_balance").values()
     if not designs:

@@ -1,7 +1,11 @@
 """Claims 4 and 16, on the suppression band (sections 3 and 4, figures 3, 5 and 10).
 
-The suppression band is the range of the forcing frequency W around the peak frequency, up to the
-end of the free resonance branch, in which no motion with the damper is violent.
+The suppression band is the range of the forcing frequency W around the peak frequency Wp, up to the
+end of the resonance branch without the damper, in which no motion with the damper is violent. A
+motion is violent if its largest displacement exceeds half of that on the resonance branch. A quiet
+orbit is a periodic motion of one forcing cycle that is not violent. The reduction is 1 minus the
+ratio of the amplitudes with and without the damper. omega_l is the linear frequency, rm the mass
+ratio, e the restitution and d0 the clearance. Numbers in brackets are equations of the paper.
 """
 
 import numpy as np
@@ -14,13 +18,13 @@ from impact_damper.claims.suppression import high_motions, suppression_band
 
 
 def growth(widths):
-    """Smallest ratio of a width to the width before it in a sequence."""
+    """Return the smallest ratio of a width to the width before it in a sequence."""
     widths = np.asarray(widths, float)
     return float(np.min(widths[1:] / widths[:-1]))
 
 
 def widening(datasets):
-    """Measures of claim 4: the band widens with omega_l, with rm and with lower e."""
+    """Return the measures of claim 4: the band widens with omega_l, with rm and with lower e."""
     captions = extract.select(datasets, "harmonic_balance", extract.CAPTIONS)
     rules = extract.select(datasets, "harmonic_balance", extract.RULES)
     masses = extract.select(datasets, "harmonic_balance", extract.BY_MASS)
@@ -46,7 +50,10 @@ def widening(datasets):
 
 
 def remaining(datasets, names):
-    """Return max |Z1| of the exact quiet orbits at Wp, stable or not, over the free resonance."""
+    """Return max |Z1| of exact quiet orbits at Wp, divided by that of the resonance without damper.
+
+    The orbits, one for each dataset in `names`, may be stable or not.
+    """
     orbits = extract.select(datasets, "design_orbit", names)
     return [
         float(extract.design_point(orbit).orbit_displacement)
@@ -56,7 +63,7 @@ def remaining(datasets, names):
 
 
 def accuracy(datasets):
-    """Measures of claim 16: harmonic balance gives the band's amplitude and width accurately."""
+    """Return the measures of claim 16: harmonic balance gives the band's amplitude and width."""
     widths, shares, factors, harmonics, violent = [], [], [], [], []
     for name in extract.ELASTIC:
         design = extract.get(datasets, "harmonic_balance", name)
@@ -90,12 +97,19 @@ def factor(one, other):
 
 
 def largest_difference(width, band):
-    """Return the largest relative difference of a width to those that a `Band` allows."""
+    """Return the largest relative difference of a width to the widths that a `Band` allows.
+
+    The lower edge of the band is known only to lie within a range.
+    """
     return max(abs(width / band.width - 1), abs(width / band.least_width - 1))
 
 
 def smallest_quiet_orbits(branches, free, frequency):
-    """Return the smallest stable quiet orbit at each frequency; raise Missing if there is none."""
+    """Return the smallest stable quiet orbit at each frequency, or raise Missing.
+
+    `branches` and `free` are datasets of periodic orbits with and without the damper. The result
+    has the columns of `exact_orbits.pieces`.
+    """
     orbits = exact_orbits.smallest(exact_orbits.quiet(branches, free), frequency)
     missing = np.setdiff1d(frequency, orbits.frequency)
     if len(missing):

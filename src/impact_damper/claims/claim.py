@@ -1,4 +1,8 @@
-"""A claim of the paper: the measures that decide it, their required values, and the verdict."""
+"""A claim of the paper: the measures that decide it, their required values, and the verdict.
+
+A measure is a number computed from datasets, with the bounds that the claim requires. Misprints and
+omissions of the paper are treated as claims that the print is correct.
+"""
 
 import math
 from collections.abc import Callable, Mapping
@@ -8,9 +12,12 @@ REPRODUCED = "reproduced"
 DIFFERENT = "reproduced with a difference"
 NOT_REPRODUCED = "not reproduced"
 NOT_DECIDABLE = "not decidable"
+# How tables print each verdict.
+# PLAIN: on a claim.
+# SLIP: on a misprint.
+# PART: on initial conditions of which too few numbers are printed.
+# GAP: on values that had to be chosen because none are printed.
 PLAIN = {word: word for word in (REPRODUCED, DIFFERENT, NOT_REPRODUCED, NOT_DECIDABLE)}
-# Words for the verdict on a misprint or omission, keyed by the verdict on the claim that the print
-# is correct; on initial conditions of too few numbers; on values chosen because none are printed.
 SLIP = PLAIN | {
     REPRODUCED: "the print is consistent",
     DIFFERENT: "the print is nearly right",
@@ -25,11 +32,11 @@ GAP = PLAIN | {
 
 
 class Missing(LookupError):
-    """A dataset that a claim needs does not exist, or lacks what the claim needs."""
+    """A dataset that a claim needs does not exist, or lacks a number that the claim needs."""
 
 
 def readable(value) -> str:
-    """A number with four significant digits; "none" for NaN."""
+    """Return a number with four significant digits; "none" for NaN."""
     return "none" if math.isnan(value) else f"{value:.4g}"
 
 
@@ -58,14 +65,14 @@ class Measure:
 
     @property
     def requirement(self) -> str:
-        """The bounds as text, "" without bounds."""
+        """The bounds as text; "" without bounds."""
         if math.isfinite(self.least) and math.isfinite(self.most):
             return f"from {self.least:g} to {self.most:g}"
         bounds = [("at least", self.least), ("at most", self.most)]
         return "".join(f"{word} {bound:g}" for word, bound in bounds if math.isfinite(bound))
 
     def holds(self, value) -> bool:
-        """Whether a value is within the bounds; False for NaN."""
+        """Return whether a value is within the bounds; False for NaN."""
         return self.least <= value <= self.most
 
 
@@ -78,7 +85,7 @@ class Claim:
     number : str
         "1" to "19", or "S1" to "S6" for misprints and omissions.
     text : str
-        The statement, shortened.
+        The statement of the paper, shortened.
     source : str
         Section and figure of the paper.
     interpretation : str
@@ -90,12 +97,14 @@ class Claim:
         Takes all datasets, a dict keyed by stage of dicts keyed by name, and returns a dict with
         the value of each measure; NaN if the datasets do not determine it. May raise `Missing`.
     finding : callable
-        Takes these values as keyword arguments, the bounded ones known, and returns sentences that
-        say what the data show, true whatever the verdict is.
+        Takes the values of the measures as keyword arguments, and returns sentences that say what
+        the data show. Values of measures with bounds must not be NaN. The sentences must be true
+        for every verdict.
     figures : tuple of str
-        Names of the figures that show it, the most telling one first; empty for numbers alone.
+        Names of the figures that show the claim, the most important one first; empty if no figure
+        shows it.
     words : dict of str
-        Keyed by verdict: how tables print it.
+        How tables print each verdict.
     """
 
     number: str
@@ -109,10 +118,11 @@ class Claim:
     words: Mapping[str, str] = field(default_factory=PLAIN.copy)
 
     def verdict(self, values) -> str:
-        """Verdict for the values of the measures.
+        """Return the verdict for a dict with the values of the measures.
 
-        A decisive measure out of bounds refutes the claim. Otherwise an unknown value of a bounded
-        measure leaves the claim undecided, and any other measure out of bounds is a difference.
+        A decisive measure out of bounds refutes the claim. Otherwise, if the value of a measure
+        with bounds is NaN, the claim is not decidable. Otherwise a measure out of bounds that is
+        not decisive makes the verdict "reproduced with a difference".
         """
         bounded = [measure for measure in self.measures if measure.requirement]
         known = [measure for measure in bounded if not math.isnan(values[measure.name])]
@@ -124,7 +134,7 @@ class Claim:
         return DIFFERENT if failed else REPRODUCED
 
     def criterion(self) -> str:
-        """The requirements as text, first the decisive ones."""
+        """Return the requirements as text, first the decisive ones."""
         parts = []
         for lead, decisive in (("Required", True), ("For full agreement", False)):
             required = [
@@ -137,7 +147,7 @@ class Claim:
         return " ".join(parts)
 
     def sentence(self, values) -> str:
-        """What the data show, with numbers; or which numbers they do not determine."""
+        """Return what the data show; if the claim is not decidable, which numbers are unknown."""
         if self.verdict(values) != NOT_DECIDABLE:
             return self.finding(**values)
         unknown = [
@@ -148,7 +158,10 @@ class Claim:
         return f"The data do not determine: {'; '.join(dict.fromkeys(unknown))}."
 
     def judge(self, datasets) -> dict:
-        """Row of the claim in the table of claims."""
+        """Return the row of the claim in the table of claims, a dict keyed by column.
+
+        `datasets` is the argument of `evidence`.
+        """
         descriptions = {measure.name: measure.description for measure in self.measures}
         try:
             values = self.evidence(datasets)

@@ -1,6 +1,11 @@
 """Claim 3, on the quiet and the violent motion that coexist (section 3, figure 3).
 
-Equation (7) is harmonic balance with elastic contacts; Wp is the peak frequency.
+A motion is violent ("high" in names of functions) if its largest displacement exceeds half of that
+on the resonance branch without the damper, at the same forcing frequency W. A quiet motion has the
+period of the forcing and is not violent. The suppression band is the range of W around the peak
+frequency Wp in which no motion with the damper is violent. Equation (7) of the paper is harmonic
+balance with elastic contacts, and (19) its rule for the clearance d0. omega_l is the linear
+frequency.
 """
 
 import numpy as np
@@ -12,17 +17,17 @@ from impact_damper.claims.findings import balance as balance_findings
 from impact_damper.claims.suppression import high_motions, suppression_band
 from impact_damper.data.datasets import flag, is_settled
 
-AROUND = 0.1  # largest distance from Wp, over Wp, of a frequency that is around Wp
+AROUND = 0.1  # a frequency is around Wp if |W/Wp - 1| is at most this
 BELOW = 0.75  # least W/Wp at which violent motions below the band are looked for
 
-# The designs of figure 3, with d0 by the captions and by (19).
+# The designs of figure 3, with d0 from the captions and from (19).
 ALL_DESIGNS = (*extract.CAPTIONS, *extract.RULES)
 
 
 def quiet_and_high(datasets):
-    """Measures of claim 3: small stable motions around Wp, large ones outside the suppression band.
+    """Return the measures of claim 3: quiet motions around Wp, violent ones outside the band.
 
-    They are computed from the solutions of (7) for all omega_l, and from exact orbits.
+    They are computed from the solutions of (7) for all omega_l, and from exact periodic orbits.
     """
     around, beside, bands = [], [], []
     designs = extract.select(datasets, "harmonic_balance", (*extract.CAPTIONS, *extract.RULES))
@@ -50,13 +55,16 @@ def quiet_and_high(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest multiplier modulus of each exact quiet orbit of figure 3 at W = Wp."""
+    """Return the largest Floquet multiplier modulus of each quiet orbit of figure 3 at W = Wp.
+
+    The orbits are exact periodic orbits, which are stable if this modulus is below 1.
+    """
     orbits = extract.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([extract.largest_multiplier(extract.design_point(orbit)) for orbit in orbits])
 
 
 def _design_orbits(datasets):
-    """Measures of claim 3 from the exact quiet orbits of figure 3 at the design point W = Wp."""
+    """Return the measures of claim 3 from the exact quiet orbits of figure 3 at W = Wp."""
     orbits = extract.select(datasets, "design_orbit", ALL_DESIGNS)
     multipliers = design_multipliers(datasets)
     unstable = [orbit for orbit, size in zip(orbits, multipliers, strict=True) if not size < 1]
@@ -80,7 +88,10 @@ def _design_orbits(datasets):
 
 
 def _quiet_and_high_orbits(datasets):
-    """Measures of claim 3 for omega_l = 0, from the ranges of W of quiet and violent orbits."""
+    """Return the measures of claim 3 for omega_l = 0.
+
+    They are computed from the ranges of W in which quiet and violent orbits exist.
+    """
     around, beside, pairs, single = [], [], [], []
     for name in extract.ELASTIC:
         branches, free = exact_orbits.of_curve(datasets, name)
@@ -110,7 +121,11 @@ def _quiet_and_high_orbits(datasets):
 
 
 def quiet_motions(response, free):
-    """Mask of the settled motions with the damper that are quiet: of period 1, not violent."""
+    """Return the mask of the settled motions in a response that are quiet.
+
+    `response` is a dataset of the stage `response` with a damper, and `free` holds the branches
+    without a damper. A quiet motion touches the walls.
+    """
     settled = extract.touching(response) & extract.is_outcome(response, "settled")
     return settled & (response.period == 1) & ~high_motions(response, free)
 

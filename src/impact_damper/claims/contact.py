@@ -1,4 +1,9 @@
-"""Claim 15, on the model of inelastic contact (appendix B)."""
+"""Claim 15, on the model of inelastic contact (appendix B).
+
+In the model each wall has a spring and a dashpot. Equation (25) gives the damping of the dashpot
+for a given restitution e. At the end of a contact the dashpot pulls the loose mass, which a real
+wall cannot do.
+"""
 
 import math
 
@@ -19,9 +24,9 @@ def duration(restitution):
 
 
 def pull_free_error(restitution):
-    """Return by what fraction of e the restitution exceeds e if the wall does not pull.
+    """Return the relative excess of the restitution over e if the wall cannot pull.
 
-    The loose mass then leaves the wall when the force of the wall is zero. Let y be the
+    The loose mass then leaves the wall when the force of the wall becomes zero. Let y be the
     penetration, z the damping ratio and wd the damped frequency of an isolated contact. The force
     of the wall, proportional to -y'', vanishes at wd t = pi - 2 asin(z), when y is still positive.
     In the paper's model the contact lasts until y = 0. Between these two times the wall pulls.
@@ -31,7 +36,7 @@ def pull_free_error(restitution):
 
 
 def model(datasets):
-    """Return the measures of claim 15: the model with (25) is good for high e, not for low e."""
+    """Return the measures of claim 15: the model is good for high e and fails for low e."""
     used = [
         extract.parameter(data, "restitution")
         for stage in ("response", "optimum")

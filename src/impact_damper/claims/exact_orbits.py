@@ -1,8 +1,12 @@
-"""Compute what the claims and the tables need from the branches of exact periodic orbits.
+"""Numbers that the claims and the tables need from the branches of exact periodic orbits.
 
-A branch is a sequence of orbits along the frequency W. It is cut into pieces, each from one orbit
-to the next. Within a piece all quantities are interpolated linearly, so that branches can be
-evaluated at any frequency. Free means without the damper.
+A branch is a sequence of orbits along the forcing frequency W. It is cut into pieces, each from one
+orbit to the next. Within a piece all quantities are interpolated linearly, so that branches can be
+evaluated at any frequency. Free means without the damper. The free resonance branch consists of the
+large motions of period 1 without the damper; it ends at a fold, where it turns back in W. An orbit
+is high (violent) if its largest displacement exceeds half of that on this branch at the same W. A
+quiet orbit has period 1 and is not high. `branches` and `free` are datasets of the stage
+`branches`, with and without the damper. The one-third subharmonic is a motion of period 3.
 """
 
 import numpy as np
@@ -12,7 +16,8 @@ from impact_damper.claims import extract
 from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, oscillator_of
 
-SYMMETRIC = 1e-6  # largest asymmetry of a symmetric orbit
+# Half a period later the state of a symmetric orbit has changed its sign, up to this difference.
+SYMMETRIC = 1e-6
 # An orbit is high if its max |Z1| exceeds this share of max |Z1| on the free resonance branch.
 HALF = 0.5
 # Columns of `pieces` that are interpolated within a piece.
@@ -44,10 +49,12 @@ def pieces(branches) -> pd.DataFrame:
 
         - branch, period (in forcing cycles);
         - lower, upper: ends in W;
-        - frequency, size (max |Z1|), amplitude (first harmonic of Z1 as a complex number, with its
-          phase relative to Z2, the displacement of the primary relative to the loose mass), loose
-          (the same with its phase relative to the displacement x2 of the loose mass): values in the
-          middle of the piece; columns ending in `_change` hold the differences between its ends;
+        - frequency: W in the middle of the piece, like the next three columns; four more columns,
+          whose names end in `_change`, hold the differences between the ends of the piece;
+        - size: max |Z1|;
+        - amplitude: first harmonic of Z1 as a complex number; its phase is relative to Z2, the
+          displacement of the primary mass relative to the loose mass;
+        - loose: the same number with the phase relative to the displacement x2 of the loose mass;
         - multiplier: largest modulus of a Floquet multiplier, averaged over both ends;
         - stable: whether `multiplier` is below 1;
         - fewest, contacts: least and largest number of contacts per period at the ends;
@@ -86,7 +93,10 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Ascending ranges [lower, upper] of W covered by `part`, pieces; touching ones are merged."""
+    """Return a list of the ascending ranges [lower, upper] of W that pieces cover.
+
+    `part` are rows of `pieces`. Ranges that touch are merged.
+    """
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -97,12 +107,12 @@ def ranges(part):
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Total width, within W from `lower` to `upper`, of the ranges covered by the pieces."""
+    """Return the total width of the ranges that pieces cover within W from `lower` to `upper`."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def coexisting(part, column):
-    """Total width in W in which pieces with different values in a column overlap."""
+    """Return the total width in W in which pieces with different values in a column overlap."""
     values = [ranges(same) for _, same in part.groupby(column)]
     ends = np.unique([end for each in values for end in np.ravel(each)])
     middle = (ends[1:] + ends[:-1]) / 2
@@ -114,7 +124,11 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Interpolate pieces at frequencies; one row for each frequency and piece that contains it."""
+    """Interpolate pieces at frequencies.
+
+    The result has the columns of `pieces`, and a row for each frequency and each piece that
+    contains it. The columns INTERPOLATED hold the interpolated values.
+    """
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -129,18 +143,27 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Row of `crossings` with the smallest size at each frequency that lies in a piece."""
+    """Return the row of `crossings` with the smallest size at each frequency.
+
+    A frequency that lies in no piece has no row.
+    """
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
 
 def largest_sizes(part, frequency):
-    """Largest size of the pieces at each frequency; NaN if no piece contains the frequency."""
+    """Return the largest size of the pieces at each frequency; NaN if no piece contains it."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
 def resonance_fold(free):
-    """Return frequency and size of the end of the free resonance branch, or raise Missing."""
+    """Return frequency and size (max |Z1|) at the fold of the free resonance branch.
+
+    Raises
+    ------
+    Missing
+        If there is no fold.
+    """
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():
@@ -150,7 +173,7 @@ def resonance_fold(free):
 
 
 def resonance(free, frequency):
-    """Size of the free resonance branch at each frequency; NaN above its fold."""
+    """Return max |Z1| on the free resonance branch at each frequency; NaN above its fold."""
     end, _ = resonance_fold(free)
     part = pieces(free)
     sizes = largest_sizes(part[part.period == 1], frequency)
@@ -158,37 +181,38 @@ def resonance(free, frequency):
 
 
 def above_half(part, free):
-    """Mask of the pieces with max |Z1| above half of that of the free resonance branch."""
+    """Return the mask of the pieces that are high (see HALF)."""
     return part["size"] > HALF * resonance(free, part.frequency)
 
 
 def high(branches, free):
-    """Pieces of stable orbits of any period that are high, as `above_half` says."""
+    """Return the pieces of stable orbits of any period that are high."""
     part = pieces(branches)
     part = part[part.stable]
     return part[above_half(part, free)]
 
 
 def quiet(branches, free):
-    """Pieces of stable orbits of period 1 that are not high."""
+    """Return the pieces of stable quiet orbits."""
     part = pieces(branches)
     part = part[part.stable & (part.period == 1)]
     return part[~above_half(part, free)]
 
 
 def counterparts(design, branches) -> pd.DataFrame:
-    """Pair each impacting solution of (7) with the nearest exact orbit at the same frequency.
+    """Pair solutions of harmonic balance (7) with the nearest exact orbit at the same frequency.
 
-    Only orbits that the single harmonic of (7) can approximate are considered: symmetric, period 1,
-    two contacts per period, stable or unstable.
+    Only solutions with contact are paired (impacting solutions). Only orbits are considered that
+    one harmonic can approximate: symmetric orbits of period 1 with two contacts, stable or not.
+    `design` is a dataset of the stage `harmonic_balance`.
 
     Returns
     -------
     pandas.DataFrame
-        One row for each solution of (7) with such an orbit: `frequency`; `a`, its amplitude;
-        `balance_stable`; `least` (whether |a| is the smallest at this frequency); the columns of
-        `crossings` for the orbit; `difference`, the relative difference between `a` and the first
-        harmonic of the orbit.
+        One row for each solution with such an orbit. Columns: `frequency`; `a`, the amplitude of
+        the solution; `balance_stable`, whether the solution is stable; `least`, whether |a| is the
+        smallest at this frequency; the columns of `crossings` for the orbit; `difference`, the
+        relative difference between `a` and the first harmonic of the orbit.
     """
     part = pieces(branches)
     alike = part[
@@ -213,7 +237,7 @@ def counterparts(design, branches) -> pd.DataFrame:
 
 
 def high_counterparts(design, branches, free):
-    """Rows of `counterparts` for the stable solutions above half of the free resonance branch."""
+    """Return the rows of `counterparts` for stable solutions whose |a| is high (see HALF)."""
     pairs = counterparts(design, branches)
     limit = HALF * resonance(free, pairs.frequency)
     return pairs[pairs.balance_stable & (np.abs(pairs.a) > limit)]
@@ -233,12 +257,12 @@ def subharmonic(free):
 
 
 def subharmonic_range(free):
-    """Frequencies of both folds that bound the one-third subharmonic without damper."""
+    """Return the frequencies of both folds that bound the one-third subharmonic without damper."""
     part = subharmonic(free)
     return float(part.lower.min()), float(part.upper.max())
 
 
 def stable_subharmonics(branches):
-    """Pieces of stable orbits whose period is a multiple of 3."""
+    """Return the pieces of stable orbits whose period is a multiple of 3."""
     part = pieces(branches)
     return part[part.stable & (part.period % 3 == 0)]

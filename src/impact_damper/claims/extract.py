@@ -1,9 +1,12 @@
-"""Read what the claims and the tables need from datasets: parameters, flags, harmonic balance.
+"""Read numbers for the claims and the tables from datasets: parameters, flags, harmonic balance.
 
-`datasets` is a dictionary keyed by stage; each value is a dictionary keyed by name ("figure_05a"),
-an entry of the configuration. The module `exact_orbits` reads branches of periodic orbits. A quiet
-orbit has period 1 and a max |Z1| of at most half that of the resonance without the damper; the
-design point of a damper is the peak frequency Wp.
+`datasets` is a dictionary keyed by stage; each value is a dictionary of datasets keyed by the name
+of an entry of the configuration, such as "figure_05a". The module `exact_orbits` reads branches of
+periodic orbits. A quiet orbit has period 1 and a max |Z1| of at most half that of the resonance
+without the damper. The design point of a damper is the peak frequency Wp of this resonance.
+Equation (7) of the paper is harmonic balance, with the amplitude a of Z1. `design` is a dataset of
+the stage `harmonic_balance`, and `response` one of the stage `response`: the motions to which
+random starts (initial states) lead at each frequency W.
 """
 
 import numpy as np
@@ -12,11 +15,13 @@ from impact_damper.claims.claim import Missing
 from impact_damper.data.datasets import flag, has_damper, parameters_of
 from impact_damper.data.variables import VARIABLES
 
-# Names of the configuration's curves, each a frequency response of one oscillator and damper.
+# Names of curves in the configuration, each a frequency response of one oscillator and damper.
 # CAPTIONS: dampers with the clearances that the captions of figure 3 print, in order of increasing
-# linear frequency omega_l; RULES: the same dampers with the clearances of rule (19); BY_MASS: in
-# order of increasing mass ratio rm; ELASTIC: all curves with elastic contact that are simulated;
-# INELASTIC: as BY_MASS[1], but with restitution e < 1.
+#     linear frequency omega_l.
+# RULES: the same dampers with the clearances of rule (19) of the paper.
+# BY_MASS: the dampers of figure 5, in order of increasing mass ratio rm.
+# ELASTIC: all curves with elastic contact that are simulated.
+# INELASTIC: the damper BY_MASS[1] with a restitution e < 1.
 CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
 RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
@@ -33,40 +38,43 @@ def get(datasets, stage, name):
 
 
 def damped(datasets, stage) -> dict:
-    """Datasets of a stage that have a damper, keyed by name."""
+    """Return the datasets of a stage that have a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
 
 
 def free(datasets, stage) -> dict:
-    """Datasets of a stage without a damper, keyed by name."""
+    """Return the datasets of a stage without a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
 
 
 def parameter(data, name):
-    """Value of a parameter from which a dataset was computed."""
+    """Return the value of a parameter from which a dataset was computed."""
     return parameters_of(data)[name]
 
 
 def meaning(name, value):
-    """Meaning of a value of a flag, with spaces: `meaning("status", 1)` is "settled"."""
+    """Return the meaning of a value of a flag, with spaces in place of underscores.
+
+    An example is `meaning("status", 1)`, which returns "settled".
+    """
     return next(key for key, known in VARIABLES[name].flags.items() if known == value).replace(
         "_", " "
     )
 
 
 def is_outcome(data, *meanings):
-    """Mask of the motions with one of the outcomes."""
+    """Return the mask of the motions with one of the given outcomes."""
     return data.outcome.isin([flag("outcome", meaning) for meaning in meanings])
 
 
 def touching(response):
-    """Mask of the motions, settled or not, in which the loose mass touches the walls."""
+    """Return the mask of the motions, settled or not, in which the loose mass touches the walls."""
     steady = is_outcome(response, "settled", "quasi_periodic", "chaotic", "unresolved")
     return steady & (response.contacts > 0)
 
 
 def share_of_starts(response, motions):
-    """Share of the random starts at each frequency that lead to the motions of a mask."""
+    """Return the share of the random starts at each frequency that lead to motions in a mask."""
     total = response.motion_starts.sum("motion")
     return (response.motion_starts.where(motions, 0).sum("motion") / total.where(total > 0)).fillna(
         0
@@ -74,12 +82,12 @@ def share_of_starts(response, motions):
 
 
 def spacing(data):
-    """Step of an even grid of frequencies."""
+    """Return the step of an even grid of frequencies."""
     return float(data.frequency[1] - data.frequency[0])
 
 
 def longest_run(mask):
-    """Number of elements in the longest run of True."""
+    """Return the number of elements in the longest run of True."""
     longest = run = 0
     for value in mask:
         run = run + 1 if value else 0
@@ -96,7 +104,15 @@ def within(data, lower, upper):
 
 
 def band_edges(design):
-    """Return lower and upper edge of the suppression band by harmonic balance, or raise Missing."""
+    """Return the lower and upper edge of the suppression band by harmonic balance.
+
+    Between them (7) has only one stable solution with contact, the quiet one.
+
+    Raises
+    ------
+    Missing
+        If there is no band.
+    """
     lower, upper = design.edge_frequency.values
     if not upper > lower:
         raise Missing("There is no suppression band by harmonic balance")
@@ -104,7 +120,7 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Signed amplitudes a of the stable solutions of (7); NaN for all other solutions."""
+    """Return the signed amplitudes a of the stable solutions of (7); NaN for other solutions."""
     keep = (design.stability == flag("stability", "stable")) & (
         design.kind == flag("kind", "impacting")
     )
@@ -112,21 +128,21 @@ def stable_impacting(design):
 
 
 def quiet_balance(design):
-    """Signed amplitude a of the stable solution of (7) with the smallest |a| at each frequency."""
+    """Return the signed amplitude a of the smallest stable solution of (7) at each frequency."""
     amplitude = stable_impacting(design)
     size = np.abs(amplitude).fillna(np.inf)
     return amplitude.isel(solution=size.argmin("solution"))
 
 
 def free_resonance_balance(design):
-    """Largest amplitude without the damper at each frequency up to the peak; NaN above."""
+    """Return the largest amplitude without the damper at each frequency up to Wp; NaN above."""
     return design.free_amplitude.max("free_solution").where(
         design.frequency <= design.peak_frequency
     )
 
 
 def crossing(x, y, level):
-    """First x at which y crosses a level, by linear interpolation; NaN without a crossing."""
+    """Return the first x at which y crosses a level, interpolated; NaN without a crossing."""
     side = np.sign(np.asarray(y) - level)
     changes = np.flatnonzero(side[:-1] * side[1:] < 0)
     if len(changes) == 0:
@@ -141,9 +157,10 @@ def select(datasets, stage, names):
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at W = Wp and the oscillator's own damping, or raise Missing.
+    """Return the exact quiet orbit at W = Wp with the damping of the oscillator, or raise Missing.
 
-    `orbit` is a dataset of the stage `design_orbit`, which follows the orbit in the damping.
+    `orbit` is a dataset of the stage `design_orbit`. It holds the quiet orbits at W = Wp for values
+    of the damping from a larger one down to that of the oscillator.
     """
     if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
@@ -151,13 +168,16 @@ def design_point(orbit):
 
 
 def largest_multiplier(orbit):
-    """Largest modulus of the Floquet multipliers of each orbit."""
+    """Return the largest modulus of the Floquet multipliers of each orbit."""
     modulus = np.hypot(orbit.orbit_multiplier_real, orbit.orbit_multiplier_imaginary)
     return modulus.max("multiplier").values
 
 
 def stable_from(orbit):
-    """Damping h above which the quiet orbit in a dataset of the stage `design_orbit` is stable."""
+    """Return the damping h above which the quiet orbit is stable.
+
+    `orbit` is a dataset of the stage `design_orbit`.
+    """
     value, events = orbit.followed_value.values, orbit.event_value.values
     last = np.max(value[largest_multiplier(orbit) >= 1], initial=value.min())
     return float(

@@ -1,7 +1,10 @@
 """Claims 14 and 19, on runs of migration control (section 5, figures 15 and 16).
 
-Migration leads the free oscillator from the resonance to the non-resonance branch, by switching the
-damper on and off again (release). A case is a dataset of one oscillator, damper and frequency.
+Without the damper the oscillator has a large motion on the resonance branch and a small one on the
+non-resonance branch. Migration leads from the large to the small one by switching the damper on and
+off again. Switching off is called release. A case is a dataset of one oscillator, damper and
+frequency, with many runs. Period 3 is a motion without the damper that repeats after three forcing
+cycles, the one-third subharmonic.
 """
 
 import numpy as np
@@ -21,7 +24,10 @@ def cases(datasets):
 
 
 def total_cycles(datasets):
-    """Measures of claim 14: a run takes at most 350 cycles in total; from the runs of all cases."""
+    """Return the measures of claim 14, from the runs of all cases.
+
+    By this claim a run reaches the non-resonance branch within 350 cycles.
+    """
     runs = sorted(cases(datasets), key=lambda run: extract.parameter(run, "frequency"))
     within = [float(run.within_share.sel(bound="share")) for run in runs]
     policies = [by_policy(datasets, run) for run in runs]
@@ -56,7 +62,7 @@ def total_cycles(datasets):
 
 
 def early_release(datasets):
-    """Measures of claim 19: early release at W = 1.85 leads to period 3, then to period 1."""
+    """Return the measures of claim 19: early release at W = 1.85 leads to period 3, then to 1."""
     case = extract.get(datasets, "migration", "figure_16")
     counts = case.destination_count.sel(damped_motion="unsettled")
     total = float(counts.sum())
@@ -91,7 +97,10 @@ def early_release(datasets):
 
 
 def _of_others(subharmonic, resonance):
-    """Share of the releases to the subharmonic among those that do not lead back to resonance."""
+    """Return the share of the subharmonic among the releases that do not lead to resonance.
+
+    The arguments are the shares of the subharmonic and of the resonance among all releases.
+    """
     return subharmonic / (1 - resonance) if resonance < 1 else np.nan
 
 

@@ -1,6 +1,9 @@
 """Claims 5, 6 and 8, on the motions with the damper (section 3, figures 4, 5 and 8).
 
-A motion has high amplitude if its max |Z1| exceeds half that of the free resonance branch.
+A motion is violent (of high amplitude) if its largest displacement |Z1| exceeds half of that on the
+resonance branch without the damper, at the same forcing frequency W. A quiet motion (of low
+amplitude) has the period of the forcing and is not violent. A start is a random initial state.
+Equation (7) of the paper is harmonic balance with elastic contacts.
 """
 
 import numpy as np
@@ -13,7 +16,7 @@ from impact_damper.claims.suppression import chaotic_high, high_motions
 
 
 def quiet_contacts(datasets):
-    """Measures of claim 5: the low-amplitude motion has two symmetric impacts per cycle."""
+    """Return the measures of claim 5: the quiet motion has two symmetric impacts in a cycle."""
     shares, skew, multipliers = [], [], []
     for name in extract.ELASTIC:
         lower, upper = extract.band_edges(extract.get(datasets, "harmonic_balance", name))
@@ -33,7 +36,7 @@ def quiet_contacts(datasets):
 
 
 def high_and_chaotic(datasets):
-    """Measures of claim 6: the high-amplitude motion has more than two impacts, or is chaotic."""
+    """Return the measures of claim 6: a violent motion has more than two impacts, or is chaotic."""
     contacts, fewest, orbits, twins, widest, total, lives = [], [], [], [], [], [], []
     starts, beside = [], []
     for name in extract.ELASTIC:
@@ -78,14 +81,18 @@ def high_and_chaotic(datasets):
 
 
 def _lasting(response, free):
-    """Return whether each violent chaos lasted in all runs by which its life was measured."""
+    """Return whether each violent chaotic motion lasted, shape (n,) of bool.
+
+    Several runs follow each such motion. It lasted if it ended in none of them. Motions without
+    such runs are left out.
+    """
     chaotic = high_motions(response, free) & extract.is_outcome(response, "chaotic")
     ends = response.life_ends.transpose(*chaotic.dims).values[chaotic.values]
     return ends[ends >= 0] == 0
 
 
 def first_collisions(datasets):
-    """Measures of claim 8: random starts in a ball of radius 2 all lead to collisions."""
+    """Return the measures of claim 8: random starts in a ball of radius 2 lead to collisions."""
     data = list(datasets.get("collisions", {}).values())
     if not data:
         raise Missing("There is no dataset of the stage collisions")

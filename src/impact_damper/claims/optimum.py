@@ -1,4 +1,11 @@
-"""Claims 9 and 11, on the optimum clearance (sections 3 and 4, figures 6, 7, 10 and 11)."""
+"""Claims 9 and 11, on the optimum clearance (sections 3 and 4, figures 6, 7, 10 and 11).
+
+A sweep is a dataset of the stage `optimum`: the quiet orbit, the small periodic motion for which a
+damper is designed, over the clearance d0 at one frequency W. The optimum d0 is the clearance with
+the smallest max |Z1|. rm is the mass ratio, h the damping of the oscillator and e the restitution.
+Numbers in brackets are equations of the paper: (7) is harmonic balance, (19) its rule for d0. The
+band is the range of W in which no motion is large.
+"""
 
 import itertools
 
@@ -11,13 +18,20 @@ from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.findings import motions as motions_findings
 from impact_damper.claims.suppression import suppression_band
 
-AWAY = 0.1  # relative distance from the optimum clearance at which max |Z1| is taken
+# Relative change of the clearance from its optimum, at which the rise of max |Z1| is evaluated.
+AWAY = 0.1
 
 
 def sweeps(datasets, *keys, **fixed):
-    """Return clearance sweeps in groups with equal parameters `keys`, or raise Missing.
+    """Return clearance sweeps in groups with equal values of the parameters `keys`.
 
-    Only sweeps with the parameter values `fixed` are taken, and only groups of two or more sweeps.
+    The result is a dict of lists, keyed by these values. Only sweeps with the parameter values
+    `fixed` are taken, and only groups of two or more sweeps.
+
+    Raises
+    ------
+    Missing
+        If there is no such group.
     """
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
@@ -31,7 +45,7 @@ def sweeps(datasets, *keys, **fixed):
 
 
 def displaced(sweep):
-    """Larger max |Z1| at 10 % from the optimum d0."""
+    """Return max |Z1| at 10 % below or above the optimum d0, whichever is larger."""
     best = float(sweep.optimum_clearance)
     sizes = np.interp(
         [best * (1 - AWAY), best * (1 + AWAY)],
@@ -44,18 +58,21 @@ def displaced(sweep):
 
 
 def rise(sweep):
-    """Relative rise of max |Z1| at 10 % from the optimum d0, the yardstick of claims 9 and 11."""
+    """Return the relative rise of max |Z1| from the optimum d0 to 10 % beside it (`displaced`)."""
     return displaced(sweep) / float(sweep.optimum_displacement) - 1
 
 
 def over_resonance(sweep):
-    """Larger max |Z1| at 10 % from the optimum d0, relative to the free resonance 1/(h W)."""
+    """Return `displaced` over the amplitude of the resonance without damper, 1/(h W)."""
     damping, frequency = (extract.parameter(sweep, name) for name in ("damping", "frequency"))
     return displaced(sweep) * damping * frequency
 
 
 def excess(datasets):
-    """Measures of claim 9: the optimum d0 slightly exceeds (7); max |Z1| near it hardly varies."""
+    """Return the measures of claim 9: the optimum d0 is slightly higher than by (7).
+
+    Near the optimum max |Z1| hardly varies.
+    """
     groups = sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]
@@ -81,7 +98,10 @@ def excess(datasets):
 
 
 def restitution(datasets):
-    """Measures of claim 11: lower e widens the band, lowers the optimum d0, flattens max |Z1|."""
+    """Return the measures of claim 11: lower e widens the band and lowers the optimum d0.
+
+    It also makes max |Z1| over d0 flatter.
+    """
     names = (extract.BY_MASS[1], extract.INELASTIC)
     bands = [suppression_band(datasets, name) for name in names]
     design = extract.get(datasets, "harmonic_balance", extract.BY_MASS[1])
@@ -116,10 +136,13 @@ def restitution(datasets):
 def restitution_steps(group):
     """Return the steps to the next lower e in the sweeps of one mass ratio, each as a dictionary.
 
-    `before` and `after` are the values of e. Ratios of the number at `after` to the one at
-    `before`: `clearance` of the optimum d0, `rise` and `absolute` of the rise of max |Z1| at 10 %
-    from the optimum, relative to the minimum and in itself. `overall` is the ratio of the optimum
-    at the lowest e to the optimum at the highest e.
+    Its entries are
+
+    - `mass_ratio`, and the values `before` and `after` of e;
+    - `clearance`: optimum d0 at `after` over optimum d0 at `before`;
+    - `rise`: the same ratio for the relative rise of max |Z1| at 10 % from the optimum (`rise`);
+    - `absolute`: the same ratio for this rise in units of Z1;
+    - `overall`: optimum d0 at the lowest e over optimum d0 at the highest e.
     """
     group = sorted(group, key=lambda sweep: -extract.parameter(sweep, "restitution"))
     overall = float(group[-1].optimum_clearance / group[0].optimum_clearance)
@@ -138,7 +161,7 @@ def restitution_steps(group):
 
 
 def _rise_itself(sweep):
-    """Rise of max |Z1| at 10 % from the optimum d0."""
+    """Return the rise of max |Z1| from the optimum d0 to 10 % beside it, in units of Z1."""
     return displaced(sweep) - float(sweep.optimum_displacement)
 
 

@@ -1,4 +1,9 @@
-"""Claim 7, on the phase between primary and loose mass (section 3, figure 5)."""
+"""Claim 7, on the phase between primary and loose mass (section 3, figure 5).
+
+Z1 is the displacement of the primary mass, x2 that of the loose mass, and Z2 = Z1 - x2. Wp is the
+forcing frequency W at the peak of the resonance without the damper. A quiet orbit is a small
+periodic motion with the damper.
+"""
 
 import numpy as np
 
@@ -6,14 +11,13 @@ from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure, Missing
 from impact_damper.claims.findings import balance as balance_findings
 
-NEAR = 0.3  # largest phase, in radians, of motions that are almost in phase or in antiphase
+NEAR = 0.3  # phase in radians up to which two motions are almost in phase, or almost in antiphase
 
 
 def phases(datasets):
-    """Measures of claim 7: antiphase of the masses below Wp, in phase above.
+    """Return the measures of claim 7: the masses move in antiphase below Wp, in phase above.
 
-    They are computed for the phase of Z1 relative to Z2, as in the paper (Z2: displacement of the
-    primary relative to the loose mass), and relative to the displacement x2 of the loose mass.
+    They are computed for the phase of Z1 relative to Z2, as in the paper, and relative to x2.
     """
     below, above, turns, balance, loose_below, loose_above, loose_turns = ([] for _ in range(7))
     highest, in_phase = [], []

@@ -1,6 +1,10 @@
 """Claims 12 and 13, on where a release of the damper leads (section 5, figures 13 and 14).
 
-Release means switching the damper off. A case is a dataset of one oscillator, damper and frequency.
+Release means switching the damper off. Without the damper the oscillator has a large motion on the
+resonance branch, a small one on the non-resonance branch, and in a range of frequencies a motion of
+period 3, the one-third subharmonic. A case is a dataset of releases for one oscillator, damper and
+frequency W. A scan holds such datasets for many W. The kind of a damped motion is "quiet", for the
+small motion of period 1, "subharmonic" for a longer period, or "unsettled".
 """
 
 import numpy as np
@@ -13,7 +17,10 @@ from impact_damper.data.datasets import damper_of, oscillator_of
 
 
 def any_phase(datasets):
-    """Measures of claim 12: released at any phase at W = 1.95, the non-resonance branch results."""
+    """Return the measures of claim 12, on releases at W = 1.95 at any phase.
+
+    By this claim all lead to the non-resonance branch.
+    """
     case = extract.get(datasets, "migration", "figure_13")
     return {
         "releases": extract.parameter(case, "releases"),
@@ -25,16 +32,19 @@ def any_phase(datasets):
 
 
 def both_outcomes(case, kind, least=0.0):
-    """Whether releases of one damped motion lead to both the non-resonance branch and period 3.
+    """Return whether some releases of one damped motion lead to period 3 and others to the goal.
 
-    Both shares of the releases must exceed `least`.
+    The goal is the non-resonance branch. Both shares of the releases must exceed `least`.
     """
     goal, third = (release_shares(case, kind, name) for name in ("non_resonance", "subharmonic"))
     return bool(np.any((goal > least) & (third > least)))
 
 
 def scanned(datasets, case):
-    """Release scans of a case's oscillator and damper: a dataset per frequency, in rising order."""
+    """Return the datasets of release scans with a case's oscillator and damper, one for each W.
+
+    They are sorted by rising W.
+    """
     wanted = oscillator_of(case), damper_of(case)
     found = [
         scan.isel(frequency=k)
@@ -46,10 +56,10 @@ def scanned(datasets, case):
 
 
 def nearest_range(scan, kind, frequency):
-    """Return the part of a scan, nearest to a frequency, in which releases have both outcomes.
+    """Return the range of a scan nearest to a frequency in which `both_outcomes` is true.
 
-    The outcomes are the non-resonance motion and the motion of period 3. The part is a list of
-    neighbouring entries of `scanned`; empty if there is none.
+    The range is a list of neighbouring entries of `scan`, the result of `scanned`. It is empty if
+    there is none.
     """
     both = np.array([both_outcomes(releases, kind) for releases in scan], int)
     edges = np.flatnonzero(np.diff(both, prepend=0, append=0))
@@ -62,7 +72,7 @@ def nearest_range(scan, kind, frequency):
 
 
 def release_phase(datasets):
-    """Measures of claim 13: at W = 1.7 the release phase decides between period 1 and period 3."""
+    """Return the measures of claim 13: at W = 1.7 the phase decides between period 1 and 3."""
     case = extract.get(datasets, "migration", "figure_15")
     frequency = extract.parameter(case, "frequency")
     lower, upper = exact_orbits.subharmonic_range(exact_orbits.free_of(datasets, case))

@@ -1,6 +1,9 @@
 """S1 to S6: misprints and omissions of the paper, taken as claims that the print is correct.
 
 A printed value agrees with a computed one if it is the computed one rounded to the printed digits.
+Numbers in brackets are equations of the paper: (7) is harmonic balance, and (19) the rule
+rm Wp^2 d0 = 1 with the mass ratio rm, the clearance d0 and the peak frequency Wp. A sweep is a
+dataset of orbits over d0.
 """
 
 import math
@@ -24,16 +27,25 @@ from impact_damper.data.datasets import flag, oscillator_of
 from impact_damper.system.parameters import Oscillator
 from impact_damper.theory.design_rule import peak_frequency
 
+# STATE: variables of a state of both masses.
+# PRINTED_PEAKS: peak frequencies that the paper prints, keyed by the damping h.
+# PRINTED_STATE: how many components of the initial state the paper prints.
+# RIGHTLY: requirement on `misrounding` for a printed value that is rounded correctly.
+# ROUNDING: unit of `misrounding` in the words of a measure.
+# SHALLOW: largest ratio of penetration to clearance at which the expansion of S1 is tested.
 STATE = ("displacement", "velocity", "relative_displacement", "relative_velocity")
-PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}  # keyed by the damping h
+PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}
 PRINTED_STATE = 3
-RIGHTLY = {"most": 1.0, "decisive": True}  # bound of the `misrounding` of a right rounding
+RIGHTLY = {"most": 1.0, "decisive": True}
 ROUNDING = "in half units of its last digit"
-SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansion is tested
+SHALLOW = 0.02
 
 
 def formula_peak(data):
-    """Peak frequency Wp of a dataset's oscillator, the root W of W^2 = wl^2 + 3/(4 h^2 W^2)."""
+    """Return the peak frequency Wp of a dataset's oscillator.
+
+    It is the root W of W^2 = wl^2 + 3/(4 h^2 W^2), with the linear frequency wl and the damping h.
+    """
     return peak_frequency(oscillator_of(data))
 
 
@@ -47,9 +59,9 @@ def misrounding(printed, computed):
 
 
 def penetration(datasets):
-    """Measures of S1: expansion of the contact force B for a small penetration b - d0.
+    """Return the measures of S1: expansion of the contact force B for a small penetration b - d0.
 
-    Here b is the amplitude of Z2 in the solutions of (7), and d0 the clearance.
+    Here b is the amplitude of the relative displacement Z2 in the solutions of (7).
     """
     design = extract.get(datasets, "harmonic_balance", extract.CAPTIONS[0])
     mass_ratio, clearance, stiffness = (
@@ -77,7 +89,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Measures of S2: clearances in the captions of figure 3, compared with those of (19)."""
+    """Return the measures of S2: clearances in the captions of figure 3, compared with (19)."""
     measures = {}
     for panel, caption, rule in zip("ba", extract.CAPTIONS[1:], extract.RULES[1:], strict=True):
         printed, ruled = (
@@ -93,7 +105,7 @@ def captions(datasets):
 
 
 def state_size(datasets):
-    """Measures of S3: number of components of the initial state of figure 4."""
+    """Return the measures of S3: number of components of the initial state of figure 4."""
     motion = extract.get(datasets, "motion", "figure_04")
     branches, free = exact_orbits.of_curve(datasets, extract.CAPTIONS[0])
     response = extract.get(datasets, "response", extract.CAPTIONS[0])
@@ -107,7 +119,7 @@ def state_size(datasets):
 
 
 def design_point(datasets):
-    """Measures of S4: d0 of figure 5 (a) compared with d0 for which rm W^2 d0 = 1 at W = 2."""
+    """Return the measures of S4: d0 of figure 5 (a), compared with rm W^2 d0 = 1 at W = 2."""
     design = extract.get(datasets, "harmonic_balance", extract.CAPTIONS[0])
     clearance = extract.parameter(design, "clearance")
     inertia = extract.parameter(design, "mass_ratio") * PRINTED_PEAKS[0.215] ** 2
@@ -120,7 +132,7 @@ def design_point(datasets):
 
 
 def peaks(datasets):
-    """Measures of S5: peak frequencies by harmonic balance and by exact orbits."""
+    """Return the measures of S5: peak frequencies by harmonic balance and by exact orbits."""
     numbers = {}
     for free in extract.free(datasets, "branches").values():
         damping = oscillator_of(free).damping
@@ -137,7 +149,7 @@ def peaks(datasets):
 
 
 def unprinted(datasets):
-    """Measures of S6: the parameters chosen where the paper prints none."""
+    """Return the measures of S6: the parameters chosen where the paper prints none."""
     design = extract.get(datasets, "harmonic_balance", "figure_08")
     mass_ratio, clearance = (
         extract.parameter(design, name) for name in ("mass_ratio", "clearance")

@@ -1,6 +1,10 @@
 """Claims 10 and 18, on the one-third subharmonic (section 3, figures 5 and 8).
 
-Without the damper (free) it is a motion of period 3; with it, any whose period is a multiple of 3.
+Without the damper (free) the subharmonic is a motion of period 3, that is of three forcing cycles.
+It exists between two folds, the frequencies W at which its branch turns back. With the damper every
+motion whose period is a multiple of 3 is called a subharmonic. h is the damping of the oscillator
+and rm the mass ratio. The suppression band is the range of W in which no motion with the damper is
+large. A start is a random initial state.
 """
 
 from typing import NamedTuple
@@ -11,9 +15,12 @@ from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Claim, Measure
 from impact_damper.claims.findings import motions as motions_findings
 
+# Dampers of light and heavy loose masses, and one on an oscillator with low damping.
 LIGHT, HEAVY, LOW_DAMPING = extract.BY_MASS[:2], extract.BY_MASS[2], "figure_08"
-AS_LARGE = 0.95  # least ratio of amplitudes at which the subharmonic counts as unchanged
-# Width in W below which the stable part of a branch between the folds counts as narrow.
+# The subharmonic counts as unchanged by the damper if its amplitude is at least AS_LARGE times the
+# free one.
+AS_LARGE = 0.95
+# The stable part of a branch between the folds counts as narrow if its width in W is below NARROW.
 NARROW = 0.001
 
 
@@ -25,14 +32,15 @@ class Remaining(NamedTuple):
     band : float
         Width in W of the suppression band of harmonic balance.
     in_band, between_folds : float
-        Width in W of the part of the band, and of the range between the folds of the free
-        subharmonic, in which there are such orbits.
+        Widths in W over which such orbits exist: in the band, and between the folds of the free
+        subharmonic.
     ratio_in_band, ratio, narrow_ratio : float
-        Largest ratio of max |Z1| to the free subharmonic: in the band; between the folds, on
-        branches that are stable there over NARROW at least; on the other branches. NaN without such
-        orbits.
+        Largest ratio of max |Z1| to that of the free subharmonic: in the band; on branches whose
+        stable part between the folds is not narrow; on branches whose stable part is narrow. NaN
+        without such orbits.
     narrow_width : float
-        Width of the branch with `narrow_ratio` between the folds; 0 without such a branch.
+        Width of the stable part between the folds on the branch with `narrow_ratio`; 0 without
+        such a branch.
     """
 
     band: float
@@ -66,7 +74,10 @@ def remaining(datasets, name) -> Remaining:
 
 
 def reappearance(datasets):
-    """Measures of claim 10: the damper removes the subharmonic; a larger rm lets it reappear."""
+    """Return the measures of claim 10: dampers of small rm remove the subharmonic, others do not.
+
+    By this claim the subharmonic reappears, much smaller, if rm is larger.
+    """
     light = [remaining(datasets, name) for name in LIGHT]
     heavy, low = remaining(datasets, HEAVY), remaining(datasets, LOW_DAMPING)
     narrow = max(light, key=lambda each: np.nan_to_num(each.narrow_ratio))
@@ -88,18 +99,27 @@ def reappearance(datasets):
 
 
 def third(curve):
-    """Mask of the settled motions whose period is a multiple of 3."""
+    """Return the mask of the settled motions whose period is a multiple of 3.
+
+    `curve` is a dataset of the stage `subharmonic`.
+    """
     return extract.is_outcome(curve, "settled") & (curve.period % 3 == 0)
 
 
 def expected(curve):
-    """Mean max |Z1| of random starts at each frequency; a start without subharmonic counts as 0."""
+    """Return the mean max |Z1| over the random starts at each frequency.
+
+    A start that does not lead to a subharmonic counts as 0. `curve` is that of `third`.
+    """
     share = curve.motion_starts / curve.motion_starts.sum("motion")
     return (share * curve.maximum_displacement).where(third(curve), 0.0).sum("motion")
 
 
 def unchanged(branches, free):
-    """Share of the free subharmonic's range of W where the damper leaves one about as large."""
+    """Return the share of the range between the folds in which a subharmonic is unchanged.
+
+    `branches` and `free` are datasets of orbits with and without the damper.
+    """
     lower, upper = exact_orbits.subharmonic_range(free)
     part = exact_orbits.stable_subharmonics(branches)
     part = part[part.frequency.between(lower, upper)]
@@ -110,7 +130,7 @@ def unchanged(branches, free):
 
 
 def by_damping(datasets):
-    """Measures of claim 18: the subharmonic is reduced more at lower h."""
+    """Return the measures of claim 18: the subharmonic is reduced more at lower h."""
     names = (LOW_DAMPING, extract.BY_MASS[0])
     curves = [exact_orbits.of_curve(datasets, name) for name in names]
     ends = [exact_orbits.subharmonic_range(free) for _, free in curves]

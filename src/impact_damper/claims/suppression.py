@@ -1,7 +1,8 @@
 """The suppression band according to exact orbits and simulated chaotic motions.
 
-A motion is high if its max |Z1| is above half the max |Z1| of the free resonance branch. The band
-is the range of the forcing frequency W in which no motion with the damper is high.
+The free resonance branch consists of the large motions of period 1 without the damper. A motion is
+violent, called high in the names of functions, if its max |Z1| exceeds half of that on this branch.
+The band is the range of the forcing frequency W in which no motion with the damper is violent.
 """
 
 from typing import NamedTuple
@@ -20,7 +21,8 @@ class Band(NamedTuple):
     lower, upper : float
         Edges in W, dimensionless.
     resolution : float
-        Uncertainty of the lower edge, which lies between `lower` and `lower + resolution`.
+        Uncertainty of the lower edge, which lies between `lower` and `lower + resolution`. It is
+        a step in W of the simulations if a motion that did not settle ends the band, otherwise 0.
     """
 
     lower: float
@@ -39,9 +41,10 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Mask of the violent motions with the damper.
+    """Return the mask of the violent motions in a response.
 
-    `response` is a dataset of the stage `response`; `free` holds the branches without damper.
+    `response` is a dataset of the stage `response` with a damper: the motions found by simulation
+    at each W. `free` holds the branches without damper.
     """
     frequency = response.frequency
     limit = exact_orbits.HALF * xr.DataArray(
@@ -51,14 +54,14 @@ def high_motions(response, free):
 
 
 def chaotic_high(response, free):
-    """Mask of the frequencies at which a violent motion with damper is chaotic."""
+    """Return the mask of the frequencies at which a violent motion is chaotic."""
     return (high_motions(response, free) & extract.is_outcome(response, "chaotic")).any("motion")
 
 
 def suppression_band(datasets, name):
     """Return the range of W without a violent motion, below the end of the free resonance branch.
 
-    The lower edge is the larger of two frequencies: the upper end of the branches of stable high
+    The lower edge is the larger of two frequencies: the upper end of the branches of stable violent
     orbits, and the last frequency of the response with a violent motion that did not settle. The
     latter is known only to within one step of the response's frequencies.
 

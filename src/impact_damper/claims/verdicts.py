@@ -1,6 +1,6 @@
 """Registry of all claims of Chatterjee, Mallik and Ghosh (1995), and the table of verdicts.
 
-Slips, in the names of the code, are misprints and omissions of the paper.
+Misprints and omissions of the paper, S1 to S6, are called slips in the names of the code.
 """
 
 import re
@@ -40,7 +40,7 @@ MODULES = (
 
 
 def _order(claim):
-    """Sort key: claims 1 to 19 before misprints and omissions S1 to S6."""
+    """Return the sort key of a claim: claims 1 to 19 come before S1 to S6."""
     return claim.number.startswith("S"), int(claim.number.removeprefix("S"))
 
 
@@ -48,7 +48,7 @@ CLAIMS = tuple(sorted((claim for module in MODULES for claim in module.CLAIMS), 
 
 
 def claims(datasets) -> pd.DataFrame:
-    """Table of verdicts: a row for each claim, then one for each misprint or omission.
+    """Return the table of verdicts, with a row for each claim and each misprint or omission.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def claims(datasets) -> pd.DataFrame:
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
 
-# What holds for all claims.
+# Introduction of the page: words and symbols of all claims.
 READING = """\
 S1 to S6 are places of the paper that look like a misprint or an omission, each taken as the \
 claim that the print is correct. A claim is reproduced if all that is required and all that full \
@@ -85,18 +85,18 @@ finds within the band of figure 5 (c)."""
 def document(frame, picture=None, drawn=None) -> str:
     """Return the page of the claims in Markdown: a summary, then a section for each claim.
 
-    A section has the claim, the verdict, what the data show, the figures that show it, our reading
-    of the claim, and folded the criterion with its numbers.
+    A section has the claim, the verdict, what the data show, the figures that show it and our
+    reading of the claim. A folded part has the criterion and its numbers.
 
     Parameters
     ----------
     frame : pandas.DataFrame
         As `claims` returns it, or as read from its file.
     picture : callable, optional
-        Maps the name of a figure to the Markdown that shows it; by default the figure in the folder
-        `figures` beside the folder of the table.
+        Maps the name of a figure to the Markdown that shows it. By default this is an image in
+        the folder `figures`, which lies beside the folder of the page.
     drawn : container of str, optional
-        Names of the figures that exist, others are left out; all by default.
+        Names of the figures that exist; others are left out. By default all exist.
     """
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     slips = frame["number"].str.startswith("S")
@@ -128,34 +128,34 @@ def document(frame, picture=None, drawn=None) -> str:
     return typeset("\n\n".join(part for part in parts if part))
 
 
-# Symbols of plain text as they are printed.
+# Regular expressions for symbols in plain text, with the printed symbols.
 PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√", ">=": "≥"}
 
 
 def typeset(text) -> str:
-    """Return a text with the symbols of print: ωl, squares, π, roots and ≥."""
+    """Return a text with printed symbols (PRINTED)."""
     for plain, printed in PRINTED.items():
         text = re.sub(plain, printed, text)
     return text
 
 
 def title(number):
-    """Heading of the section of a claim, or of a misprint or omission."""
+    """Return the heading of the section of a claim, or of a misprint or omission."""
     return f"Misprint or omission {number}" if number.startswith("S") else f"Claim {number}"
 
 
 def _label(name):
-    """Line below a figure: "Figure 5 (a)", "Orbits 05a"."""
+    """Return the line below a figure, such as "Figure 5 (a)" or "Orbits 05a"."""
     words = in_words(name)
     return words[0].upper() + words[1:]
 
 
 def _link(number):
-    """Number of a claim as a link to its section."""
+    """Return the number of a claim as a Markdown link to its section."""
     return f"[{number}](#{title(number).lower().replace(' ', '-')})"
 
 
 def _tally(frame):
-    """Verdicts, each with the number of its claims, as text."""
+    """Return the verdicts as text, each with the number of its claims."""
     counts = frame["verdict"].value_counts()
     return ", ".join(f"{verdict} ({number})" for verdict, number in counts.items())

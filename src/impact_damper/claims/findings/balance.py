@@ -1,4 +1,8 @@
-"""Findings on harmonic balance: claims 1 to 4, 7, 16 and 17."""
+"""Findings on harmonic balance: claims 1 to 4, 7, 16 and 17.
+
+Each function takes the measures of one claim as keyword arguments. The modules of the claims
+(`claims.balance`, `coexistence`, `bands`, `phases`, `amplitude`) say what each measure means.
+"""
 
 from functools import partial
 

@@ -1,4 +1,8 @@
-"""Findings on migration control: claims 12, 13, 14 and 19."""
+"""Findings on migration control: claims 12, 13, 14 and 19.
+
+Each function takes the measures of one claim as keyword arguments. The modules of the claims
+(`claims.release`, `claims.migration`) say what each measure means.
+"""
 
 import math
 

@@ -1,4 +1,8 @@
-"""Findings on motions, optimum, contact and subharmonic: claims 5, 6, 8 to 11, 15 and 18."""
+"""Findings on motions, optimum, contact and subharmonic: claims 5, 6, 8 to 11, 15 and 18.
+
+Each function takes the measures of one claim as keyword arguments. The modules of the claims
+(`claims.motions`, `optimum`, `contact`, `subharmonic`) say what each measure means.
+"""
 
 import math
 from functools import partial

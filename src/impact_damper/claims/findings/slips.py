@@ -1,4 +1,8 @@
-"""Findings on S1 to S6, misprints and omissions of the paper."""
+"""Findings on S1 to S6, misprints and omissions of the paper.
+
+Each function takes the measures of one of them as keyword arguments. The module `claims.slips` says
+what each measure means.
+"""
 
 from impact_damper.claims.findings.words import number, part_of, percent
 
@@ -65,5 +69,8 @@ def unprinted(clearance, frequency, chosen, inertia, **others):
 
 
 def _rounding(distance):
-    """Words for a printed number whose distance to the computed one is given in half units."""
+    """Return words for a printed number, from its distance to the computed one.
+
+    The distance is in half units of the last printed digit (`claims.slips.misrounding`).
+    """
     return "a right rounding" if distance <= 1 else "not a rounding"

@@ -2,7 +2,7 @@
 
 import math
 
-# Of fewer things than this the number is told, of more the percentage.
+# Up to this total a part of several things is given as a number, beyond as a percentage.
 FEW = 20
 
 
@@ -25,7 +25,7 @@ def number(value, digits=3, bound="") -> str:
 def percent(share, bound="") -> str:
     """Return a share as a percentage of two or three digits, rounded as in `number`.
 
-    It is 0 or 100 only if the share is.
+    Only a share of exactly 0 or 1 is printed as 0 % or 100 %.
     """
     if math.isnan(share):
         return "an unknown share"
@@ -41,7 +41,10 @@ def percent(share, bound="") -> str:
 
 
 def _rounded(value, decimals, bound):
-    """Return a number rounded to decimals: to the nearest, or up or down beyond rounding errors."""
+    """Return a number rounded up or down to a number of decimals; unchanged if `bound` is "".
+
+    A number that differs from a rounded one only by rounding errors is set to this one.
+    """
     if not bound:
         return value
     scaled = value * 10.0**decimals
@@ -52,7 +55,7 @@ def _rounded(value, decimals, bound):
 
 
 def part_of(share, things, count=None) -> str:
-    """A share of a plural, such as "81 % of the runs", "all runs", "none of the 400 runs"."""
+    """Return a share in words, such as "81 % of the runs", "all runs", "none of the 400 runs"."""
     total = things if count is None else f"{count} {things}"
     if share == 1:
         return f"all {total}"
@@ -69,13 +72,13 @@ def least(share) -> str:
 
 
 def between(low, high, form=percent) -> str:
-    """Return a range that contains both numbers, or one number if they look the same."""
+    """Return a range that contains both numbers, or one number if they are printed alike."""
     if form(low) == form(high):
         return form(low)
     return f"{form(low, bound='down').removesuffix(' %')} to {form(high, bound='up')}"
 
 
 def listed(items) -> str:
-    """Words as a list in a sentence, such as "1.7, 1.85 and 1.95"."""
+    """Return words as a list in a sentence, such as "1.7, 1.85 and 1.95"."""
     *most, last = items
     return f"{', '.join(most)} and {last}" if most else last
