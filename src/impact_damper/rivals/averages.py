@@ -15,7 +15,6 @@ from impact_damper.rivals.methods import STATISTICS
 from impact_damper.system.packed import DASHPOT, FREQUENCY
 
 
-
 def of_run(p, run, begin, periods, batch):
     """Return the averages of a run in each batch of forcing cycles.
 
