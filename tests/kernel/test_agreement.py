@@ -11,8 +11,9 @@ pytestmark = [
     pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle()),
 ]
 
-# Largest share of starts for which rounding decides whether a contact takes place. It is larger
-# for starts that graze or lie on a wall, and for motions with large Lyapunov exponents.
+# Largest share of starts for which rounding decides whether a contact takes place, keyed by the
+# tolerance. Such starts graze a wall or lie on a wall, or lead to motions with large Lyapunov
+# exponents.
 MOST_APART = {1e-6: 0.45, 1e-9: 0.25, 1e-12: 0.15}
 
 

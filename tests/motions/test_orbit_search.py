@@ -1,4 +1,4 @@
-"""Stable orbits of small basins, found by Newton's method beside other motions."""
+"""Stable orbits with small basins of attraction, found by Newton's method beside other motions."""
 
 import numpy as np
 import pytest

@@ -94,7 +94,7 @@ def test_arguments_are_checked(wrong, message):
 @pytest.mark.parametrize("damper", [None, DESIGN, Damper(0.4, 0.625)])
 @pytest.mark.parametrize("within_gap", [True, False])
 def test_random_states_are_uniform(damper, within_gap):
-    """Moments and distributions are those of a ball, cut off by the walls with `within_gap`."""
+    """States are uniform in a ball, which the walls cut off with `within_gap`."""
     states = random_states(4000, 2.0, damper, 5, within_gap=within_gap)
     assert states.shape == (4000, 4)
     if damper is None:
@@ -112,7 +112,7 @@ def test_random_states_are_uniform(damper, within_gap):
             shape = (size + 1) / 2
             assert stats.kstest((1 + values / 2) / 2, stats.beta(shape, shape).cdf).pvalue > 0.001
     else:
-        # given Z2, the others are uniform in the remaining ball
+        # for any given Z2 the other components are uniform in the remaining ball
         left = 1 - (states[:, 2] / 2) ** 2
         others = np.linalg.norm(states[:, [0, 1, 3]], axis=1) / (2 * np.sqrt(left))
         assert stats.kstest(others**3, "uniform").pvalue > 0.01

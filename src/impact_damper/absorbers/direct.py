@@ -1,10 +1,10 @@
 """The best absorber for a machine with a cubic spring at the machine's own force, by direct search.
 
-For a cubic spring the closed forms are approximations, and without linear stiffness there is no
-closed form. The search chooses stiffness, damping and cubic stiffness of the absorber to minimise
-the largest displacement over a band. It takes the displacements from all solutions, stable or
-unstable, of single-term harmonic balance. This is quick, but it misses motions that are not
-periodic. Therefore the absorber must be judged by its exact motions afterwards.
+For a cubic spring the closed forms of `tuning` are approximations, and without linear stiffness
+there is no closed form. The search chooses stiffness, damping and cubic stiffness of the absorber
+to minimise the largest displacement over a band. It takes the displacements from all solutions,
+stable or unstable, of single-term harmonic balance. This is quick, but it misses motions that are
+not periodic. Therefore the absorber must be judged by its exact motions afterwards.
 """
 
 from itertools import product
@@ -40,7 +40,7 @@ CUBICS = (0.01, 0.3, 1.0, 3.0, 10.0)
 COARSE, FINE = 25, 45
 # With MARGIN times the machine's force the largest displacement should be at most MOST_RISE times
 # the largest displacement with the machine's force. If it is larger, a branch of large motions that
-# is detached from the resonance curve begins at a force near that of the machine. The balance
+# is detached from the resonance curve begins at a force near the machine's force. Harmonic balance
 # predicts this force with an error of some per cent, so the larger displacement is then minimised.
 MARGIN, MOST_RISE = 1.1, 1.3
 # Number of points of each grid that are refined, and tolerance of the logarithms of the unknowns.

@@ -9,7 +9,8 @@ from impact_damper.motions.smooth_runs import SIZE, run
 
 # Newton's method runs with coarse and then with fine integration steps. A correction is compared
 # with the largest components of the state along the orbit. The method ends after a correction below
-# LAST times these components, and fails after a correction above FARTHEST times these components.
+# LAST times these components. It fails after a correction above FARTHEST times these components, or
+# after the number of CORRECTIONS.
 LAST = {COARSE: 1e-3, FINE: 1e-6}
 CORRECTIONS = {COARSE: 10, FINE: 4}
 FARTHEST = 10.0
@@ -106,7 +107,7 @@ def find_orbits(problems, index, guesses, period=1) -> Orbits:
 
 
 def _corrected(problems, state, active, steps, period, longest):
-    """Apply Newton's method to states in place; return the indices of those that converged."""
+    """Apply Newton's method to states in place; return the indices of the converged states."""
     ended, size = [], active_size(problems)
     for _ in range(CORRECTIONS[longest]):
         miss, slopes, largest = _period_map(problems[active], state[active], steps[active], period)

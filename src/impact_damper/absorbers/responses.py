@@ -147,7 +147,7 @@ def absorber_responses(
 def competitors(machine, mass, frequencies, band=None):
     """Return the absorbers keyed by competitor, and remarks on those that are not possible.
 
-    The absorber of the competitor "bare", the machine alone, is None. The arguments are those of
+    The absorber of the competitor "bare", the machine alone, is None. The arguments are as in
     `absorber_responses`.
     """
     absorbers, remarks = {"bare": None}, {}

@@ -63,7 +63,7 @@ class Settled(NamedTuple):
     state: np.ndarray
 
     def joined(self, later) -> "Settled":
-        """Return these results followed by those of later runs, whose orbits include these."""
+        """Return these results followed by the results of later runs, which know more orbits."""
         pairs = zip(self[1:], later[1:], strict=True)
         return Settled(later.orbits, *(np.concatenate(pair) for pair in pairs))
 

@@ -112,8 +112,8 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
     spacing : array, shape (2,)
         Largest distance of neighbouring points in Z1 and Z1' within the window.
     reach : array, shape (2,)
-        |Z1| and |Z1'| beyond which the curve is not followed, at least as large as the window. Both
-        must be so large that motions backwards in time do not come back from there.
+        |Z1| and |Z1'| beyond which the curve is not followed, at least as large as the window. It
+        must be so large that motions backwards in time do not come back from beyond it.
 
     Returns
     -------

@@ -18,7 +18,7 @@ from impact_damper.system.packed import FREQUENCY
 # The same values as in `data.variables.basins.BASIN_LABEL`. Files with kernels must not import the
 # room `data.variables`.
 ESCAPED, UNRESOLVED = -2, -1
-# Number of states that a thread labels without a break, in a fraction of a second.
+# Number of states that a thread labels in one call of the kernel, in a fraction of a second.
 CHUNK = 4096
 
 

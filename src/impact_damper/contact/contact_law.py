@@ -1,6 +1,7 @@
 """One contact of the damper in closed form, under a constant load, with two rules for its end.
 
-While the loose mass touches a wall, equations (20) to (23) give for the penetration q = |Z2| - d0
+While the loose mass touches a wall, equations (20) to (23) of the paper give for the penetration
+q = |Z2| - d0
 
     q'' + 2 z wn q' + wn^2 q = g,   wn^2 = r1 (1 + 1/rm),   z = zeta_c sqrt(1 + rm).
 

@@ -82,7 +82,7 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled motion and the largest motion among those with contacts.
+    """Return the smallest settled motion with contacts, and the largest motion with contacts.
 
     Each is a record of type `records.MOTION`, or None if there is no such motion.
 

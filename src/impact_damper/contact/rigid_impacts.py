@@ -29,8 +29,8 @@ def rebound(p, restitution, y, tangents, t):
     """Apply an instantaneous impact to a state y and to small changes of the state, in place.
 
     The saltation matrix S maps a small change d of the state before the impact to the change after
-    it. Each row of `tangents` is such a d. With k = (1 + e)/(1 + 1/rm) and the acceleration a of Z1
-    before the impact,
+    it. Each row of `tangents` is such a d. With k = (1 + e)/(1 + 1/rm), the damping h and the
+    acceleration a of Z1 before the impact,
 
         Z1' -> Z1' - k Z2',   Z2' -> -e Z2',
         d(Z1, Z1', Z2, Z2') -> S d,   S = [1 0 -k 0; 0 1 k (a/Z2' + h) -k;

@@ -12,8 +12,8 @@ def best_clearances(one):
 
     The best clearance for migration has the largest share of trials that reach the goal, if the
     damper is switched off as soon as the measured state leads there (the policy "state"). Among
-    equal shares, the smallest median of the cycles decides. The best clearance for suppression has
-    the smallest quiet motion.
+    equal shares, the smallest median of the cycles until the goal decides. The best clearance for
+    suppression has the smallest quiet motion.
 
     Parameters
     ----------

@@ -137,12 +137,12 @@ def decode(values) -> xr.DataArray:
 
 
 def is_settled(motions):
-    """Return which motions of a record or dataset have the outcome "settled"."""
+    """Return the mask of the motions of a record or dataset that have the outcome "settled"."""
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
 def touches_no_wall(motions):
-    """Return in which motions of a record or dataset the loose mass touches no wall."""
+    """Return the mask of the motions of a record or dataset whose loose mass touches no wall."""
     names = ("non_colliding", "drifting")
     return np.isin(motions["outcome"], [flag("outcome", name) for name in names])
 

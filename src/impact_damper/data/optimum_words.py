@@ -13,11 +13,11 @@ def optimum_in_words(sweep) -> str:
         full play; otherwise the clearance, half of the gap.
     """
     unit = sweep["clearance"].attrs["units"]
-    what, times, end, play = "clearance", 1, "", ""
+    name, factor, suffix, play = "clearance", 1, "", ""
     if unit != "1":
-        what, times, end, play = "gap", 2, f" {unit}", " (full play)"
-    least, most = times * sweep["clearance"].values[[0, -1]]
-    swept = f"{what}s from {least:g} to {most:g}{end}"
+        name, factor, suffix, play = "gap", 2, f" {unit}", " (full play)"
+    least, most = factor * sweep["clearance"].values[[0, -1]]
+    swept = f"{name}s from {least:g} to {most:g}{suffix}"
     kind = int(sweep["optimum_kind"])
     if kind == flag("optimum_kind", "not_found"):
         number = sweep.sizes["clearance"]
@@ -25,10 +25,13 @@ def optimum_in_words(sweep) -> str:
             f"no quiet motion: none of the starts, {sweep.sizes['start']} of them random, at each "
             f"of {number} {swept}{play} leads to one"
         )
-    best, size = times * float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
+        best, size = (
+            factor * float(sweep["optimum_clearance"]),
+            float(sweep["optimum_displacement"]),
+        )
     where = {"jump": ", where it ends", "edge": f", the end of the {swept}"}
-    meanings = {flag("optimum_kind", name): text for name, text in where.items()}
+    meanings = {flag("optimum_kind", each): text for each, text in where.items()}
     return (
-        f"quiet motion of {size:.4g}{end} at the {what} {best:.4g}{end}{play}"
+        f"quiet motion of {size:.4g}{suffix} at the {name} {best:.4g}{suffix}{play}"
         f"{meanings.get(kind, '')}"
     )

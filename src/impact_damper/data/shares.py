@@ -107,7 +107,7 @@ def escape_rate(lives, horizon, lead=LEAD):
     exposure = np.sum(np.clip(np.minimum(lives, horizon) - lead, 0, None))
     if exposure == 0:
         return np.full(3, np.nan)
-    # Quantiles of the gamma distribution, which are half of those of chi-squared.
+    # Quantiles of the gamma distribution, which are half of the chi-squared quantiles.
     lower = gammaincinv(captures, 0.025) if captures else 0.0
     return np.array([captures, lower, gammaincinv(captures + 1, 0.975)]) / exposure
 

@@ -123,9 +123,10 @@ def enqueue(queues, waiting, m, kind):
 
 @kernel
 def choose(pool, chosen):
-    """Take up to LANES trajectories from the longest queue; return their number and that queue.
+    """Take up to LANES trajectories from the longest queue, and write their indices to `chosen`.
 
-    If there are fewer than LANES, the last one is written to all remaining entries of `chosen`.
+    If there are fewer than LANES, the last index is written to all remaining entries. Return the
+    number of trajectories and the kind of the queue.
     """
     waiting = pool.waiting
     kind = FLIGHT

@@ -60,7 +60,7 @@ def external_force(p, t):
 def spring(p, x, lane=0, lanes=1):
     """Return the restoring force of the spring at Z1 = x per unit of primary mass.
 
-    The parameters `p`, `lane` and `lanes` are those of `forcing_amplitude`.
+    The parameters `p`, `lane` and `lanes` are as in `forcing_amplitude`.
     """
     return (p[STIFFNESS * lanes + lane] + p[CUBIC * lanes + lane] * x * x) * x
 

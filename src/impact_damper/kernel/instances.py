@@ -14,6 +14,7 @@ from impact_damper.kernel.evaluation import Source
 from impact_damper.kernel.series import SERIES, SINGLE
 from impact_damper.kernel.templates import contact, forcing, root_search, separation, step
 
+# Orders of the Taylor series. With these the integration is cheapest at medium errors.
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
 
@@ -64,6 +65,7 @@ def _source(writer):
         "TANGENTS": writer.tangents,
         "FLIGHT_ORDER": writer.orders["flight"],
         "CONTACT_ORDER": writer.orders["contact"],
+        # Order of the first of the coefficients from which `step.predict_length` extrapolates.
         "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,

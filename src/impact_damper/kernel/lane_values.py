@@ -1,7 +1,8 @@
 """Generate LLVM code for arithmetic on numbers and on pairs of numbers.
 
 The code works on several lanes at once. A lane holds one of several trajectories that are
-integrated side by side. `straight_lines` calls this module.
+integrated side by side. With one lane, an operation on a pair takes one instruction instead of two.
+`straight_lines` calls this module.
 """
 
 from functools import partial

@@ -42,7 +42,7 @@ def coefficients(at):
 
 
 def beginning(at):
-    """Yield the lines before those of `motion`, from x0 and `at`, which is as in `coefficients`."""
+    """Yield lines that define names for `motion` from x0; `at` is as in `coefficients`."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -56,7 +56,7 @@ def motion(order, phase, constants):
     Before these lines the following names must have values:
 
     - x0, x1 and the names of `beginning`; in contact also q0 and q1;
-    - `cosine` and `sine`, those of the forcing's phase times the amplitude of the forcing;
+    - `cosine` and `sine` of the forcing's phase, times the amplitude of the forcing;
     - in contact `r1` and `mobility` = 1 + 1/rm.
 
     The function `constants` of k returns the lines for the coefficients that are the same in all
@@ -77,8 +77,8 @@ def motion(order, phase, constants):
 def tangent(order, phase, constants):
     """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
 
-    The arguments are those of `motion`. Before these lines also the coefficients u0, u1, ... of
-    3 k3 Z1^2 from `squares` must have values.
+    The arguments are as in `motion`. Before these lines also the coefficients u0, u1, ... of 3 k3
+    Z1^2 from `squares` must have values.
     """
     for k in range(order - 1):
         yield from constants(k)

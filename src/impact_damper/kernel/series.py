@@ -89,8 +89,7 @@ class Writer:
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
         """Return the source of a kernel that executes `lines` for each lane.
 
-        The kernel executes the lines `first` before `lines`, for `side_by_side` elements of
-        vectors.
+        The kernel first executes the lines `first`, on vectors of `side_by_side` numbers.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""

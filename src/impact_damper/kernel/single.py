@@ -64,7 +64,8 @@ def polynomial(c, order, t):
 def write_trajectory(p, y, side, tolerance, a):
     """Write parameters and state of a trajectory into the rows of a workspace.
 
-    The numbers of these rows do not depend on the orders of the series.
+    The positions of these rows do not depend on the orders of the series, so the kernel serves
+    steps of any orders.
     """
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
@@ -164,7 +165,7 @@ def side_of(p, y):
 
 @kernel
 def advance(p, y, tangents, side, t, end, tolerance, work):
-    """Integrate from time t to time `end`; the arguments are those of `step`.
+    """Integrate from time t to time `end`; the arguments are as in `step`.
 
     Return the side at the end, the number of contacts begun and the time in contact. If the motion
     escapes (`equation.no_return`), the integration stops in the state at the escape.

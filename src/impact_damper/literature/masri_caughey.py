@@ -6,13 +6,13 @@ at one wall, the mirror image of this impact follows at the other wall. Between 
 mass flies at constant velocity, alternately w and -w. Z1 is the displacement of the primary mass,
 Z2 the displacement of the primary mass relative to the loose mass, and W the forcing frequency.
 
-The loose mass meets the wall Z2 = -d0 with the velocity w and leaves it with the velocity -w.
-Momentum and restitution give the velocity of the primary mass before this impact, -k w with
-k = (1 - e + 2 rm)/(1 + e). The flight gives the displacement of the primary mass at the impact,
-pi w/(2 W) - d0. Between impacts the state of the primary mass is the sum of the steady forced
-response and a transient, which is a decaying unforced oscillation. The transient is w (a, b) just
-before the impact and w (a, b + 2 rm) just after it. By symmetry it has changed its sign half a
-cycle later,
+Let d0 be the clearance, e the restitution and rm the mass ratio. The loose mass meets the wall Z2 =
+-d0 with the velocity w and leaves it with the velocity -w. Momentum and restitution give the
+velocity of the primary mass before this impact, -k w with k = (1 - e + 2 rm)/(1 + e). The flight
+gives the displacement of the primary mass at the impact, pi w/(2 W) - d0. Between impacts the state
+of the primary mass is the sum of the steady forced response and a transient, which is a decaying
+unforced oscillation. The transient is w (a, b) just before the impact and w (a, b + 2 rm) just
+after it. By symmetry it has changed its sign half a cycle later,
 
     M (a, b + 2 rm) = -(a, b),
 

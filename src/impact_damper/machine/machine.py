@@ -191,9 +191,9 @@ class Machine:
         ----------
         frequency : float, optional
             Forcing frequency, Hz. With a moving base the force of the oscillator then holds for
-            this frequency alone. Without this argument the force is approximated by A (k + c^2
-            w^2/(2 k)), with A = a/w^2 for `base_acceleration`. Its relative error is (2
-            damping_ratio w/w0)^4/8.
+            this frequency alone. Without this argument the force is approximated by
+            A (k + c^2 w^2/(2 k)), with A = a/w^2 for `base_acceleration`. Its relative error is
+            (2 damping_ratio w/w0)^4/8.
 
         Raises
         ------

@@ -124,7 +124,7 @@ def si_value(name, value, quantity) -> float:
 def wrong_unit(value, quantity) -> str:
     """Return a remark in brackets on the wrong unit of a value, or "" if the unit is not wrong.
 
-    `value` and `quantity` are as of `si_value`.
+    The arguments are as in `si_value`.
     """
     if not isinstance(value, str) or len(value) > LONGEST_TEXT or not QUANTITIES[quantity].unit:
         return ""

@@ -10,8 +10,8 @@ from impact_damper.motions.matching import SIMILAR, size_ratio
 SAME = 1e-6
 # Differences of max |Z1| below ROUNDING are rounding errors; they matter for motions near rest.
 ROUNDING = 1e-11
-# All motions with the same one of these outcomes are the same motion, because their displacement is
-# infinite or 0.
+# Two motions with the same one of these outcomes count as the same motion, because the displacement
+# is infinite or 0.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 
 
@@ -44,7 +44,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of a motion or of its mirror image, or None."""
+        """Return the index of a known motion that equals a record or its mirror image, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue

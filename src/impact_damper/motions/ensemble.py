@@ -132,7 +132,7 @@ def collide(parameters, states, limit, tolerance):
 
     The number is infinite without a contact within `limit` cycles, and 0 for a state at or beyond a
     wall. The motions run in another thread, so that Ctrl-C takes effect at once. The other
-    arguments are those of `settle`.
+    arguments are as in `settle`.
     """
     waits, stop = np.empty(len(states)), np.zeros(1, bool)
 

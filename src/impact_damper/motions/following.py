@@ -193,8 +193,8 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
     """Return the record of a stable orbit followed to a value, or None if it ends before.
 
-    The arguments are those of `follow_stable`. `tolerance` is the largest local error of a step in
-    the measurement.
+    The arguments are as in `follow_stable`. `tolerance` is the largest local error of a step in the
+    measurement.
     """
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -75,8 +75,8 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each run in forcing cycles; for a run that does not end `periods` + 1.
 
-    A run that ends approaches an orbit for some time before it is detected as settled. This time is
-    computed from the multiplier of the orbit and subtracted.
+    When its chaos ends, a run approaches an orbit for some time before it counts as settled. This
+    time is computed from the multiplier of the orbit and subtracted.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 

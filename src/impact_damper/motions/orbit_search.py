@@ -15,8 +15,8 @@ from impact_damper.system.packed import CLEARANCE
 # Longest period of an orbit, in forcing cycles.
 LONGEST = 5
 # Largest distance of an orbit from its start, divided by the largest displacement or speed of the
-# primary mass in the known motions, or by the clearance if it is larger. Twice as far, Newton's
-# method takes four times as long and finds hardly more.
+# primary mass in the known motions, or by the clearance if the clearance is larger. With twice this
+# distance Newton's method takes four times as long and finds hardly more orbits.
 REACH = 1.0
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6

@@ -4,11 +4,14 @@
     u'' = x'' - n/m,    n = (kappa + kappa3 u^2) u + eta u'
 
 x is the displacement of the machine, and u the displacement of the machine relative to the
-absorber. The time T is the phase of the forcing in radian. The state is (x, x', u, u'). Without an
-absorber n and 1/m are 0, and u has no meaning.
+absorber. f is the amplitude of the force; h, k and k3 are damping, stiffness and cubic stiffness of
+the machine; m is the mass of the absorber; kappa, eta and kappa3 are stiffness, damping and cubic
+stiffness of its spring and dashpot. All are divided by the mass of the machine. The time T is the
+phase of the forcing in radian. The state is (x, x', u, u'). Without an absorber n and 1/m are 0,
+and u has no meaning.
 
-The method is that of SciPy's DOP853, of order 8, with fixed steps. The caller chooses steps that
-are short compared with the fastest vibration, so no step has to be rejected.
+The method has the coefficients of SciPy's DOP853, order 8, and fixed steps. The caller chooses
+steps that are short compared with the fastest vibration, so no step has to be rejected.
 """
 
 import math

@@ -250,7 +250,7 @@ def _crossing_speed(damper, frequency):
 
 
 def _placed(oscillator, damper, frequency, free, crossing, tolerance):
-    """Return starts on free motions, at rest, after ramps, and on the solutions of (7)."""
+    """Return starts on free motions, at rest, after ramps, and on solutions of harmonic balance."""
     rows = ramped(oscillator, damper, frequency, tolerance) + [
         (x, v, place * damper.clearance, velocity * speed)
         for primary, speed in [(free.states, max(free.speed, crossing)), ([(0.0, 0.0)], crossing)]

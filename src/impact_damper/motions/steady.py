@@ -39,7 +39,7 @@ def steady_motion(
         phases of the first harmonic, largest Floquet multiplier, Lyapunov exponent, and the two
         frequencies of a quasi-periodic motion. Also `state`, a state of the motion at W T = pi/2.
         The state has this phase as a coordinate, so `simulate` and this function can continue from
-        it. In a sweep, pass it on from one frequency to the next.
+        it. In a sweep, pass the state on from one frequency to the next.
 
     Raises
     ------

@@ -215,7 +215,7 @@ def _on_orbit(p, record, states, contacts, limit):
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # An orbit that repeats sooner would have been found with its own, shorter period before.
+        # n rises, so an orbit with a shorter period was found before.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]

@@ -12,7 +12,7 @@ import numbers
 import reprlib
 from dataclasses import field, fields
 
-FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "runs are counted in forcing cycles"}
+FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "beyond, cycles are too long or too short"}
 DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
 MASS_RATIO_RANGE = {"least": 1e-6, "most": 10.0}
 CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
@@ -39,9 +39,10 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs that one call computes; the results of all are in memory at the same time.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# PERIODS_RANGE        forcing cycles of a run LIFETIME_RANGE       forcing cycles of a run that
-# measures the lifetime of a chaotic transient LEAD                 first cycles of such a run, in
-# which it reaches the transient; runs that end in                      these cycles are not counted
+# PERIODS_RANGE        forcing cycles of a run
+# LIFETIME_RANGE       forcing cycles of a run that measures the lifetime of a chaotic transient
+# LEAD                 first cycles of such a run, in which it reaches the transient; runs that end
+#                      in these cycles are not counted
 # SCAN_LIFETIME_RANGE  LIFETIME_RANGE for runs at many frequencies, which may be shorter
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}

@@ -47,8 +47,8 @@ def check_increasing(name, values, least="one"):
     Raises
     ------
     ValueError
-        If the numbers do not increase, or if there are fewer of them than `least`, which is "one"
-        or "two".
+        If the numbers do not increase, or if there are too few. At least one or two are needed;
+        `least` is "one" or "two".
     """
     numbers = check_numbers(name, values)
     if len(numbers) < {"one": 1, "two": 2}[least] or np.any(np.diff(numbers) <= 0):

@@ -12,9 +12,9 @@ def branches_over(rows) -> list[np.ndarray]:
     """Return the number of the branch of each solution, at each value of a parameter.
 
     Two solutions at neighbouring values of the parameter belong to the same branch if each is the
-    nearest one to the other and their distance is below JUMP times the size of the largest
-    solution. Any other solution begins a new branch. Two branches that meet at a fold are told
-    apart if each moves less from value to value than the distance between them.
+    nearest solution to the other, and the distance between them is below JUMP times the size of the
+    largest solution. Any other solution begins a new branch. Two branches that meet at a fold are
+    told apart if each moves less from value to value than the distance between them.
 
     Parameters
     ----------

@@ -45,7 +45,8 @@ MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Search for a singularity (`singularity_distance`), with x = (f/|k3|)^(1/3):
+# Search for a singularity (`singularity_distance`), with the forcing amplitude f and
+# x = (f/|k3|)^(1/3):
 # STARTS       number of start times in half a forcing cycle
 # LARGE        |Z1| at which an integration towards the singularity stops, in units of x
 # LAST_CHANGE  largest change of the estimated position in the last iteration, in units of

@@ -1,6 +1,8 @@
 """Design rule (19) of the paper for the clearance.
 
-This module imports no NumPy, because Snakemake reads it at every dry run.
+The parameters h (damping), wl (linear frequency), k3 (cubic spring), F, U and V (forcing) are as in
+`system.parameters.Oscillator`, W is the forcing frequency, a the amplitude of Z1 and rm the mass
+ratio. This module imports no NumPy, because Snakemake reads it at every dry run.
 """
 
 import math
@@ -59,8 +61,8 @@ def peak_frequency(oscillator) -> float:
 def rule_clearance(oscillator, mass_ratio) -> float:
     """Return the clearance d0 = f/(rm Wp^2) of rule (19), dimensionless.
 
-    With this clearance the amplitude a = 0 solves (13) at the peak frequency Wp. f is the forcing
-    amplitude F + U W^2 + V/W^2 at W = Wp.
+    With this clearance the amplitude a = 0 solves equation (13), the harmonic balance for rigid
+    walls, at the peak frequency Wp. f is the forcing amplitude F + U W^2 + V/W^2 at W = Wp.
 
     Raises
     ------

@@ -11,9 +11,10 @@ from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import main_solutions
 from impact_damper.theory.many_harmonics import Balance
 
-# Newton's method (`solve`): TOLERANCE      largest change of a coefficient in the last step,
-# relative to the largest coefficient ITERATIONS     largest number of steps LEAST_DAMPING  smallest
-# factor by which a step is multiplied
+# Newton's method (`solve`):
+# TOLERANCE      largest change of a coefficient in the last step, relative to the largest one
+# ITERATIONS     largest number of steps
+# LEAST_DAMPING  smallest factor by which a step is multiplied
 TOLERANCE = 1e-11
 ITERATIONS = 40
 LEAST_DAMPING = 1e-4

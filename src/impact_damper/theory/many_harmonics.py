@@ -112,9 +112,9 @@ class Balance:
     def residual(self, coefficients, rows) -> np.ndarray:
         """Return left side minus right side of the equations of motion in each harmonic.
 
-        The equations are (3) and (4), with a dashpot (20) and (21). The result has the shape
-        (1 or 2, m). The forcing f cos(W T) has the coefficient f/2. `rows` are the `contacts` of
-        the coefficients.
+        The equations are (3) and (4), with a dashpot (20) and (21). The result has the shape (1 or
+        2, m). The forcing A cos(W T) has the coefficient A/2. `rows` are the `contacts` of the
+        coefficients.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]

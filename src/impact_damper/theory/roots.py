@@ -51,11 +51,12 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], ascending.
 
-    A double root is listed once. The extrema are those of a Chebyshev interpolant, found as
-    eigenvalues of a companion matrix (Trefethen, Approximation Theory and Approximation Practice,
-    2013, chapter 18). The degree of the interpolant is doubled until its last coefficients reach
-    the rounding error. An interval in which the rounding error varies by more than a factor of 1e6
-    is halved first. Between the extrema the roots of the function itself are located.
+    A double root is listed once. The extrema of the function are replaced by the extrema of a
+    Chebyshev interpolant, which are eigenvalues of a companion matrix (Trefethen, Approximation
+    Theory and Approximation Practice, 2013, chapter 18). The degree of the interpolant is doubled
+    until its last coefficients reach the rounding error. An interval in which the rounding error
+    varies by more than a factor of 1e6 is halved first. Between the extrema the roots of the
+    function itself are located.
 
     Parameters
     ----------

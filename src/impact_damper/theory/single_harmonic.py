@@ -6,9 +6,10 @@ t2 = t1 and let the amplitude a have either sign. With a < 0, Z1 and Z2 are in a
 set b > 0 without losing a solution, because changing the signs of both a and b shifts t1 by pi and
 changes nothing else.
 
-The equations hold for elastic contact (restitution 1). Below, g = (3/4) k3, and f is the forcing
-amplitude F + U W^2 + V/W^2, which is 1 in the paper. All quantities are dimensionless. Angles are
-in radian.
+The equations hold for elastic contact (restitution 1). The parameters h (damping), wl (linear
+frequency), k3, F, U, V, rm, d0 and r1 are as in `system.parameters`, and W is the forcing
+frequency. Let g = (3/4) k3, and let f be the forcing amplitude F + U W^2 + V/W^2, which is 1 in the
+paper. All quantities are dimensionless. Angles are in radian.
 """
 
 from typing import NamedTuple

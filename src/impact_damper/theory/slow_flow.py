@@ -62,7 +62,7 @@ def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
     """Return the Jacobian of `slow_flow` with respect to the state.
 
-    This is appendix A in complex amplitudes. The arguments are those of `slow_flow`.
+    This is appendix A in complex amplitudes. The arguments are as in `slow_flow`.
 
     Returns
     -------
@@ -127,7 +127,7 @@ def fixed_points(solutions) -> np.ndarray:
 def stability(growth) -> np.ndarray:
     """Return the flag `stability` of growth rates.
 
-    It is 1 (stable) below -MARGIN, -1 (unstable) above MARGIN, and 0 (marginal) between.
+    The flag is 1 (stable) below -MARGIN, -1 (unstable) above MARGIN, and 0 (marginal) between.
     """
     return -np.sign(np.where(np.abs(growth) <= MARGIN, 0.0, growth)).astype(int)
 

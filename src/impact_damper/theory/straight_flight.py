@@ -4,8 +4,10 @@ In the model the loose mass flies at constant velocity between two impacts in ea
 small displacement the cubic spring is negligible, and the primary mass is a linear oscillator under
 the forcing and the two impulses. The walls may be rigid or compliant, and the impacts elastic or
 inelastic. The model gives the optimum value of rm W^2 d0 for two criteria: the smallest max |Z1|,
-and the smallest first harmonic of Z1. Lengths are in units of f/W^2 with the forcing amplitude f,
-so rm W^2 d0 means rm W^2 d0/f everywhere in this module.
+and the smallest first harmonic of Z1. Lengths are in units of f/W^2 with the forcing amplitude f
+and the forcing frequency W, so rm W^2 d0 means rm W^2 d0/f everywhere in this module. The
+parameters rm, d0, e and r1 are as in `system.parameters.Damper`, and h, omega_l and k3 as in
+`Oscillator`.
 """
 
 from functools import cache
@@ -34,9 +36,10 @@ class Flight(NamedTuple):
 
     Let x = W^2 Z1/f, and let x2 be the displacement of the loose mass. The response to the forcing
     alone is -A cos(phi), where the phase phi is zero at a maximum of -x. An impact takes place at
-    phi = s, the lag. In the following half cycle the loose mass flies at constant velocity:
-    W^2 x2/f = -(q/rm) (1 - 2 (phi - s)/pi). The motion in the other half cycle is the mirror image.
-    The loose mass exerts the impulses 4 q/pi on the primary mass, which add q R(y) to x:
+    phi = s, the lag. In the following half cycle the loose mass flies at constant velocity: W^2
+    x2/f = -(q/rm) (1 - 2 (phi - s)/pi). The motion in the other half cycle is the mirror image. The
+    loose mass exerts impulses on the primary mass, which are written 4 q/pi with an unknown q. They
+    add q R(y) to x:
 
         x = -A cos(phi) + q R(y),      y = pi/2 - (phi - s),  |y| <= pi/2.
 
@@ -58,12 +61,12 @@ class Flight(NamedTuple):
     The forcing during a contact reduces the lag by theta (1 - e)/(1 + e) - 2 z k.
 
     Tip. During a contact of finite duration x has a rounded maximum. The maximum lies below the
-    intersection of the two lines by 1 - 2/pi times the depth, as the maximum of a half sine lies
+    intersection of the two lines by (1 - 2/pi) times the depth, as the maximum of a half sine lies
     below the intersection of its end tangents.
 
     For rigid walls l and g enter exactly. For compliant walls terms of the orders k^2 (that is
-    1/r1) and k g are neglected, and for e < 1 also a part of the rounding of the tip, of order (1 -
-    e) k. The cubic spring is neglected. Near an optimum it would add about (3/4) k3 max |Z1|^2/W^2
+    1/r1) and k g are neglected, and for e < 1 also a part of the rounding of the tip, of order k (1
+    - e). The cubic spring is neglected. Near an optimum it would add about (3/4) k3 max |Z1|^2/W^2
     to l^2. The relative error of the clearance is of the same size.
 
     Attributes

@@ -34,6 +34,15 @@ class Variable(NamedTuple):
 
 
 STABILITY = {"absent": -2, "unstable": -1, "marginal": 0, "stable": 1}
+# Outcome of a motion:
+# absent          there is no motion in this place of the array
+# unresolved      the run ended before the outcome was certain
+# settled         on a stable periodic orbit, with contacts or without a damper
+# diverged        the state is no longer finite
+# non_colliding   settled, and the loose mass touches no wall
+# escaped         over the barrier of a softening spring
+# at_rest         a motion without forcing has come to rest
+# drifting        the primary mass is on an orbit; the loose mass drifts and touched no wall so far
 OUTCOME = {
     "absent": -1,
     "unresolved": 0,
@@ -46,11 +55,14 @@ OUTCOME = {
     "quasi_periodic": 7,
     "drifting": 8,
 }
+# Kind of a minimum: with a horizontal tangent, at a kink, at the end of a branch (jump), or at the
+# end of the sweep (edge).
 MINIMUM = {"not_found": 0, "smooth": 1, "kink": 2, "jump": 3, "edge": 4}
 # Kinds of motions with the damper. A motion of period 1 is quiet if its largest displacement is
 # below the quiet limit, half the displacement of the free resonance, and violent otherwise. A
 # motion of another period is a subharmonic, whatever its size.
 DAMPED_MOTION = {"none": -1, "unsettled": 0, "quiet": 1, "violent": 2, "subharmonic": 3}
+# Kinds of motions without the damper.
 FREE_MOTION = {
     "none": -1,
     "unresolved": 0,
@@ -59,6 +71,7 @@ FREE_MOTION = {
     "subharmonic": 3,
     "other": 4,
 }
+# Events that end a branch of motions.
 END = {
     "not_smooth": 0,
     "fold": 1,

@@ -71,8 +71,8 @@ def forcing(a):
 def look_ahead(a):
     """With one lane, compute COSINE and SINE at T, the expected end of the step.
 
-    With one lane the processor does this while it waits for other results of the step. With several
-    lanes it does not wait, and the function does nothing.
+    The processor computes them while it waits for other results of the step. With several lanes it
+    does not wait, and the function does nothing.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

@@ -61,9 +61,9 @@ def largest_tail(a, i):
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `largest_tail` by the factor `excess` are changed. LENGTH is the
-    n-th root of a ratio. It is computed with an error of a few per cent from the bits of the
-    numbers, which are nearly proportional to logarithms.
+    Only lanes whose TAIL exceeds `largest_tail` by the factor `excess` are changed. The new LENGTH
+    is the n-th root of `largest_tail` divided by a coefficient. It is computed with an error of a
+    few per cent from the bits of the numbers, which are nearly proportional to logarithms.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
