@@ -25,10 +25,7 @@ def optimum_in_words(sweep) -> str:
             f"no quiet motion: none of the starts, {sweep.sizes['start']} of them random, at each "
             f"of {number} {swept}{play} leads to one"
         )
-        best, size = (
-            factor * float(sweep["optimum_clearance"]),
-            float(sweep["optimum_displacement"]),
-        )
+    best, size = factor * float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
     where = {"jump": ", where it ends", "edge": f", the end of the {swept}"}
     meanings = {flag("optimum_kind", each): text for each, text in where.items()}
     return (
