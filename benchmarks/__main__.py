@@ -1,4 +1,4 @@
-"""All benchmarks, one after the other, into a folder; `--quick` is a trial of the scripts."""
+"""Run all benchmarks, one after the other; `--quick` only tries whether the scripts run."""
 
 import argparse
 import time
@@ -24,7 +24,7 @@ from benchmarks.timing import one_core
 from impact_damper.data import table_files
 from impact_damper.figures.style import save_figure
 
-# How much of everything: in full, and to see that all of it runs.
+# Amounts of work: in full, and as little as possible, to try the scripts.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
         "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 40,
         "settled": 2000,
@@ -36,7 +36,7 @@ RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
 
 
 def compare(write, amount):
-    """Kernel against rivals, on all scenes."""
+    """Compare the kernel with other integrators on all scenes (test cases)."""
     found = scenes.from_configuration(amount["starts"])
     with one_core():
         times, made = ratios.compared(found, amount["rounds"])
@@ -46,7 +46,7 @@ def compare(write, amount):
 
 
 def draw_chart(write, amount):
-    """Error against time."""
+    """Chart the error of each integrator against its time."""
     found = scenes.from_configuration(amount["starts"])
     with one_core():
         table = chart.points(found, amount["exponents"], amount["few"])
@@ -54,7 +54,7 @@ def draw_chart(write, amount):
 
 
 def cost(write, amount):
-    """Cost of a period."""
+    """Measure the time that the kernel takes for a forcing cycle."""
     with one_core():
         table = costs.per_period(costs.motions(amount["motions"]), amount["few"])
     write("period_cost", table, costs.draw(table))
@@ -62,7 +62,7 @@ def cost(write, amount):
 
 
 def scale(write, amount):
-    """Ensembles over size and cores."""
+    """Measure ensembles, sets of trajectories computed together, over their size and the cores."""
     found = scenes.from_configuration(amount["starts"])
     chosen = [scene for scene in found if scene.name in ("design", "resonance")]
     with one_core():
@@ -71,23 +71,23 @@ def scale(write, amount):
 
 
 def start(write, amount):
-    """Start-up and compile times."""
+    """Measure the times of start-up and compilation."""
     write("start_up", startup.table(amount["few"], compiling=amount is FULL))
 
 
 def search(write, amount):
-    """Default searches against wider ones."""
+    """Compare the default search for motions with a search that is ten times as wide."""
     systems = [*searches.named_systems(), *searches.random_systems(amount["random"])]
     write("searches", searches.table(systems, amount["wide"]))
 
 
 def time_designs(write, amount):
-    """Steps of designs."""
+    """Measure the times of the steps of designs."""
     write("design", design.table(amount["design"]), how=design.HOW)
 
 
 def settle(write, amount):
-    """Starts settled, states of a basin labelled, and orbits found a second."""
+    """Count starts settled, states of a plane labelled, and orbits found in a second."""
     with one_core():
         write("settled", settled.table(amount["settled"], amount["few"]))
         write("basins", basins.table(50 * amount["settled"], amount["few"]))
@@ -108,8 +108,8 @@ PARTS = {
 
 def main():
     reader = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
-    reader.add_argument("parts", nargs="*", help=f"of {', '.join(PARTS)} and stages; all if none")
-    reader.add_argument("--quick", action="store_true", help="little of everything")
+    reader.add_argument("parts", nargs="*", help=f"any of {', '.join(PARTS)}, stages; default: all")
+    reader.add_argument("--quick", action="store_true", help="as little work as possible")
     reader.add_argument("--results", type=Path, default=Path("results"), help="folder of results")
     given = reader.parse_args()
     parts = given.parts or [*PARTS, "stages"]

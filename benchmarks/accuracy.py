@@ -6,12 +6,16 @@ from typing import NamedTuple
 from benchmarks.methods import TIMED, starts_of
 
 LIMIT = 1e-9
-# Tolerances are 10^(-k/STEPS) for k from LOOSEST to TIGHTEST: 3e-14, the tightest of SciPy.
+# Tolerances are 10^(-k/STEPS) for k from LOOSEST (0.01) to TIGHTEST (3e-14, the tightest tolerance
+# that SciPy accepts).
 STEPS, LOOSEST, TIGHTEST = 4, 8, 54
 
 
 class Found(NamedTuple):
-    """A tolerance, the error with it, whether that is within the limit, and the prepared method."""
+    """A tolerance, the error with it, whether the error is within the limit, and the method.
+
+    `run` is the method prepared for the scene: a function from starts to states at the end.
+    """
 
     tolerance: float
     error: float
@@ -20,16 +24,16 @@ class Found(NamedTuple):
 
 
 def measured(scene, name, tolerance):
-    """Return a prepared method and its largest error over its starts."""
+    """Return a method prepared for a scene, and its largest error; infinite if a run fails."""
     run = TIMED[name].prepare(scene, tolerance)
     error = scene.error(run(starts_of(scene, name)))
     return run, error if math.isfinite(error) else math.inf
 
 
 def loosest(scene, name, limit=LIMIT):
-    """Return the loosest tolerance with an error within the limit, by bisection.
+    """Return the loosest tolerance with an error within the limit, by bisection, as `Found`.
 
-    If there is none, the tightest tolerance is returned with `met` false.
+    If no tolerance keeps the limit, return the tightest one with `met` False.
     """
     low, high = LOOSEST - 1, TIGHTEST
     best = Found(10 ** (-high / STEPS), math.nan, False, None)

@@ -1,4 +1,8 @@
-"""States of the free oscillator at W = 1.85 labelled a second, and looked up in a release set."""
+"""States of the free oscillator at W = 1.85 that are labelled, and looked up, in a second.
+
+Free means without damper. To label a state is to find the motion to which it leads. A release set
+holds the states from which the free motion settles on the small motion; it is a precomputed table.
+"""
 
 import numpy as np
 import pandas as pd
@@ -29,7 +33,14 @@ def look_up(depth, half, states):
 
 
 def table(count, rounds):
-    """Return states labelled a second, for about `count` states on a grid."""
+    """Return states labelled and looked up in a second, for about `count` states on a grid.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row for each task: number of states, states in a second (median and quartiles over
+        `rounds`), and the mean number of forcing cycles that labelling a state takes.
+    """
     p, settling = pack(Oscillator(0.215), None, 1.85), Settling()
     attractors = free_attractors(p, PLANE, settling)
     axes = [np.linspace(-half, half, round(count**0.5)) for half in PLANE]

@@ -1,4 +1,8 @@
-"""Error against time: every method over its tolerances, on every scene."""
+"""Error against time: every method over its tolerances, on every scene.
+
+A scene is a test case: one motion with starts (initial states) and exact states at its end. Rivals
+are the integrators with which the package is compared; each locates contacts or steps over them.
+"""
 
 import math
 import time
@@ -21,9 +25,9 @@ from impact_damper.figures.style import (
 )
 from impact_damper.rivals.methods import METHODS, name_and_mode
 
-# No tighter tolerance is tried after a run that took longer, in seconds.
+# After a run that took longer than this, in seconds, no tighter tolerance is tried.
 LONG = 0.5
-# Error of the state from which on a run has lost the motion.
+# A run with a larger error of the state than this has lost the motion.
 LOST = 0.1
 # Colour, line and marker of the kernel and of heyoka.py; rivals have the colour of their figures.
 LOOK = {
@@ -38,7 +42,8 @@ MARKERS = "DP<>"
 
 
 def looks():
-    """Return colour, line and marker of each method: of a rival, a line where it locates."""
+    """Return colour, line and marker of each method; rivals that locate contacts have full
+    lines."""
     rivals, markers = {}, {}
     for label in RIVALS:
         name, located = name_and_mode(label)
@@ -71,8 +76,8 @@ def points_of(scene, name, exponents, rounds):
 def points(scenes, exponents, rounds, names=tuple(TIMED)):
     """Return error of the state and microseconds a forcing cycle, by scene, method and tolerance.
 
-    The time is the median of `rounds`, or of one run if a method is slow. `status` is found, lost
-    (the state is off by more than LOST) or given_up (the run did not end).
+    The time is the median over `rounds`; a slow method runs only once. `status` is "found", "lost"
+    (the error of the state exceeds LOST) or "given_up" (the run did not end).
     """
     rows = []
     for scene in scenes:
@@ -85,7 +90,7 @@ def points(scenes, exponents, rounds, names=tuple(TIMED)):
 
 @style()
 def draw(table):
-    """A panel for each scene, from the table of `points`.
+    """Draw a panel for each scene, from the table of `points`.
 
     Returns
     -------

@@ -1,4 +1,7 @@
-"""Time of a forcing cycle by the kernel, over amplitude, contacts and tolerance."""
+"""Time that the kernel takes for a forcing cycle, over amplitude, contacts and tolerance.
+
+In this module and its tables a period is a forcing cycle.
+"""
 
 import math
 
@@ -18,15 +21,16 @@ from impact_damper.system.parameters import Damper, Oscillator
 OSCILLATOR = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)
 TOLERANCES = (1e-6, 1e-9, 1e-12)
-PERIODS = 20
-TRANSIENT = 30
+# Forcing cycles that are timed, and that are run before.
+PERIODS, TRANSIENT = 20, 30
+# Radius of the ball of random starts.
 RADIUS = 2.0
 
 
 def motion(damper, frequency, start):
-    """Return a scene after a transient, its contacts a period and its largest |Z1|.
+    """Return a scene after a transient, its contacts in a cycle and its largest |Z1|.
 
-    The scene's exact state is replaced by the kernel's.
+    The field `exact` of the scene holds the kernel's own state, since only times are measured here.
     """
     p = pack(OSCILLATOR, damper, frequency)
     period = 2 * math.pi / frequency
@@ -52,7 +56,7 @@ def motions(count, seed=1995):
         for i, frequency in enumerate(frequencies):
             start = random_states(1, RADIUS, damper or DAMPER, seed + i)[0]
             if damper is None:
-                # on the resonance branch if there is one
+                # Leads to the resonance motion, if this motion exists at this frequency.
                 start[:2] = 1.4 * frequency * np.array([0.9, -0.5])
             found.append(motion(damper, frequency, start))
     return found
@@ -89,10 +93,11 @@ def per_period(found, rounds, tolerances=TOLERANCES):
 
 
 def fitted(table):
-    """Return the fit of time = a + b contacts + c (2 pi/W) max |Z1|, in microseconds a period.
+    """Return the fit of time = a + b contacts + c (2 pi/W) max |Z1|, in microseconds a cycle.
 
-    The last term stands for the number of steps in flight: their length is the radius of
-    convergence of the series, which is inversely proportional to the largest |Z1|.
+    `table` is the result of `per_period`. The last term stands for the number of steps in flight:
+    the length of a step is proportional to the radius of convergence of the Taylor series, which is
+    inversely proportional to the largest |Z1|.
     """
     rows = []
     for tolerance, of in table.groupby("tolerance", sort=False):
@@ -109,7 +114,7 @@ def fitted(table):
 
 @style()
 def draw(table):
-    """Draw the time over max |Z1| times the period, without contacts, and over contacts."""
+    """Draw the time of a cycle: of free motions over (2 pi/W) max |Z1|, of others over contacts."""
     table = table.assign(turns=2 * math.pi / table["frequency"] * table["displacement"])
     drawn = figure("double", 3.2)
     left, right = drawn.subplots(1, 2, sharey=True)

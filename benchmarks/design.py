@@ -16,9 +16,9 @@ DESIGNS = {
     "hardening": (SPRING | {"cubic_stiffness": 4e9}, (26, 34), 0.6),
 }
 HOW = (
-    "Each step keeps its result in a file; its seconds are those between this file and the one "
-    "before. Other processes on the machine lengthen all steps alike, so that shares and the CPU "
-    "seconds of a whole design, also told below, depend less on them."
+    "Each step keeps its result in a file; its seconds are the time between this file and the file "
+    "before. Other processes on the computer lengthen all steps alike. The shares of the steps and "
+    "the CPU seconds of a whole design depend less on other processes."
 )
 
 
@@ -61,7 +61,8 @@ def table(size, workers=2):
     workers : int
         Threads.
     """
-    steps_of("linear", {"frequencies": 3, "candidates": 4, "starts": 16, "share": 0.8}, 1)  # loads
+    # A small design first, which loads all modules and kernels.
+    steps_of("linear", {"frequencies": 3, "candidates": 4, "starts": 16, "share": 0.8}, 1)
     rows = []
     for name in DESIGNS:
         seconds, used = steps_of(name, size, workers)

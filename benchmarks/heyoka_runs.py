@@ -1,11 +1,12 @@
-"""Motions by heyoka.py with terminal events and Python callbacks, at its fastest settings.
+"""Motions by heyoka.py, a Taylor integrator, at its fastest settings for this problem.
 
-One integrator computes flight and contact. Its one event is Z2^2 = d0^2. The callback switches two
-parameters, the stiffness that acts and the wall, and continues the integration. It accesses
-parameters and state through views that are made once, since making them takes most of its time. Two
-events, one for each wall, are 4 to 8 % slower. Two integrators in turn, for flight and contact, are
-slower still, because `propagate_until` returns at every event. Other settings that were tried are
-in `SETTINGS`, and every run of the benchmarks times them.
+One heyoka integrator computes flight and contact. Its one event is Z2^2 = d0^2: the loose mass
+reaches or leaves a wall. At the event a Python callback switches two parameters, the stiffness of
+the contact (0 in flight) and the position of the wall, and the integration continues. The callback
+accesses parameters and state through memory views. The views are made only once, since making them
+takes longer than the rest of the callback. Two events, one for each wall, are 4 to 8 % slower. Two
+integrators in turn, for flight and contact, are slower still, because `propagate_until` returns at
+every event. Every run of the benchmarks also times the other settings in `SETTINGS`.
 """
 
 import math
@@ -25,10 +26,11 @@ from impact_damper.system.packed import (
 )
 
 FASTEST = {"fast_math": True, "force_avx512": True}
-# Trajectories of a batch: 8 to 64 were tried, with vectors of four numbers and of eight.
+# Trajectories of a batch. 16 is the fastest number of those tried, 8 to 64.
 BATCH = 16
-# Time after an event in which it is not searched for again. With heyoka's own value the end of a
-# contact next to grazing is missed, at tolerances down to 1e-10; with 0 an event repeats.
+# Time after an event in which heyoka does not search for the event again. With heyoka's default
+# the end of a very short contact is missed, at tolerances down to 1e-10; with 0 an event is found a
+# second time.
 COOLDOWN = 1e-9
 # Changes of the fastest settings, one at a time.
 SETTINGS = {
@@ -45,7 +47,7 @@ SETTINGS = {
 
 
 class Motions:
-    """An integrator for given parameters. Factors of 1, as in the paper, are left out.
+    """A heyoka integrator for given parameters. Factors of 1, as in the paper, are left out.
 
     Parameters
     ----------
@@ -54,11 +56,14 @@ class Motions:
     tolerance : float
     batch : int
         Trajectories integrated together; 1 is the scalar integrator.
-    linear_forcing, power, as_par : bool
-        Whether the forcing comes from two more linear equations, the cube is a power, and the
-        equations take their parameters at run time.
+    linear_forcing : bool
+        Whether the forcing comes from two additional linear equations, not from a cosine.
+    power : bool
+        Whether the cube is a power, not a product.
+    as_par : bool
+        Whether the equations take their parameters at run time, not when they are compiled.
     settings
-        Further ones of heyoka's, over `FASTEST`.
+        Further settings of heyoka, which override `FASTEST`.
     """
 
     def __init__(
@@ -118,7 +123,7 @@ class Motions:
         self.views[:] = memoryview(self.pars), memoryview(self.state)
 
     def _callback(self, clearance, stiffness):
-        """Return the callback that switches the contact on and off, by arrays in `self.views`."""
+        """Return the callback that switches the contact on and off through `self.views`."""
         views = self.views
 
         def scalar(_, sign):
@@ -142,6 +147,7 @@ class Motions:
         return scalar if self.batch == 1 else batched
 
     def _start(self, columns):
+        """Set states, the columns of an array, and flight; return the number of components used."""
         n = 4 if self.damped else 2
         self.state[:n] = columns[:n]
         for i, value in enumerate(self.begin):
@@ -152,7 +158,10 @@ class Motions:
         return n
 
     def run(self, scene, starts):
-        """Return states (m, 4) at the scene's end; m must be a multiple of the batch."""
+        """Return the states at the scene's end, shape (m, 4); NaN where a run failed.
+
+        The number of starts m must be a multiple of the batch.
+        """
         motion, ended = self.motion, heyoka.taylor_outcome.time_limit
         states = np.full((len(starts), 4), np.nan)
         if self.batch == 1:

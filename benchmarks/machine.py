@@ -1,4 +1,4 @@
-"""Machine and versions with which times were measured."""
+"""Computer and versions with which times were measured."""
 
 import os
 import platform
@@ -13,7 +13,7 @@ PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "heyoka")
 
 
 def table():
-    """Return machine and versions."""
+    """Return processor, system and versions, a row for each."""
     rows = {
         "processor": processor(),
         "cores": str(os.cpu_count()),
@@ -24,7 +24,7 @@ def table():
 
 
 def document(how=""):
-    """Return a function that makes a table's Markdown: machine, way of measuring, and numbers."""
+    """Return a function from a table to Markdown: the computer, the text `how`, and the table."""
     described = ", ".join(f"{row.item} {row.value}" for row in table().itertuples())
     made = f"Made by `make benchmark` on: {described}."
     return lambda shown: "\n\n".join(filter(None, [made, how, table_files.as_markdown(shown)]))

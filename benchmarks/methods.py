@@ -1,6 +1,8 @@
-"""Methods that are timed, with one interface: a scene and a tolerance give a function of starts.
+"""Methods that are timed, with one interface.
 
-The integrators with which the package is compared come from `impact_damper.rivals.methods`.
+For a scene (a test case) and a tolerance a method prepares a function from starts (initial states)
+to states at the end. The kernel is this package's compiled integrator. The integrators with which
+it is compared, called rivals, come from `impact_damper.rivals.methods`.
 """
 
 from collections.abc import Callable
@@ -30,8 +32,8 @@ class TimedMethod(NamedTuple):
     ----------
     title : str
     prepare : callable
-        Takes a scene and a tolerance, and returns a function from starts (m, 4) to states (m, 4),
-        NaN where a run failed. Its compilation is not timed.
+        Takes a scene and a tolerance, and returns a function from starts, shape (m, 4), to states
+        at the end, shape (m, 4), NaN where a run failed. Compilation happens here and is not timed.
     slow : bool
         Whether the method is run from the first start only.
     """
@@ -42,7 +44,7 @@ class TimedMethod(NamedTuple):
 
 
 def single(scene, tolerance):
-    """Prepare the kernel, called from Python for each run; states are in flight."""
+    """Prepare the kernel, called from Python for each start; the starts must be in flight."""
     p, begin, end, work = scene.parameters, scene.begin, scene.end, workspace()
 
     def run(starts):
@@ -55,7 +57,7 @@ def single(scene, tolerance):
 
 
 def of_orders(orders):
-    """Return `prepare` of the kernel with series of other orders, in flight and in contact."""
+    """Return `prepare` for the kernel with other orders of the series, in flight and in contact."""
 
     def prepare(scene, tolerance):
         p, rows, made = scene.parameters, np.empty((ROWS, SERIES)), steps_of(orders)
@@ -72,7 +74,7 @@ def of_orders(orders):
 
 
 def advance_rows(scene, states, tolerance):
-    """Advance states in flight by the kernel, several side by side; they are replaced."""
+    """Advance states in place to the end of the scene, as an ensemble: several side by side."""
     count = len(states)
     rows = np.tile(scene.parameters, (count, 1))
     sides, contacts = np.zeros((2, count), int)
@@ -98,12 +100,12 @@ def heyoka(scene, tolerance, **settings):
 
 
 def heyoka_batch(scene, tolerance):
-    """Prepare heyoka.py's batch mode; its events call back for each trajectory."""
+    """Prepare heyoka.py's batch mode, which integrates BATCH trajectories together."""
     return heyoka(scene, tolerance, batch=BATCH)
 
 
 def rival(label):
-    """Return a timed method of an integrator of `rivals.methods`, called for each run."""
+    """Return the timed method of an integrator of `rivals.methods`, called for each start."""
     name, locate = name_and_mode(label)
     integrator = integrators()[name]
 
@@ -136,5 +138,8 @@ def starts_of(scene, name):
 
 
 def applying(scene):
-    """Return the methods for a scene: without walls, both modes of a rival are the same."""
+    """Return the names of the methods for a scene.
+
+    Without a damper there are no contacts to locate, so the methods `..._located` are left out.
+    """
     return [name for name in TIMED if scene.components == 4 or not name.endswith("_located")]

@@ -1,4 +1,8 @@
-"""Orbits found a second by one thread, by single and by multiple shooting."""
+"""Periodic orbits that one thread finds in a second, by single and by multiple shooting.
+
+Shooting is Newton's method for the state that repeats after a period; multiple shooting divides the
+period, for strongly unstable orbits.
+"""
 
 import numpy as np
 import pandas as pd
@@ -20,7 +24,7 @@ def family(frequency):
 
 
 def mild_and_strong(count):
-    """Return about `count` orbits of the branch of the quiet motion by each kind of shooting."""
+    """Return orbits of the branch of the quiet motion, about `count` for each kind of shooting."""
     branch = follow_branch(family, find_orbit(family(FREQUENCY), QUIET), FREQUENCY, SPAN)
     orbits = {"single": [], "multiple": []}
     for point in branch.points:
@@ -29,7 +33,10 @@ def mild_and_strong(count):
 
 
 def table(count, rounds):
-    """Return orbits found a second from disturbed states, with Newton's maps for each of them."""
+    """Return how many orbits are found in a second from disturbed states, by kind of shooting.
+
+    `maps_each` is the mean number of times that Newton's method integrates over the period.
+    """
     orbits = mild_and_strong(count)
 
     def find(name):

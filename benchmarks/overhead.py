@@ -1,4 +1,4 @@
-"""Share of a run of the pipeline that is not computing: start-up of jobs, and idle cores."""
+"""Share of a run of the pipeline that does not go into computing: start-up of jobs, idle cores."""
 
 import re
 import subprocess
@@ -13,7 +13,7 @@ import pandas as pd
 from benchmarks import stages
 
 REPEATS = 5
-# An empty job: the imports that Snakemake puts before a script, and those of most scripts.
+# An empty job: the imports that Snakemake puts before a script, and the imports of most scripts.
 EMPTY = """
 from pathlib import Path
 from types import SimpleNamespace
@@ -45,7 +45,7 @@ def table(text, timings):
     text : str
         Snakemake's log of the run.
     timings : Path
-        Folder of the jobs' timings; those written before the run are left out.
+        Folder of the timings of jobs; files written before the run are ignored.
     """
     begin = datetime.fromisoformat(re.search(r"Date: (.*)", text)[1])
     clock = datetime.strptime(re.search(r"Elapsed time: ([\d:.]+)", text)[1], "%H:%M:%S.%f")

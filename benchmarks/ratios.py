@@ -13,16 +13,16 @@ RIVALS = {
     "kernel_ensemble": ("heyoka", "heyoka_batch", "DOP853_located"),
 }
 HOW = (
-    "Each method at the loosest tolerance that keeps the error of the state at the end "
-    f"below {LIMIT:g} (`times.md`), against 80-bit arithmetic. Methods take turns on one "
-    "core; medians and quartiles over rounds of the ratio of times a trajectory. heyoka.py "
-    "at its fastest settings (`heyoka_settings.md`), SciPy with a compiled right-hand side."
+    "Each method has the loosest tolerance that keeps the error of the state at the end, against "
+    f"80-bit arithmetic, below {LIMIT:g} (`times.md`). Methods take turns on one core. The table "
+    "lists medians and quartiles over rounds of the ratio of times for a trajectory. heyoka.py has "
+    "its fastest settings (`heyoka_settings.md`), SciPy a compiled right-hand side."
 )
 COMPARED = ("kernel", "kernel_ensemble", "heyoka", "heyoka_batch", "DOP853_located")
 
 
 def tolerances(scene, timed, limit):
-    """Return the loosest tolerance within the limit, of each method."""
+    """Return for each method the loosest tolerance that keeps the limit, as `accuracy.Found`."""
     found = {}
     for name in timed:
         each = found[name] = loosest(scene, name, limit)
@@ -92,11 +92,11 @@ def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
     Returns
     -------
     times : pandas.DataFrame
-        For each scene and method the loosest tolerance within the limit, its error, and the
-        microseconds a forcing cycle and trajectory: median, quartiles and least.
+        For each scene and method the loosest tolerance that keeps the limit, its error, and the
+        microseconds for a forcing cycle of a trajectory: median, quartiles and least.
     ratios : pandas.DataFrame
-        For each use of the kernel and each rival, median and quartiles over rounds of the ratio of
-        their times in that round; whether both are within the limit.
+        For each use of the kernel and each rival the ratio of their times in a round, median and
+        quartiles over rounds; and whether both keep the limit.
     """
     times, ratios = [], []
     for scene in scenes:
@@ -113,9 +113,9 @@ def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
 
 
 def heyoka_settings(scenes, times, rounds):
-    """Return how much slower heyoka.py is with one of its fastest settings changed, by scene.
+    """Return how much slower heyoka.py is if one of its fastest settings is changed, by scene.
 
-    Tolerances are those in the table `times` of `compared`.
+    The tolerances come from the table `times` of `compared`.
     """
     rows = []
     for scene in scenes:

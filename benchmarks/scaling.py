@@ -1,4 +1,7 @@
-"""Ensembles over their size and over the cores that share them."""
+"""Speed of ensembles over their size, and over the number of cores that share an ensemble.
+
+An ensemble is a set of trajectories that the kernel integrates together.
+"""
 
 import os
 from contextlib import contextmanager
@@ -17,9 +20,9 @@ from impact_damper.system.parameters import Damper
 
 TOLERANCE = 1e-9
 RADIUS = 2.0
-# Trajectories that a thread takes at a time, for some milliseconds.
+# Trajectories that a thread takes at a time; they keep it busy for some milliseconds.
 SHARE = 512
-# Seconds in which a process must have begun.
+# Longest time in seconds until a process is ready.
 PATIENCE = 300
 
 
@@ -47,7 +50,7 @@ def sizes(scenes, counts, rounds):
 
 
 def advance_in_shares(scene, starts, workers):
-    """Return states at the end, by a number of threads that take shares of SHARE."""
+    """Return states at the end, computed by threads that take SHARE trajectories at a time."""
     states = starts.copy()
 
     def work(part):
@@ -58,10 +61,10 @@ def advance_in_shares(scene, starts, workers):
 
 
 def cores(scenes, count, rounds):
-    """Return the throughput of an ensemble on several threads over one, and if results agree.
+    """Return the throughput of several threads over that of one thread, and if results agree.
 
-    Starts are in a ball. For comparison, the throughput of as many processes that share nothing,
-    each with all starts: the limit that the machine sets.
+    The starts are random. For comparison the table also has the throughput of several processes
+    that share nothing, each with all starts. It is the limit that the computer sets.
     """
     threads = range(1, min(os.cpu_count(), 8) + 1)
     rows = []
@@ -84,13 +87,13 @@ def cores(scenes, count, rounds):
     return pd.DataFrame(rows)
 
 
-# Scene and starts, in a process of `processes_apart`.
+# Scene and starts of this process, if it is one of `processes_apart`.
 alone = {}
 
 
 @contextmanager
 def processes_apart(count, scene, starts):
-    """Yield a function of n, with which n of `count` processes advance all starts each."""
+    """Yield a function of n that lets n of `count` processes each advance all starts."""
     context = get_context("spawn")
     ready = context.Barrier(count + 1)
     with context.Pool(count, prepare, (ready, scene, starts)) as pool:
@@ -99,7 +102,7 @@ def processes_apart(count, scene, starts):
 
 
 def prepare(ready, scene, starts):
-    """Begin a process: it keeps its starts, and has loaded the kernels."""
+    """Begin a process: keep scene and starts, load the kernels, and wait for the others."""
     alone.update(scene=scene, starts=starts)
     advance_in_shares(scene, starts[:1], 1)
     ready.wait(PATIENCE)

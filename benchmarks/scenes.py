@@ -1,4 +1,7 @@
-"""Motions on which methods are timed: the scenes of the configuration, with exact states."""
+"""Motions on which methods are timed: the scenes (test cases) of the configuration.
+
+An exact state is computed in 80-bit arithmetic.
+"""
 
 import math
 from typing import NamedTuple
@@ -11,7 +14,8 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Starts differ from the scene's state by at most this in each component.
 SPREAD = 1e-3
-# Smaller where motions from such starts leave the orbit for a chaotic one, next to grazing.
+# Smaller differences for the scene next to grazing, an orbit with very short contacts: motions from
+# starts farther away would become chaotic.
 SPREADS = {"grazing": 1e-8}
 
 
@@ -22,13 +26,14 @@ class BenchmarkScene(NamedTuple):
     ----------
     name : str
     parameters : numpy.ndarray, shape (packed.COUNT,)
-        As of `parameters.pack`.
+        Packed parameters, from `system.packed.pack`.
     begin, end : float
-        Times, W T = pi/2 at the beginning.
+        Times T; at the beginning W T = pi/2.
     periods : int
+        Forcing cycles from the beginning to the end.
     starts, exact : numpy.ndarray, shape (m, 4)
-        States at the beginning and, by 80-bit arithmetic, at the end; the first start is that of
-        the configuration.
+        States at the beginning, and exact states at the end. The first start is the state of the
+        scene in the configuration.
     """
 
     name: str
@@ -66,7 +71,7 @@ def make(name, p, state, periods, count, seed=1995):
 
 
 def from_configuration(count):
-    """Return all scenes of the configuration but chaotic ones, with `count` starts each."""
+    """Return all scenes of the configuration except the chaotic one, with `count` starts each."""
     return [
         make(name, packed(parameters), state, periods, count)
         for name, parameters, state, periods in configured_scenes()

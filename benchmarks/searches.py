@@ -1,11 +1,15 @@
-"""Default searches against searches ten times as wide, with a thousand starts.
+"""The default search for motions compared with a search ten times as wide, with 1000 starts.
 
-Motions that only the wide search finds are missed ones. A chaotic motion may end after thousands
-of forcing cycles, and its size in a few of them is a matter of chance, so it is run on before it
-counts as missed. Escapes over the barrier of a softening spring are counted by themselves: most of
-the wide starts lie beyond the barrier. So these systems have as many starts again up to the
-barrier. The default search states a bound on the share of a
-motion that it missed: 3/n for n random starts, at 95 %.
+A start is a random initial state. A motion is missed if only the wide search finds it. A chaotic
+motion may end after thousands of forcing cycles, and its size over a few cycles is a matter of
+chance, so it is run longer before it counts as missed.
+
+The force of a softening spring vanishes at a displacement called the barrier; beyond it motions
+escape. Most starts of a wide search lie beyond the barrier, so escapes are counted separately, and
+systems with a softening spring get another 1000 starts that reach up to the barrier.
+
+If the default search has found a motion from none of its n starts, the share of starts that lead to
+this motion is at most 3/n, at 95 % confidence. The default search states this bound.
 """
 
 import math
@@ -25,10 +29,11 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.theory.design_rule import peak_frequency
 
+# Ratio of the largest displacements and speeds of the starts of both searches.
 WIDER = 10.0
 # Seeds of the random systems, and of the starts of the wide search.
 SYSTEMS_SEED, SEED = 19, 6
-# Forcing periods for which a motion that has not settled is run on.
+# Forcing cycles for which a motion that has not settled is run longer.
 LONG = 20000
 # Settled motions are the same up to this relative difference of their sizes.
 SAME = 1e-3
@@ -58,7 +63,10 @@ def named_systems():
 
 
 def random_systems(count):
-    """Yield as `named_systems` does, with dampers near their rule and frequencies near the peak."""
+    """Yield random systems as `named_systems` does.
+
+    Their clearances are near the paper's rule, and their frequencies near the resonance peak.
+    """
     generator = np.random.default_rng(SYSTEMS_SEED)
     for i in range(count):
         cubic = generator.choice([1, -1]) * 10 ** generator.uniform(-3, 0)
@@ -79,10 +87,10 @@ def random_systems(count):
 
 
 def wide_search(oscillator, damper, frequency, reaches, count):
-    """Return the records of motions from `count` starts for each of `reaches`.
+    """Return the records of motions from random starts, `count` for each of `reaches`.
 
-    The starts are uniform in a ball with the half axes `reaches`, displacement and speed, and with
-    the loose mass anywhere in its gap.
+    A reach is a pair of displacement and speed, the half axes of the ellipsoid that contains the
+    starts. The loose mass starts anywhere in its gap.
     """
     generator = np.random.default_rng(SEED)
     parts = []
@@ -98,7 +106,10 @@ def wide_search(oscillator, damper, frequency, reaches, count):
 
 
 def run_on(p, state):
-    """Return the record of what a motion has become LONG forcing cycles after a strobe."""
+    """Return the record of the motion to which a state leads after LONG forcing cycles.
+
+    `state` is a state at a strobe, the moment of each cycle at which W T = pi/2.
+    """
     state, none = state.copy(), np.empty((0, 4))
     begin = strobe_map.strobe_time(p)
     strobe_map.flow(p, state, none, begin, LONG, np.bool_(False), strobe_map.POLISH_TOLERANCE)
@@ -106,7 +117,10 @@ def run_on(p, state):
 
 
 def kind(motion):
-    """Return outcome and period; a loose mass that drifts leaves the machine alone, as at rest."""
+    """Return outcome and period of a motion; drifting counts as without contact.
+
+    Neither a loose mass at rest nor a slowly drifting one acts on the machine.
+    """
     alike = {flag("outcome", "drifting"): flag("outcome", "non_colliding")}
     outcome = int(motion["outcome"])
     return alike.get(outcome, outcome), int(motion["period"])
@@ -118,16 +132,19 @@ class Known(NamedTuple):
     Attributes
     ----------
     motions : list of dict
-        Outcome, period and largest displacement of each.
+        Outcome, period, largest displacement and state of each.
     later : list of records.MOTION
-        What those that have not settled have become.
+        Records of the motions that have not settled, after a longer run.
     """
 
     motions: list
     later: list
 
     def hold(self, record):
-        """Return whether a motion is among them; if it has not settled, one of about its size."""
+        """Return whether a motion is among the known ones.
+
+        A settled motion must agree in size within SAME, another one within the factor SIMILAR.
+        """
         here = [each for each in self.motions if kind(each) == kind(record)]
         size = record["maximum_displacement"]
         ratios = np.array([each["maximum_displacement"] / size for each in here])
@@ -155,7 +172,8 @@ def known_by(found, p):
 
 
 def table(systems, count) -> pd.DataFrame:
-    """Return a row for each system: sizes by both searches, and the starts at missed motions."""
+    """Return a row for each system: sizes by both searches, and starts that lead to missed
+    motions."""
     rows = []
     for name, oscillator, damper, frequency in systems:
         begin = time.process_time()

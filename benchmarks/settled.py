@@ -1,4 +1,7 @@
-"""Starts settled a second by one thread, over dampers of which most lead to chaos."""
+"""Starts (initial states) that one thread runs until they settle or are classified, in a second.
+
+With most of the random dampers the motions are chaotic.
+"""
 
 from dataclasses import replace
 
@@ -14,9 +17,9 @@ from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.system.settling import Settling
 
 SEED = 3
-# Mass ratio, clearance, forcing frequency and restitution of a random damper.
+# Ranges of mass ratio, clearance, forcing frequency and restitution of a random damper.
 LEAST, MOST = (0.05, 0.25, 1.0, 0.6), (0.5, 4.0, 3.0, 1.0)
-STARTS = 8
+STARTS = 8  # for each damper
 
 
 def draw(count):
@@ -32,7 +35,11 @@ def draw(count):
 
 
 def table(count, rounds):
-    """Return starts settled a second, with undecided motions left as they are, and named."""
+    """Return starts settled in a second, in two ways of treating undecided motions.
+
+    A motion is undecided if its kind is not certain at the end of a normal run. Such motions are
+    left unresolved ("left"), or run longer until their kind is found ("named").
+    """
     rows, states = draw(count)
     kinds = {"left": replace(Settling(), further=0), "named": Settling()}
     calls = {

@@ -9,8 +9,8 @@ COLUMNS = {"seconds": "seconds", "cpu_seconds": "cpu_seconds", "peak_memory_mb":
 def jobs(folder, since=0.0):
     """Return a row for each job under a folder of timings: stage, job and its measures.
 
-    Files written before the time `since`, in seconds since the epoch, are left out. A subfolder is
-    a stage; a job with a file beside the subfolders is a stage of its own.
+    Files written before the time `since`, in seconds since 1970, are left out. A subfolder holds
+    the jobs of a stage. A file beside the subfolders is the only job of its stage.
     """
     rows = []
     for path in sorted(folder.rglob("*.tsv")):

@@ -1,4 +1,7 @@
-"""Times of imports, of compiling and of a first result, each in a new process."""
+"""Times of imports, of compilation and of a first result, each in a new process.
+
+Kernels are the functions of the package that numba compiles.
+"""
 
 import os
 import subprocess
@@ -21,7 +24,7 @@ IMPORTS = ("numpy", "numba", "xarray", "scipy.integrate", "matplotlib.figure", "
 
 
 def seconds_of(code, cache):
-    """Return the seconds that a new process takes for a line of Python, kernels kept in `cache`."""
+    """Return the seconds that a new process takes for a line of Python; `cache` keeps kernels."""
     begin = time.perf_counter()
     environment = os.environ | {"NUMBA_CACHE_DIR": cache}
     subprocess.run([sys.executable, "-c", code], check=True, env=environment)
@@ -34,9 +37,9 @@ def table(repeats, compiling=True):
     Parameters
     ----------
     repeats : int
-        Processes without compiling, of which the fastest counts.
+        Number of processes, of which the fastest counts, for each time without compilation.
     compiling : bool
-        Whether first results are measured, without kernels in the cache and with them.
+        Whether first results are measured, with an empty and with a full cache of kernels.
     """
     rows = []
 

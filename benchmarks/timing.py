@@ -1,4 +1,4 @@
-"""Wall times of calls that take turns, so that other load on the machine affects all alike."""
+"""Wall times of calls that take turns, so that other load on the computer affects all alike."""
 
 import gc
 import math
@@ -8,10 +8,10 @@ from contextlib import contextmanager
 
 import numpy as np
 
-# A shorter call is repeated until all repeats together take this long, in seconds.
+# A shorter call is repeated until all repeats together, called a block, take this long, in seconds.
 SHORTEST = 1e-3
-# Blocks of such repeats in a round, of which the fastest counts: another process that occupies the
-# core for a while slows down only some of them.
+# Blocks in a round, of which the fastest counts: another process that occupies the core for a while
+# slows down only some of the blocks.
 BLOCKS = 5
 
 
@@ -38,7 +38,7 @@ def once(call, repeats=1):
 
 
 def repeats_of(call):
-    """Return the repeats of a call that take SHORTEST; the call must have been made before."""
+    """Return how often a call must be repeated to take SHORTEST; a first call came before."""
     first = once(call)
     if first >= SHORTEST:
         return 1
@@ -56,7 +56,7 @@ def interleaved(calls, rounds):
     Returns
     -------
     dict of numpy.ndarray, shape (rounds,)
-        By the fastest of BLOCKS blocks, or by one block if it takes 50 times SHORTEST.
+        Seconds of the fastest of BLOCKS blocks, or of a single block that takes 50 times SHORTEST.
     """
     repeats = {name: repeats_of(call) for name, call in calls.items()}
     seconds = {name: np.empty(rounds) for name in calls}

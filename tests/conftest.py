@@ -5,31 +5,33 @@ from helpers.known_orbits import IMPACTING, STARTS, polished_orbit
 
 
 def pytest_collection_modifyitems(items):
-    """Put files that start Snakemake first, as they are the longest: no core idles at the end."""
+    """Run files that start Snakemake first: they take longest, and would leave cores idle at the end."""
+    cores idle."""
     items.sort(key=lambda item: "workflow" not in item.path.parts)
 
 
 @pytest.fixture(scope="session", params=list(STARTS))
 def known_orbit(request):
-    """Each known orbit in turn, with a damper and without."""
+    """Return each known orbit in turn, with a damper and without."""
     return polished_orbit(request.param)
 
 
 @pytest.fixture(scope="session", params=IMPACTING)
 def impacting_orbit(request):
-    """Each known orbit with contacts in turn."""
+    """Return each known orbit with contacts in turn."""
     return polished_orbit(request.param)
 
 
 @pytest.fixture(scope="session")
 def design_orbit():
-    """The quiet orbit of the design of figure 5(a) at W = 2."""
+    """Return the quiet orbit of the damper of figure 5 (a) at W = 2."""
     return polished_orbit("design")
 
 
 @pytest.fixture(scope="session")
 def heyoka_references():
-    """Two heyoka.py integrators with different step limits; skips the test without heyoka.py."""
+    """Return two heyoka.py integrators with different step limits; without heyoka.py skip the
+    test."""
     pytest.importorskip("heyoka")
     from references.taylor_events import Reference
 

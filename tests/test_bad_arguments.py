@@ -1,6 +1,6 @@
 """A wrong argument of a public function raises at once.
 
-The message names it and what is allowed.
+The message names the argument, its value and what is allowed. hypothesis draws the wrong values.
 """
 
 import math
@@ -49,14 +49,14 @@ span = st.sampled_from(
 span |= st.sampled_from([(math.nan, 3.0), (1.0, math.inf), ("1", "3"), (1.0, 1e9), (1e-9, 3.0)])
 
 motion = {"oscillator": no_oscillator, "damper": no_damper, "frequency": positive}
-# None is allowed: without a radius a search is scaled by the free motions.
+# None is allowed as radius: the starts are then scaled by the motions without the damper.
 radius = positive.filter(lambda value: value is not None)
 search = {"starts": count, "radius": radius, "seed": seed, "workers": count}
 search |= {"settling": no_settling, "oscillator": no_oscillator}
 GOOD = {"oscillator": OSCILLATOR, "damper": DAMPER}
 MOVING = GOOD | {"frequency": 2.0, "state": STATE}
 
-# Each function with valid arguments, and wrong values in their place.
+# For each public function valid arguments, and for each argument wrong values.
 FUNCTIONS = {
     "Oscillator": ({"damping": 0.2}, {"damping": positive, "linear_frequency": negative | huge}),
     "Damper": (

@@ -1,7 +1,7 @@
-"""Imports in the package run one way: from a room to itself or to a room below.
+"""Imports in the package run one way: from a room to itself or to a lower room.
 
-A room is a subpackage of `impact_damper`. Every import in its files is read with `ast`, those
-inside functions too, so that a late import cannot hide an upward edge or a circle.
+A room is a subpackage of `impact_damper`. Every import in its files is read with `ast`, also
+imports inside functions, so that none can hide an import of a higher room or a circle.
 """
 
 import ast
@@ -11,7 +11,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "src" / "impact_damper"
 
-# From the bottom. A room imports itself and rooms to its left.
+# The rooms, the lowest first. A room may import itself and the rooms before it in this list.
 FLOORS = (
     "system",
     "data",
@@ -40,8 +40,7 @@ FLOORS = (
 )
 
 MOST_FILES = 12
-# Folders that may hold more files (`__init__.py` not counted), and why a further level would not
-# help.
+# Folders that may hold more than 12 files (not counting `__init__.py`), and why not to divide them.
 LARGE = {
     "claims": "one file for each group of the paper's claims; none imports another",
     "data/variables": "one file for each subject of the datasets; none imports another",
@@ -64,7 +63,7 @@ FILES = {
 
 
 def imports_of(text, modules):
-    """Set of those `modules` that a source text imports from.
+    """Return the set of those `modules` from which a source text imports.
 
     A name imported from a package is a module if there is one of that name, else it stands in the
     package's own `__init__.py`.
@@ -83,17 +82,17 @@ def imports_of(text, modules):
 
 @pytest.fixture(scope="module")
 def imports():
-    """Imports of each module of the package."""
+    """Return the imports of each module of the package, keyed by module."""
     return {name: imports_of(path.read_text(), set(FILES)) for name, path in FILES.items()}
 
 
 def room_of(module):
-    """Room of a module: the part of its name after the package's, or "" for the package itself."""
+    """Return the room of a module, the second part of its name; "" for the package itself."""
     return module.partition(".")[2].partition(".")[0]
 
 
 def upward_edges(imports, floors):
-    """Imports (importer, imported) of a room above, or of the package's public names."""
+    """Return the wrong imports, as (importer, imported): of higher rooms or of the public names."""
     height = {room: floor for floor, room in enumerate(floors)} | {"": len(floors)}
     return sorted(
         (importer, imported)
@@ -104,7 +103,8 @@ def upward_edges(imports, floors):
 
 
 def circle(imports):
-    """Modules of which each imports the next and the last imports the first, or an empty list."""
+    """Return modules each of which imports the next, and the last the first; [] without a
+    circle."""
     done = set()
 
     def search(module, path):

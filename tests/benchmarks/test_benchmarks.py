@@ -24,7 +24,7 @@ TIMINGS = "seconds\tpeak_memory_mb\tcpu_seconds\n{}\t{}\t{}\n"
 
 @pytest.fixture(scope="module")
 def short():
-    """Two periods near the quiet orbit."""
+    """A scene (test case) of two forcing cycles near the quiet orbit."""
     return scenes.make("short", pack(PAPER, DESIGN, 2.0), STATE, 2, BATCH)
 
 
@@ -33,7 +33,7 @@ def test_scenes_begin_at_those_of_the_configuration():
     assert "chaos" not in found
     assert found["resonance"].components == 2
     assert found["design"].starts[0] == pytest.approx(STATE)
-    # a motion of period 1 returns to its first state
+    # These motions have period 1, so that they return to their first states.
     for name in ("design", "resonance", "inelastic"):
         assert found[name].error(found[name].starts) < 1e-6
 

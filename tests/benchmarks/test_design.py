@@ -10,7 +10,7 @@ from benchmarks import design
 
 @pytest.fixture
 def steps(monkeypatch):
-    """Replace designs by two steps, the second of which takes longer."""
+    """Replace `design_damper` by a function with two steps, the second of which takes longer."""
 
     def write(*_, folder, **__):
         for seconds, name in ((0.01, "screening"), (0.05, "cliff")):

@@ -1,4 +1,4 @@
-"""Every public name has an example in its docstring, and it does what it shows."""
+"""Every public name has an example in its docstring, and the example prints what it shows."""
 
 import doctest
 import inspect
@@ -16,7 +16,7 @@ PLOTS = [f"plot.{name}" for name in plot.__all__]
 
 @pytest.fixture(autouse=True)
 def closed_figures():
-    """Close the figures of an example, drawn without a display."""
+    """Let examples draw without a display, and close their figures afterwards."""
     matplotlib.use("Agg")
     yield
     pyplot.close("all")
@@ -24,7 +24,7 @@ def closed_figures():
 
 @pytest.mark.parametrize("name", [*impact_damper.__all__, *PLOTS])
 def test_example_of_docstring(name):
-    """The example runs in a namespace with the name alone."""
+    """The example runs in a namespace that holds only the object documented."""
     public = attrgetter(name)(impact_damper)
     text = inspect.getdoc(public)
     test = doctest.DocTestParser().get_doctest(text, {name: public}, name, None, None)

@@ -1,4 +1,4 @@
-"""The built documentation: links and pictures lead somewhere, and a browser finds no error.
+"""The built documentation: links and pictures exist, and a browser finds no error.
 
 `make docs` builds the site and runs these tests; without a site they are skipped.
 """
@@ -19,7 +19,7 @@ BROWSER = next(
 )
 
 pytestmark = pytest.mark.skipif(not PAGES, reason="no site: make docs")
-# Each page is read once.
+# Pages that were read, by path, so that each page is read only once.
 SEEN = {}
 
 
@@ -32,7 +32,7 @@ class Page(HTMLParser):
         self.feed(path.read_text())
 
     def handle_starttag(self, tag, attrs):
-        """Collect what a tag leads to."""
+        """Collect the anchors of a tag, and the targets of its link or picture."""
         given = dict(attrs)
         self.anchors |= {given[key] for key in ("id", "name") if given.get(key)}
         for key in ("href", "src"):
@@ -48,12 +48,12 @@ def page(path):
 
 
 def elsewhere(target):
-    """Whether a target is not part of the site."""
+    """Return whether a target is not part of the site."""
     return urlsplit(target).scheme in ("http", "https", "mailto", "data", "javascript")
 
 
 def lacking(path, target):
-    """Whether a target of a page of the site does not exist."""
+    """Return whether a target of a page does not exist within the site."""
     split = urlsplit(target)
     file = (path.parent / unquote(split.path)).resolve() if split.path else path
     if file.is_dir():
@@ -66,7 +66,7 @@ def lacking(path, target):
 
 
 def test_every_link_and_picture_exists():
-    """Within the site; addresses elsewhere are not opened."""
+    """Only within the site: other addresses are not opened."""
     dead = [
         f"{path.relative_to(SITE)}: {target}"
         for path in PAGES
@@ -95,7 +95,7 @@ def test_nothing_is_loaded_from_elsewhere():
 def test_browser_reports_no_error():
     """The console of a headless Chromium stays without errors on each page."""
     options = ["--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr"]
-    # Pages of single functions have all parts in common; the first stands for them.
+    # Pages of single functions are alike, so that only the first is opened.
     of_functions = [path for path in PAGES if path.parent.name == "api"]
     for path in [each for each in PAGES if each not in of_functions[1:]]:
         ran = subprocess.run(

@@ -18,13 +18,18 @@ from . import damages, disks, kills, times
 from .disks import CannotMount
 from .project import Fault, Project, end_all, expect
 
+# Kind of trials -> generator of (name, trial). A trial is a function that returns what the user has
+# to do after the fault, or raises `Fault`.
 KINDS = {
     trials.__name__: trials for part in (kills, damages, disks, times) for trials in part.TRIALS
 }
 
 
 class Context:
-    """Shared by all trials: a folder, the outputs of an undisturbed run, and random generators."""
+    """What all trials share: a folder, the outputs of an undisturbed run, and random generators.
+
+    `seconds` is the duration of an undisturbed run, and `moments` the number of kills of each kind.
+    """
 
     def __init__(self, folder, given):
         self.folder, self.seed, self.moments = folder, given.seed, given.moments
@@ -53,11 +58,12 @@ class Context:
                 shutil.rmtree(left, ignore_errors=True)
 
     def random(self, name):
+        """Return the random generator of a trial, which depends on the seed and the name only."""
         return np.random.default_rng([self.seed, zlib.crc32(name.encode())])
 
 
 def tried(trial):
-    """Run a trial; return its outcome and a remark."""
+    """Run a trial; return its outcome, and what the user has to do or why the trial failed."""
     try:
         return "as it should", trial()
     except CannotMount as reason:

@@ -1,4 +1,7 @@
-"""Damaged and foreign files in the folder of results."""
+"""Damaged and foreign files in the folder of results.
+
+The run must stop and name the damaged file; after its deletion a run must recover.
+"""
 
 import os
 
@@ -6,6 +9,7 @@ import xarray as xr
 
 from .project import DATA, DELETE, expect
 
+# A dataset of another job than DATA.
 OTHER = "results/harmonic_balance/figure_05a.nc"
 
 
@@ -69,7 +73,7 @@ def _trial(context, name, damage, old):
         expect(lines, f"it is not told what to do: {told[-500:]}")
         expect("Traceback" not in told, "a traceback is shown")
         path.unlink()
-        # the chapter made from the file is made again
+        # Two jobs may run again: the job of the file, and the job of the chapter made from it.
         project.recover(context.undisturbed, lost=2)
         return "told: delete it; run again"
 

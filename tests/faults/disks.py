@@ -40,7 +40,7 @@ def full_disk(context):
             f"a full disk under `results/`, of {kilobytes} kB",
             _full(context, kilobytes, whole=False),
         )
-    # a copy of the project occupies about two megabytes
+    # Here the disk also holds the copy of the project, which occupies about two megabytes.
     yield "a full disk under all of the project", _full(context, 200, whole=True)
 
 
@@ -50,7 +50,7 @@ def _full(context, kilobytes, whole):
         disk = folder if whole else folder / "results"
         with _mounted(disk, "-t", "tmpfs", "-o", "size=1g", "tmpfs"):
             project = context.fresh(folder.name)
-            # free space: the size that was asked for, beside the space that the project occupies
+            # The disk gets the size that the project occupies now, plus the free space wanted.
             used = subprocess.run(["df", "--output=used", disk], capture_output=True, text=True)
             size = int(used.stdout.split()[-1]) + kilobytes
             _mount("-o", f"remount,size={size}k", disk)

@@ -8,7 +8,7 @@ import psutil
 
 from .project import DATA, Project, expect
 
-WAIT = 0.02  # seconds between two looks
+WAIT = 0.02  # seconds between two checks
 
 
 def moments(context, name):
@@ -18,7 +18,7 @@ def moments(context, name):
 
 
 def job_of(process):
-    """Return the process of a job of a run, or None if there is none."""
+    """Return the process of one of the jobs that a run has started, or None if there is none."""
     try:
         children = psutil.Process(process.pid).children(recursive=True)
         jobs = [child for child in children if ".snakemake/scripts" in " ".join(child.cmdline())]
@@ -30,7 +30,7 @@ def job_of(process):
 def wait_for_end_of_orphans(folder):
     """Wait until no job of the folder is running; raise Fault after 10 s.
 
-    A job ends soon after its run, even if it has not finished.
+    A job must end soon after Snakemake was killed, even if it has not finished.
     """
     end = time.monotonic() + 10
     while time.monotonic() < end:

@@ -9,8 +9,10 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-# The package is not copied: the cache of kernels depends on the path of their sources.
+# The package itself is not copied: numba's cache depends on the path of the sources, and compiling
+# again would take minutes.
 PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow"]
+# The dataset that trials damage or remove.
 DATA = "results/optimum/h215_rm012.nc"
 TARGETS = [
     DATA,
@@ -20,10 +22,13 @@ TARGETS = [
 ]
 CONFIGURATIONS = ["config/smoke.yaml", "config/small.yaml"]
 CORES = 2
+# Endings of the files that must be equal after a fault.
 KINDS = {".nc", ".csv", ".md", ".png", ".pdf", ".rst"}
+# Parts of messages: by Snakemake about a locked folder, and by the package about a damaged file.
 LOCKED = "cannot be locked"
 DELETE = "delete it and run the same command again"
-STARTED = []  # processes, to be ended after the trials
+# Processes that were started, to be killed at the end if they still run.
+STARTED = []
 
 
 def end_all():
@@ -37,7 +42,7 @@ def end_all():
 def job_of(path):
     """Return the name of the job that makes an output.
 
-    All figures and tables here are of one chapter.
+    The figures and tables in TARGETS belong to one chapter, and one job makes them.
     """
     folder = Path(path).parent.name
     return "chapter" if folder in ("figures", "tables") else str(Path(path).with_suffix(""))
@@ -48,6 +53,7 @@ class Fault(AssertionError):
 
 
 def expect(holds, what):
+    """Raise Fault with the message `what` unless `holds` is true."""
     if not holds:
         raise Fault(what)
 
@@ -119,7 +125,7 @@ class Project:
         }
 
     def expect_only_whole(self, undisturbed):
-        """Raise Fault if an output is incomplete or differs from that of the undisturbed run."""
+        """Raise Fault if an output differs from the same output of the undisturbed run."""
         for path, content in self.outputs().items():
             expect(content == undisturbed.get(path), f"{path} is taken for whole and is not")
 
@@ -139,7 +145,7 @@ class Project:
             code, told = self.run()
         expect(code == 0, f"the run does not recover: {told[-800:]}")
         after = self.written()
-        # the check of dates sets dates in the future to the first second of 1970
+        # Not counted: files dated 1970, for the workflow sets dates in the future to this date.
         again = {
             job_of(path)
             for path in before
@@ -158,7 +164,7 @@ class Project:
         expect(not differing, f"other bytes than undisturbed: {differing}")
         left = [path.name for path in (self.folder / "results").rglob("*.part-*")]
         expect(not left, f"left behind: {left}")
-        expect(not self.planned(), "another run would do it all again")
+        expect(not self.planned(), "another run would run jobs again")
 
     def edit(self, name, old, new):
         """Replace the first occurrence of a text in a file."""

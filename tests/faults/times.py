@@ -1,6 +1,6 @@
 """Two runs at once, and a clock that was set back.
 
-A trial cannot set the clock of the machine, so it changes the dates of files: if a clock is set
+A trial cannot set the computer's clock, so it changes the dates of files: after a clock was set
 back by a day, files written before seem to be from tomorrow.
 """
 
@@ -40,6 +40,7 @@ def two_runs(context):
 
 
 def _ahead(paths):
+    """Date files a day into the future."""
     for path in paths:
         if path.is_file():
             os.utime(path, (time.time() + DAY,) * 2)

@@ -1,4 +1,7 @@
-"""The drawing of a map: every class is drawn and named, and legends stand beside the panels."""
+"""The drawing of a balance map: every class of cells is drawn and named in a legend.
+
+A class is a verdict on harmonic balance, such as "called stable, orbit is unstable".
+"""
 
 import numpy as np
 import pytest
@@ -15,7 +18,7 @@ COLUMNS = 12
 
 
 def made_up():
-    """Return a map over the restitution with each class in two columns or more."""
+    """Return a map over the restitution in which each class fills at least two columns."""
     shape = 3, COLUMNS
 
     def cells(values):

@@ -48,7 +48,7 @@ def response(**parameters):
         "branch": np.broadcast_to(np.arange(len(MOTIONS)), shape),
         "maximum_displacement": np.arange(len(MOTIONS)) + FREQUENCY[:, None],
         "end_branch": [0],
-        # the first chaotic motion lasts, the second is a transient
+        # The first chaotic motion lasts; the second ends in some runs, and is a transient.
         "life_ends": np.broadcast_to(np.array(contacts) == 4.0, shape).astype(int),
     }
     return dataset(data | ends, {"frequency": FREQUENCY}, DAMPER | parameters, "made up")
@@ -100,7 +100,8 @@ def optimum(mass_ratio, restitution):
 
 
 def migration():
-    """Return runs with one and two switchings, and releases from each motion to each other one."""
+    """Return runs with one and two switchings, and releases from each motion to each free
+    motion."""
     time = np.linspace(-30, 300, 2000)
     kinds = [value for value in DAMPED_MOTION.values() if value >= 0]
     destinations = list(FREE_MOTION.values())
@@ -200,7 +201,7 @@ DRAWINGS = {
 
 @cache
 def drawn_once(name):
-    """Return the figure of this name, drawn once; tests must not change it."""
+    """Return the figure of this name. It is drawn only once, so tests must not change it."""
     drawn = DRAWINGS[name][0]()
     FigureCanvasAgg(drawn).draw()
     return drawn

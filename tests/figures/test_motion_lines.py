@@ -1,4 +1,4 @@
-"""Lines through motions connect nearest neighbours of one period and end where branches end."""
+"""Lines through the motions of a response connect neighbours of one period, up to branch ends."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def test_lines_end_at_gaps_and_groups_do_not_mix():
 
 @pytest.fixture
 def response():
-    """Return a branch that doubles its period at W = 3, and whose ends lie between frequencies."""
+    """Return a branch that doubles its period at W = 3; its ends lie between two frequencies."""
     data = {
         "maximum_displacement": np.array([[9.0], [1.0], [2.0], [3.0], [9.0]]),
         "branch": np.array([[-1], [4], [4], [4], [-1]]),

@@ -1,4 +1,4 @@
-"""The schematics: no warnings, the same bytes at every drawing, and legible."""
+"""The schematics are drawn without warnings, legibly, and with the same bytes each time."""
 
 import os
 import pathlib
@@ -28,7 +28,8 @@ def read(path):
 
 @pytest.fixture(scope="module")
 def elsewhere(tmp_path_factory):
-    """Return the folder of all schematics, saved with another hash seed and time zone."""
+    """Return the folder of all schematics, saved by a process with another hash seed and time
+    zone."""
     folder = tmp_path_factory.mktemp("elsewhere")
     program = (
         "from impact_damper.figures import schematics, style\n"
@@ -44,7 +45,7 @@ def elsewhere(tmp_path_factory):
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", NAMES)
 def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
-    """Saved again, and drawn and saved in a process with another hash seed and time zone."""
+    """The bytes are the same if saved again, and if drawn by the process of `elsewhere`."""
     drawn = getattr(schematics, name)()
     save_figure(drawn, tmp_path / "first")
     save_figure(drawn, tmp_path / "second")
@@ -55,7 +56,7 @@ def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
 
 @cache
 def drawn_once(name):
-    """Return the schematic of this name, drawn once; tests must not change it."""
+    """Return the schematic of this name. It is drawn only once, so tests must not change it."""
     figure = getattr(schematics, name)()
     FigureCanvasAgg(figure).draw()
     return figure

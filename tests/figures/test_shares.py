@@ -14,7 +14,7 @@ def test_shares_are_stacked_with_intervals():
     np.testing.assert_allclose(quiet.get_data().edges, [0.75, 1.25, 1.75, 2.25])
     np.testing.assert_allclose(chaos.get_data().baseline, [0.5, 0.9, 0])
     np.testing.assert_allclose(chaos.get_data().values, 1)
-    # only below the upper edge of the figure there are intervals
+    # The uppermost area, which ends at 1, has no interval.
     ends = [segment for lines in axes.collections for segment in lines.get_segments()]
     np.testing.assert_allclose(ends, [[[1, 0.25], [1, 0.75]], [[1.5, 0.45], [1.5, 0.95]]])
     assert "at most 30 %" in axes.get_title(loc="right")
@@ -35,7 +35,8 @@ def test_chaos_of_which_a_run_ended_is_a_transient():
 
 
 def test_a_motion_keeps_its_colour():
-    """In a panel each area is one motion over all values; the legend names its kind once."""
+    """In a panel each area is one motion over all parameter values; the legend names a kind
+    once."""
     drawn = draw_shares(response=[matched_sweep(), matched_sweep()])
     assert [len(axes.patches) for axes in drawn.axes] == [2, 2]
     (legend,) = drawn.legends

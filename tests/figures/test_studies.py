@@ -14,7 +14,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 def made_up(frequencies, restitutions):
-    """Return a study; in each panel three of twelve cells have a start that did not settle."""
+    """Return a study in which three of twelve cells of each panel have a start without settling."""
     shape = 3, 4, len(frequencies), len(restitutions)
     counts = np.zeros((*shape, len(OUTCOMES)), int)
     counts[..., OUTCOMES.index("settled")] = 5
@@ -48,5 +48,5 @@ def test_panels_and_hatched_cells(frequencies, restitutions, panels):
     assert len(maps) == panels
     for axes in maps:
         (hatched,) = [patch for patch in axes.patches if type(patch) is PathPatch]
-        # the path of a rectangle has five points
+        # All hatched cells are one path, with five points for each rectangle.
         assert len(hatched.get_path().vertices) == 3 * 5

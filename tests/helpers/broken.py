@@ -1,4 +1,4 @@
-"""Configurations with one known fault each."""
+"""Wrong configurations with one known fault each, drawn at random by hypothesis."""
 
 import copy
 from typing import NamedTuple
@@ -11,8 +11,9 @@ from helpers.running import ROOT
 from impact_damper.data.variables.studies import AXES as STUDY_AXES
 from impact_damper.workflow.configuration import without_left_out
 
+# As a value: the key is removed. As the value to be shown: the message shows no value.
 GONE = object()
-# Keys whose values are whole numbers, outside sections that hold nothing else.
+# Keys with whole numbers, in sections that also have other values.
 WHOLE = {
     "starts",
     "sweep_starts",
@@ -26,11 +27,12 @@ WHOLE = {
 }
 WHOLE |= {"highest_cold", "periods", "passages", "implicit_passages", "points", "most_steps"}
 WHOLE |= {"period", "scipy_every"}
+# Keys of numbers that may be zero.
 ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "scipy_every", "within"}
 
 
 def small_configuration():
-    """Return the configuration of the smoke run, with an entry or two in each section."""
+    """Return the configuration of the smoke run, which has one or two entries in each section."""
     config = configurations.read()
     update_config(config, configurations.read(ROOT / "config/smoke.yaml"))
     return without_left_out(config)
@@ -47,7 +49,8 @@ class Broken(NamedTuple):
     place, value
         Path of keys, and the value that is set there. The value GONE removes the key.
     told, shown
-        Path of keys and value that the message must name. GONE if the message names the key only.
+        Path of keys and value that the message must name. If `shown` is GONE, the message names no
+        value.
     """
 
     place: tuple
@@ -103,7 +106,7 @@ FIXED = [path for path in MAPPINGS if not is_named(path)]
 NAMED = [path for path in MAPPINGS if is_named(path)]
 # Keys that take a number or a range.
 AXES = [("studies", name, key) for name in SMALL["studies"] for key in STUDY_AXES]
-# Physical quantities of machines, which may be texts with units too; all but these.
+# Numbers of machines that are not physical quantities; all others may also be texts with units.
 NO_QUANTITIES = ("points", "starts", "candidates", "share")
 QUANTITIES = [
     path
@@ -112,7 +115,7 @@ QUANTITIES = [
 ]
 NUMBERS = [path for path, value in places(SMALL) if is_number(value) and path not in QUANTITIES]
 TEXTS = [path for path, value in places(SMALL) if isinstance(value, str)]
-# This list may be empty.
+# Lists that must not be empty; `comparison.orders` may be.
 LISTS = [
     path
     for path, value in places(SMALL)
@@ -200,7 +203,7 @@ def empty(draw):
     texts = [path for path in TEXTS if path[-1] != "remark"]
     path = draw(st.sampled_from(LISTS + FIXED[1:] + named + texts))
     made = changed(path, type(at(path))())
-    # For a mapping the message names the missing keys in place of the value.
+    # For a mapping the message names the missing keys, not the value.
     return made._replace(shown=GONE) if path in FIXED else made
 
 

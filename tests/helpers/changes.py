@@ -1,4 +1,8 @@
-"""Changes of the invented datasets of `made_up.world`: each takes the datasets and changes them."""
+"""Changes of the invented datasets of `made_up.world`.
+
+Most functions return a change: a function that takes the datasets, keyed by stage and name, and
+changes them. `power` and `fourth` are changes themselves.
+"""
 
 import json
 
@@ -7,7 +11,7 @@ from impact_damper.data.datasets import parameters_of
 
 
 def scale(stage, name, **factors):
-    """A change of the made-up data: variables of a dataset times factors."""
+    """Return the change that multiplies variables of a dataset by factors."""
 
     def change(data):
         for variable, factor in factors.items():
@@ -19,7 +23,7 @@ def scale(stage, name, **factors):
 
 
 def assign(stage, name, **values):
-    """A change of the made-up data: variables of a dataset set to a value."""
+    """Return the change that sets variables of a dataset to constant values."""
 
     def change(data):
         for variable, value in values.items():
@@ -30,7 +34,7 @@ def assign(stage, name, **values):
 
 
 def each(names, change):
-    """A change of several made-up datasets."""
+    """Return the change that applies `change(name)` for several names of datasets."""
 
     def changes(data):
         for name in names:
@@ -40,7 +44,7 @@ def each(names, change):
 
 
 def copy(stage, name, source):
-    """A change of the made-up data: one dataset in place of another."""
+    """Return the change that replaces the dataset `name` by the dataset `source`."""
 
     def change(data):
         data[stage][name] = data[stage][source]
@@ -49,7 +53,7 @@ def copy(stage, name, source):
 
 
 def put(stage, name, dataset):
-    """A change of the made-up data: another dataset in place of one."""
+    """Return the change that replaces the dataset `name` by a given one."""
 
     def change(data):
         data[stage][name] = dataset
@@ -58,7 +62,10 @@ def put(stage, name, dataset):
 
 
 def unstable(name, lower, upper):
-    """A change of the made-up data: no stable orbit between two frequencies over the peak."""
+    """Return the change that makes all orbits between two frequencies unstable.
+
+    `lower` and `upper` are ratios to the peak frequency.
+    """
 
     def change(data):
         old = data["branches"][name]
@@ -71,7 +78,11 @@ def unstable(name, lower, upper):
 
 
 def share(name, kind, subharmonic):
-    """A change of the made-up data: where releases of a damped motion lead."""
+    """Return the change that sets where releases from a motion with damper lead.
+
+    `kind` is "unsettled" or "quiet", `subharmonic` the share of releases that lead to the
+    subharmonic; the others lead to the non-resonance motion.
+    """
 
     def change(data):
         case = data["migration"][name].copy(deep=True)
@@ -84,7 +95,7 @@ def share(name, kind, subharmonic):
 
 
 def early(subharmonic):
-    """A change of the made-up data: counts of the early releases to the subharmonic."""
+    """Return the change by which `subharmonic` of 10 early releases lead to the subharmonic."""
 
     def change(data):
         case = data["migration"]["figure_16"].copy(deep=True)
@@ -99,7 +110,8 @@ def early(subharmonic):
 
 
 def power(data):
-    """A change of the made-up data: the penetration that the expansion of (6e) gives."""
+    """Set the penetration to the value that follows from the expansion of equation (6e) as
+    printed."""
     old = data["harmonic_balance"]["figure_05a"]
     clearance = extract.parameter(old, "clearance")
     depth = old.relative_amplitude - clearance
@@ -109,13 +121,13 @@ def power(data):
 
 
 def fourth(data):
-    """A change of the made-up data: the state's missing component."""
+    """Add the fourth component to the state of a motion, of which the paper gives three."""
     old = data["motion"]["figure_04"]
     data["motion"]["figure_04"] = old.assign(relative_velocity=old.velocity)
 
 
 def renamed(stage, name, **values):
-    """A change of the made-up data: parameters that made a dataset."""
+    """Return the change that sets parameters in the attribute of a dataset."""
 
     def change(data):
         old = data[stage][name].copy()

@@ -4,7 +4,7 @@ import yaml
 
 from helpers.running import ROOT
 
-# The parser in C, where libyaml is installed, is ten times as fast.
+# If the C library libyaml is installed, its parser is used: it is ten times as fast.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 

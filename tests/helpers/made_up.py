@@ -1,6 +1,7 @@
 """Invented datasets of every stage, from closed forms, in which every claim of the paper holds.
 
-Tests of claims, tables and figures change one dataset and expect one claim to fail.
+Tests of claims, tables and figures change one dataset and expect one claim to fail. Functions with
+the name of a stage return a dataset of this stage. Wp is the peak frequency without damper.
 """
 
 import numpy as np
@@ -9,9 +10,11 @@ from helpers.made_up_orbits import branch, branches
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
 
-STIFFNESS = 2000.0
+STIFFNESS = 2000.0  # r1 of the walls
+# Peak frequency by damping without linear stiffness, and by linear frequency at damping 0.215.
 PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}
 LINEAR = {0.0: 2.0, 1.0: 2.1, 1.5: 2.3}
+# Lower edge of the suppression band over Wp, by curve.
 BAND_START = {
     "figure_05a": 0.95,
     "figure_03b": 0.94,
@@ -24,6 +27,7 @@ BAND_START = {
     "figure_08": 0.95,
     "figure_10": 0.80,
 }
+# Mass ratio by curve.
 DAMPERS = {
     "figure_05a": 0.12,
     "figure_05b": 0.25,
@@ -34,14 +38,17 @@ DAMPERS = {
 
 
 def frequencies(peak):
+    """Return a grid of frequencies around the peak."""
     return np.linspace(0.5, 1.5, 201) * peak
 
 
 def parameters(damping=0.215, linear=0.0, **others):
+    """Return the parameters of a dataset."""
     return {"damping": damping, "linear_frequency": linear} | others
 
 
 def damper(mass_ratio, peak, restitution=1.0):
+    """Return the parameters of a damper with the clearance by the paper's rule (19)."""
     return {
         "mass_ratio": mass_ratio,
         "clearance": 1 / (mass_ratio * peak**2),
@@ -51,15 +58,20 @@ def damper(mass_ratio, peak, restitution=1.0):
 
 
 def quiet_size(frequency, peak, mass_ratio):
+    """Return an invented amplitude of the quiet motion, smallest at the peak."""
     return 1e-3 + 0.02 / mass_ratio * np.abs(frequency / peak - 1)
 
 
 def resonance_size(frequency, peak, damping):
+    """Return an invented amplitude of the resonance motion without damper, rising to the peak."""
     return frequency / (damping * peak**2)
 
 
 def design(name, mass_ratio=0.12, damping=0.215, linear=0.0):
-    """Return a harmonic balance: a quiet solution with a = 0 at the peak, a high one below it."""
+    """Return a harmonic balance: a quiet solution with a = 0 at the peak, and a high solution.
+
+    The high solution exists below the suppression band.
+    """
     peak = LINEAR[linear] if damping == 0.215 else PEAKS[damping]
     frequency = frequencies(peak)
     given = damper(mass_ratio, peak)
@@ -106,7 +118,11 @@ def design(name, mass_ratio=0.12, damping=0.215, linear=0.0):
 
 
 def motions(frequency, columns):
-    """Registered variables of columns of motions, each (present, contacts, size, others)."""
+    """Return variables of motions over frequency, a column for each motion.
+
+    A column is a pair: a mask of the frequencies at which the motion exists, and a dict of the
+    variables that differ from a settled motion of period 1.
+    """
     fill = {
         "outcome": flag("outcome", "absent"),
         "period": 0,
@@ -147,9 +163,10 @@ def free_branches(damping, linear=0.0):
 
 
 def damped_branches(name, damping=0.215, restitution=1.0, third=None):
-    """Return high orbits up to the band, quiet orbits everywhere, and orbits of period 3.
+    """Return high orbits up to the band, quiet orbits at all frequencies, and orbits of period 3.
 
-    The orbits that the high solutions of (7) approximate are not stable.
+    The orbits that the high solutions of harmonic balance (7) approximate are unstable. `third` is
+    the size of the orbits of period 3.
     """
     peak, mass_ratio = PEAKS[damping], DAMPERS[name]
     below, all_over = np.linspace(0.5, BAND_START[name], 101) * peak, frequencies(peak)
@@ -206,7 +223,10 @@ def response(name, damping=0.215, restitution=1.0):
 
 
 def matched_sweep():
-    """Return a response with a quiet motion, chaos at other places, and one that none reached."""
+    """Return a response with three motions: quiet, chaotic, and one that no start reached.
+
+    Quiet and chaotic motion change places in the list from frequency to frequency.
+    """
     quiet, chaos, absent = (flag("outcome", name) for name in ("settled", "chaotic", "absent"))
     starts = np.array([[5, 5, 0], [1, 9, 0], [10, 0, 0]])
     data = {
@@ -224,12 +244,13 @@ def matched_sweep():
 
 
 def motion():
-    """Return a motion for S3, a gap of the paper: a state of three components."""
+    """Return a motion with a state of three components, the omission S3 of the paper."""
     data = {name: np.zeros(3) for name in ("displacement", "velocity", "relative_displacement")}
     return dataset(data, {"time": np.arange(3.0)}, parameters(frequency=2.0), "made up")
 
 
 def collisions():
+    """Return a dataset of collisions in which all starts collide."""
     data = {"beyond_wall": [0.2, 0.0], "colliding": [1.0, 1.0], "longest_wait": [9.0, 90.0]}
     made = parameters(**damper(0.12, 2.0), starts=2000)
     return dataset(data, {"ball": ["literal", "within_gap"]}, made, "made up")
@@ -270,7 +291,10 @@ def sweep(damping, mass_ratio, restitution=1.0):
 
 
 def subharmonic(name, damping=0.215, damped=np.nan):
-    """Return the free subharmonic from 0.8 to 1.1 Wp, and there at most a small damped one."""
+    """Return the free subharmonic from 0.8 to 1.1 Wp, and with damper a small one or none.
+
+    `damped` is the size of the subharmonic with damper; NaN if there is none.
+    """
     peak = PEAKS[damping]
     frequency = np.linspace(0.8, 1.1, 61) * peak
     present = np.full(len(frequency), np.isfinite(damped))
@@ -298,7 +322,10 @@ def subharmonic(name, damping=0.215, damped=np.nan):
 
 
 def migration(frequency, subharmonic_share):
-    """Return four runs of the controller, and releases of the unsettled and of the quiet motion."""
+    """Return four runs of the controller, and releases of two motions with damper.
+
+    These are a motion that has not settled, and the quiet motion.
+    """
     kinds, destinations = list(DAMPED_MOTION)[1:], list(FREE_MOTION)[1:]
     shares = np.zeros((2, len(destinations), 3))
     shares[:, destinations.index("subharmonic")] = subharmonic_share
@@ -306,7 +333,7 @@ def migration(frequency, subharmonic_share):
     counts = np.zeros((len(kinds), len(destinations)), int)
     counts[kinds.index("unsettled")] = np.rint(10 * shares[0, :, 0])
     reached = np.full(4, flag("trial_outcome", "reached"))
-    # run k is switched k times, and arrives after the last time
+    # Run k (counted from 1) switches the damper k times, and the last release reaches the goal.
     destination = np.full((4, 4), FREE_MOTION["none"])
     destination[np.tril_indices(4, -1)] = FREE_MOTION["resonance"]
     destination[np.diag_indices(4)] = FREE_MOTION["non_resonance"]
@@ -337,7 +364,7 @@ def migration(frequency, subharmonic_share):
 
 
 def release_scan(frequency, subharmonic_share):
-    """Return a scan of releases of the unsettled and of the quiet motion, the only motions."""
+    """Return a scan of releases of two motions with damper: unsettled and quiet."""
     destinations = list(FREE_MOTION)[1:]
     share = np.array(subharmonic_share)[:, None, None]
     shares = np.zeros((len(frequency), 3, len(destinations), 3))
@@ -359,6 +386,7 @@ def release_scan(frequency, subharmonic_share):
     return dataset(data, coordinates, parameters(**damper(0.12, 2.0)), "made up")
 
 
+# Linear frequency by number of the figure.
 LINEAR_OF = {"3a": 1.5, "3b": 1.0, "3c": 0.0, "5a": 0.0}
 
 

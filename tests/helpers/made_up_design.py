@@ -17,11 +17,12 @@ MACHINE = {
     "force": 40.0,
 }
 SETTLING = {"tolerance": 1e-9, "patience": 300, "limit": 1500, "watched": 50}
+# A share of 1 with its interval.
 SURE = [1.0, 0.95, 1.0]
 
 
 def made_up_design(choice="robust", promise="robust_kept", **changed):
-    """Return the dataset, with other values of some variables."""
+    """Return the dataset; `changed` replaces the values of variables."""
     data = labelled(
         _screening() | _comparison(choice) | _deviations(promise) | _masses(),
         frequency=FREQUENCY,
@@ -213,7 +214,10 @@ def _transients():
 
 
 def _absorbers():
-    """Return displacements in proportion to the excitation; the optimised absorber is possible."""
+    """Return displacements in proportion to the excitation; the optimised absorber is the best.
+
+    The nonlinear absorber is not possible for this machine.
+    """
     worst = np.array([10.0, 1.0, np.nan, 0.5])
     share = np.array([0.25, 0.5, 1.0, 2.0, 4.0])
     sizes = worst[:, None, None, None] * share * np.ones((4, 3, 5, 1))

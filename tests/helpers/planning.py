@@ -1,4 +1,4 @@
-"""Jobs of a configuration, with their parameters and the datasets they read, by the registry."""
+"""Jobs of a configuration as the registry of stages plans them, without starting Snakemake."""
 
 import json
 from pathlib import Path
@@ -19,12 +19,13 @@ class Job(NamedTuple):
 
 
 def job_of(stage, name):
-    """Name of the job that computes an entry."""
+    """Return the name of the job that computes an entry."""
     return stage if stage in TOGETHER else f"{stage}/{name}"
 
 
 def jobs(config) -> dict:
-    """Return the jobs of a configuration in one chunk, by names such as "response/figure_08"."""
+    """Return the jobs of a configuration with `chunks: 1`, by names such as
+    "response/figure_08"."""
     config = json.loads(json.dumps(config, sort_keys=True))
     found = {}
     for stage, record in STAGES.items():
@@ -54,7 +55,7 @@ def _needed(names):
 
 
 def job_of_file(config, path):
-    """Name of the job that makes a file of the results."""
+    """Return the name of the job that makes a file of the results."""
     path = Path(path)
     folder, name = path.parent.name, path.stem
     if folder == "figures":
@@ -68,7 +69,11 @@ def job_of_file(config, path):
 
 
 def reruns(before, after, edited=()) -> set:
-    """Return jobs that are edited or whose parameters or needs differ, and their dependants."""
+    """Return the names of the jobs that run again after an edit.
+
+    These are the jobs in `edited`, jobs whose parameters or needs differ between the two plans
+    `before` and `after`, and all jobs that depend on them.
+    """
     found = {name for name, job in after.items() if job != before.get(name)} | set(edited)
     new = found
     while new:

@@ -1,4 +1,4 @@
-"""Kernels that take pointers, called with arrays."""
+"""Kernels (functions compiled by numba) that take pointers, called with arrays."""
 
 from functools import cache
 
@@ -9,7 +9,7 @@ from impact_damper.kernel.memory import pointer
 
 @cache
 def pointed(kernel):
-    """Return a kernel that takes pointers as a function of one array, or of two."""
+    """Return a function of one or two arrays that calls a kernel with pointers to them."""
 
     @numba.njit
     def one(a):

@@ -1,4 +1,4 @@
-"""Snakemake on copies of the project."""
+"""Runs of Snakemake on copies of the project."""
 
 import os
 import shutil
@@ -11,7 +11,7 @@ PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow", "sr
 
 
 def snakemake(project, *arguments, **options):
-    """Run Snakemake on a project with the project's own package."""
+    """Run Snakemake in the folder of a project, with this project's own package."""
     environment = os.environ | {"PYTHONPATH": str(project / "src")} | options.pop("env", {})
     command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
     options = {"cwd": project, "env": environment, "capture_output": True, "text": True} | options
@@ -19,7 +19,7 @@ def snakemake(project, *arguments, **options):
 
 
 def copy_of_project(folder):
-    """A copy of all that a run needs."""
+    """Copy all files that a run needs to a folder, and return the folder."""
     for part in PARTS:
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
         copy(ROOT / part, folder / part)

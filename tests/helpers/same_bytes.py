@@ -61,6 +61,7 @@ def main(chosen=None):
 
 
 def _made(folder):
+    """Make a folder and return its path."""
     folder.mkdir()
     return folder
 

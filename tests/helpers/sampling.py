@@ -1,4 +1,4 @@
-"""States of a motion at chosen times, and Gauss quadrature between its events."""
+"""States of a motion at chosen times, and Gauss quadrature between its contacts."""
 
 import numpy as np
 

@@ -49,7 +49,12 @@ class SiMotion:
         return [y[1], a, y[3], a - loose, *works]
 
     def run(self, state, begin, end, *, longest=5e-3, in_contact=2e-4):
-        """Yield each flight and each contact: its wall, 0 in flight, and SciPy's solution."""
+        """Yield each flight and each contact as (wall, solution).
+
+        The wall is 1 or -1, and 0 in flight; the solution is that of `solve_ivp`. `longest` and
+        `in_contact` are the largest steps in flight and in contact, s. The second event records the
+        times at which the velocity of the machine changes sign.
+        """
 
         def reached(t, y, wall):
             return abs(y[2]) - self.clearance

@@ -15,7 +15,7 @@ from impact_damper.pages.render import as_text, write_page
 from impact_damper.workflow.registry.machines import PAGE
 
 NO_PICTURES = dict.fromkeys(FIGURES, "")
-# Names in transients, which are renamed there.
+# Variables of a design that are not in the registry of variables, since the stage renames them.
 RENAMED = {"sweep_envelope", "ring_envelope", "ring_time"}
 
 
@@ -26,7 +26,7 @@ def texts(**changed):
 
 
 def numbers(**changed):
-    """Return the values of a page by what they are."""
+    """Return the values on a page, keyed by their descriptions."""
     page = machine_page("made_up", made_up_design(**changed))
     blocks = [block for section in page.sections for block in section.blocks]
     return {
@@ -136,7 +136,7 @@ def test_a_lighter_mass_that_does_as_well_is_told():
 
 
 class Links(HTMLParser):
-    """Collects the tags that are open, and what a page refers to."""
+    """Reader that collects the open tags of a page, and the files to which it refers."""
 
     def __init__(self):
         super().__init__()

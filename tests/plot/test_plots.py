@@ -134,7 +134,7 @@ def test_an_orbit_in_si_units_is_closed(results):
 
 
 def test_shares_add_up(results):
-    """The areas lie on each other, and the lowest is the motion of period 1."""
+    """The areas are stacked, and the lowest area is the motion of period 1."""
     axes = idm.plot.shares(results["response"])
     below = 0
     for area in axes.patches:
@@ -172,7 +172,10 @@ def test_the_package_starts_without_matplotlib():
 
 
 def test_a_backend_that_becomes_interactive_stays_so():
-    """As that of notebooks does with the first figure; they show no other figures without it."""
+    """The backend of notebooks becomes interactive with the first figure, and must remain so.
+
+    Otherwise a notebook would show only the first figure.
+    """
     before = matplotlib.is_interactive()
     try:
         with looks(None):

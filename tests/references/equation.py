@@ -1,6 +1,7 @@
-"""The equations (3), (4) and (20) to (24) in Python, written independently of the package.
+"""The equations of motion, (3), (4) and (20) to (24), written independently of the package.
 
-The functions take numbers, arrays, or expressions of heyoka.py.
+p is the array of packed parameters (`system.packed`). x, v are Z1, Z1', and z, w are Z2, Z2'. The
+functions take numbers, arrays, or expressions of heyoka.py.
 """
 
 import math
@@ -21,7 +22,7 @@ from impact_damper.system.packed import (
 
 
 def amplitude(p):
-    """Return the amplitude of the forcing, from packed parameters p."""
+    """Return the amplitude of the forcing."""
     return p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2 + p[SHAKER] / p[FREQUENCY] ** 2
 
 
@@ -46,7 +47,7 @@ def flight(p, x, v, cosine):
 
 
 def contact(p, side, z, w):
-    """Return the force of the wall `side`, -1 or 1, in contact."""
+    """Return the contact force of the wall `side`, -1 or 1; positive in the direction of Z2."""
     return p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w
 
 

@@ -1,6 +1,7 @@
-"""Motions by heyoka.py with terminal events, an integrator that is independent of the kernels.
+"""Motions by heyoka.py with terminal events, independent of the package's integrators (kernels).
 
-State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and `packed.pack`.
+State and parameters are the same as for the kernels: (Z1, Z1', Z2, Z2') and the packed parameters
+of `system.packed.pack`.
 """
 
 import math
@@ -12,8 +13,8 @@ import numpy as np
 from impact_damper.system import packed
 from references import equation
 
-# Clearance in place of a larger one. heyoka's tolerance is relative to the largest term of the
-# events, so a distant wall would make the integration inaccurate.
+# Larger clearances are replaced by this one. heyoka's tolerance is relative to the largest term of
+# the events, so a distant wall would make the integration inaccurate.
 BEYOND_ALL_MOTIONS = 16.0
 # Number of parameters in flight (False) and in contact (True). The parameters in flight come first,
 # and the wall in contact is the last parameter.

@@ -1,7 +1,9 @@
 """Monodromy matrices by heyoka's variational equations, with jumps at events from a textbook.
 
-At an event a tangent d becomes d + (f_after - f_before) (n d)/(n f_before), with the normal n of
-the wall and the vector field f before and after the event (Leine and Nijmeijer, Dynamics and
+The monodromy matrix is the derivative of the state after a period with respect to the first state;
+its columns are tangents, small disturbances of the state. At an event, the beginning or end of a
+contact, a tangent d becomes d + (f_after - f_before) (n d)/(n f_before), with the normal n of the
+wall and the vector field f before and after the event (Leine and Nijmeijer, Dynamics and
 Bifurcations of Non-Smooth Mechanical Systems, 2004, section 7).
 """
 
@@ -16,6 +18,7 @@ from references.taylor_events import BEYOND_ALL_MOTIONS, PARAMETERS
 
 
 def _fields():
+    """Return heyoka's equations in flight and in contact, and the variables of the events."""
     x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
     *p, side = [heyoka.par[i] for i in range(COUNT + 1)]
     free = equation.flight(p, x, v, heyoka.cos(p[FREQUENCY] * heyoka.time))
@@ -49,7 +52,10 @@ class Variational:
             )
 
     def monodromy(self, p, state, begin, length):
-        """Return state and derivative (4, 4) of the flow over a length of time from a flight."""
+        """Return the state after a time `length` and its derivative by the first state, (4, 4).
+
+        At the beginning the loose mass must touch no wall.
+        """
         pars = np.append(p, 0.0)
         pars[CLEARANCE] = min(p[CLEARANCE], BEYOND_ALL_MOTIONS)
         full = np.concatenate([state, np.eye(4).ravel()])

@@ -15,7 +15,7 @@ BOUNDS = ["share", "lower", "upper"]
 
 
 def bounded(values):
-    """Return values with bounds 0.1 below and above."""
+    """Return values with intervals from 0.1 below to 0.1 above."""
     return np.stack([values, np.subtract(values, 0.1), np.add(values, 0.1)], axis=-1)
 
 

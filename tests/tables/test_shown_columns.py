@@ -1,4 +1,7 @@
-"""Tables for people: a title, at most nine columns with words as heads; the CSV has the others."""
+"""Tables in Markdown have a title and at most nine columns with words as heads.
+
+The CSV files have all columns.
+"""
 
 import re
 from importlib import import_module
@@ -15,10 +18,10 @@ from impact_damper.workflow import selection
 from impact_damper.workflow.chapter import make_table
 from impact_damper.workflow.registry import TABLES
 
-# The table of claims has a layout of its own.
+# The table of claims has its own layout and is not tested here.
 NAMES = [name for name, table in TABLES.items() if table.module != "claims.verdicts"]
-# Tables that the invented datasets have all variables of; the columns of others are tested with the
-# stages that make their data.
+# Tables for which the invented datasets have all variables. The columns of other tables are tested
+# together with the stages that make their data.
 INVENTED = (
     "harmonic_balance",
     "bands",
@@ -68,7 +71,7 @@ def test_markdown_is_a_title_a_note_and_the_chosen_columns_of_the_csv(name, data
 
 @pytest.mark.parametrize("name", INVENTED)
 def test_cells_for_people_have_no_internal_names(name, data, tmp_path):
-    """A word with an underscore is a key; the CSV has it, where there is one."""
+    """Words with an underscore are internal names, which only the CSV file may have."""
     make_table(name, data, tmp_path / name)
     rows = [line for line in (tmp_path / f"{name}.md").read_text().splitlines() if line[0:1] == "|"]
     assert [row for row in rows if re.search(r"\w_\w", row)] == []

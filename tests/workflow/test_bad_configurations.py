@@ -1,6 +1,7 @@
-"""A wrong configuration starts no job: a line names key, value and what is allowed.
+"""A wrong configuration is refused with a line that names the key, its value and what is allowed.
 
-The fault is known from the way the configuration was made (`broken`), not from the models.
+Each fault is known from the way in which the configuration was made (`helpers.broken`), not from
+the models that check the configuration.
 """
 
 import re
@@ -31,6 +32,7 @@ fuzz = settings(
 
 
 def problems(config):
+    """Return the lines with which a configuration is refused."""
     with pytest.raises(ConfigurationError) as caught:
         check_configuration(config)
     return str(caught.value).split("\n")
@@ -56,7 +58,7 @@ def test_what_is_broken_is_told(made):
 @settings(fuzz, max_examples=100)
 @given(st.sampled_from([path for path, _ in places(SMALL) if path]), junk)
 def test_nothing_at_any_place_is_worse_than_rejected(path, value):
-    """A random value that is accepted is of the type of the valid value there."""
+    """A random value is refused, or it is accepted and has the type of the valid value."""
     try:
         check_configuration(changed(path, value).config())
     except ConfigurationError as error:
@@ -74,7 +76,7 @@ def test_no_junk_is_a_configuration(value):
 @settings(fuzz, max_examples=15)
 @given(data=st.data())
 def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
-    """Twice in any mapping of the file, with the same value or another."""
+    """In any mapping of the file, with the same value or another."""
     path = data.draw(st.sampled_from([path for path in MAPPINGS if at(path)]))
     root = node = yaml.compose(TEXT, Loader=LOADER)
     for key in path:

@@ -1,4 +1,4 @@
-"""Parameters as words in captions."""
+"""Parameters as text in the captions of figures."""
 
 from dataclasses import fields
 

@@ -1,4 +1,4 @@
-"""The command `impact-damper`: its answers hold against the library, wrong files are refused."""
+"""The command `impact-damper`: its answers equal those of the library; wrong files are refused."""
 
 import json
 import sys
@@ -22,7 +22,7 @@ band: [20 Hz, 21 Hz]
 """
 
 
-# A design of the fewest steps, whose contact follows from radius and material.
+# A design with as few steps as possible; the contact stiffness follows from radius and material.
 SMALL = """
 machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 2 %, force: 40 N}
 damper: {mass: 1.2 kg, restitution: 0.6}
@@ -37,7 +37,7 @@ tolerances: {gap: 5 %}
 
 @pytest.fixture
 def machine_file(tmp_path):
-    """A machine's file with the least keys."""
+    """A file that describes a machine with the fewest possible keys."""
     path = tmp_path / "machine.yaml"
     path.write_text(FILE)
     return path
@@ -51,7 +51,7 @@ def run(*arguments):
 
 
 def test_motion_without_a_damper_has_the_linear_amplitude(machine_file):
-    """F/sqrt((k - m w^2)^2 + (c w)^2), once the start has decayed."""
+    """The amplitude is F/sqrt((k - m w^2)^2 + (c w)^2) once the transient has decayed."""
     told = run("simulate", machine_file, "--frequency", "24 Hz", "--periods", 300, "--json")
     w, k, m = 2 * np.pi * 24, 2e5, 12
     exact = 40 / np.hypot(k - m * w**2, 2 * 0.05 * np.sqrt(k * m) * w)
@@ -70,7 +70,7 @@ def test_motion_is_kept_in_a_file(machine_file, tmp_path):
 
 
 def test_response_of_the_bare_machine(machine_file):
-    """One motion at each frequency, of the amplitude of the linear machine."""
+    """There is one motion at each frequency, with the amplitude of the linear machine."""
     told = json.loads(run("response", machine_file, "--starts", 2, "--json"))["response"]
     for row in told:
         w = 2 * np.pi * row["frequency_hz"]
@@ -99,13 +99,14 @@ def test_a_design_is_for_the_task_of_its_file_and_has_a_page(tmp_path):
         tolerances={"gap": 0.05},
     )
     assert asked | task.describe() == asked
-    # of an impact at the speed that crosses the gap of the flight rule in half a period
+    # The stiffness for an impact at the speed that crosses the gap of the flight rule in half a
+    # cycle.
     ball = idm.HertzContact.of_ball("20 mm", youngs_modulus="3 GPa", poissons_ratio=0.4)
     speed = 2 * task.rule_gap(20.55) * 20.55
     assert made["contact_stiffness"] == pytest.approx(ball.impact(speed, 12 * 1.2 / 13.2).stiffness)
     assert told["design_gap_mm"] == float(data["design_gap"])
     assert told["conclusion"][0] in Path(told["page"]).read_text()
-    # the other commands compute with the same stiffness
+    # The other commands compute with the same stiffness.
     given = read_machine_file(path)
     assert command_line.damper(given, "3 mm").contact_stiffness == made["contact_stiffness"]
     run("report", folder / "design.nc", "--output", tmp_path / "again")
@@ -120,7 +121,7 @@ def test_a_contact_that_is_not_known_names_its_key(machine_file):
 
 
 def test_wrong_value_names_key_and_range(machine_file):
-    """All problems at once, and the nearest key."""
+    """The message has all problems at once, and suggests the nearest key."""
     machine_file.write_text(FILE.replace("0.7", "7").replace("force", "froce"))
     with pytest.raises(ConfigurationError) as raised:
         read_machine_file(machine_file)
@@ -137,7 +138,7 @@ def test_numbers_with_an_exponent_are_numbers(machine_file):
 
 
 def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
-    """No trace of Python; the message of the library, in SI units."""
+    """The message of the library, in SI units and without a traceback."""
     arguments = ["impact-damper", "simulate", str(machine_file), "--frequency", "24 kg"]
     monkeypatch.setattr(sys, "argv", arguments)
     with pytest.raises(SystemExit, match="Error: frequency = '24 kg'"):
@@ -173,7 +174,7 @@ def test_ctrl_c_ends_with_its_code_and_what_to_do(machine_file, monkeypatch, cap
 
 
 def test_the_help_holds_a_file_that_works(tmp_path):
-    """The least keys, so that a stranger can begin from the help alone."""
+    """The example in the help is a complete file, so that a new user can begin with it."""
     lines = [line.strip() for line in run("--help").splitlines()]
     keys = ("machine:", "damper:", "band:")
     (tmp_path / "machine.yaml").write_text("\n".join(x for x in lines if x.startswith(keys)))

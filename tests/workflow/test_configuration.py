@@ -30,13 +30,14 @@ KNOWN = "one of h215, h150, h107, l100, l150"
 
 
 def problems(config):
+    """Return the lines with which a configuration is refused."""
     with pytest.raises(ConfigurationError) as caught:
         check_configuration(config)
     return str(caught.value).splitlines()
 
 
 def changed(path, value, config=PAPER):
-    """The paper's configuration, or another one, with one value set."""
+    """Return the paper's configuration, or another one, with one value changed."""
     config = copy.deepcopy(config)
     *parents, key = path.split("/")
     place = config
@@ -47,7 +48,7 @@ def changed(path, value, config=PAPER):
 
 
 def without(path):
-    """The paper's configuration without one key."""
+    """Return the paper's configuration without one key."""
     config = copy.deepcopy(PAPER)
     *parents, key = path.split("/")
     place = config
@@ -58,7 +59,7 @@ def without(path):
 
 
 def leaves(config, path=()):
-    """Paths of all values that are no mappings."""
+    """Yield the path of each value that is not a mapping."""
     for key, value in config.items():
         if isinstance(value, dict):
             yield from leaves(value, (*path, key))
@@ -67,7 +68,7 @@ def leaves(config, path=()):
 
 
 def with_all_leaves(value):
-    """The small configuration with each value that is no mapping replaced by `value`."""
+    """Return the small configuration with `value` for each value that is not a mapping."""
 
     def replaced(part):
         return {k: replaced(x) if isinstance(x, dict) else value for k, x in part.items()}
@@ -98,21 +99,20 @@ def test_valid_extremes_are_accepted(path, value):
 
 @pytest.mark.parametrize("value", [math.nan, -math.inf, None, {}, [[]], True])
 def test_each_value_of_another_kind_has_its_line(value):
-    """With all values wrong at once there is one line for each value, which begins with its key."""
+    """If all values are wrong at once, there is a line for each; the line begins with the key."""
     lines = problems(with_all_leaves(value))
-    # keys without values could be a range of a study
+    # In place of a number of a study, an empty mapping counts as a range that lacks its keys.
     lines = [line for line in lines if not line.endswith("needed here: first, last, points")]
     keys = {".".join(path) for path in leaves(SMALL)}
     told = {line.split(" = ")[0] for line in lines}
-    # of a list of one list the entry is wrong
     ranges = {f"studies.design_plane.{key}" for key in AXES} if value == {} else set()
-    # of a list in a list the entry is wrong
+    # If the value is the list [[]] where a list is allowed, its first entry, `key.0`, is wrong.
     assert {key if key in keys else key.removesuffix(".0") for key in told} == keys - ranges
     assert all(" = " in line and ": must be " in line for line in lines)
 
 
 def test_each_missing_value_has_its_line():
-    """With all values missing at once there is a line for each, except for optional ones."""
+    """If all values are missing at once, there is a line for each that is not optional."""
 
     def emptied(part):
         return {key: emptied(value) for key, value in part.items() if isinstance(value, dict)}
@@ -403,9 +403,9 @@ def test_a_curve_without_the_free_one_is_drawn_by_no_figure():
 
 
 def bounds():
-    """Path of a key in the small configuration and the bounds that the library has for it."""
+    """Yield the path of a key in the small configuration, and its bounds in the library."""
     for each in fields(Oscillator):
-        if each.name != "shaker":  # it stands for a machine, an entry of `machines`
+        if each.name != "shaker":  # only machines can stand on a shaker, and have other keys
             yield f"oscillators/h215/{each.name}", each.metadata["bounds"]
     for each in fields(Damper):
         key = "" if each.name == "contact_stiffness" else "curves/figure_05a/"
@@ -416,7 +416,7 @@ def bounds():
 
 @pytest.mark.parametrize(("path", "known"), list(bounds()))
 def test_the_configuration_has_the_bounds_of_the_library(path, known):
-    """A value at an end of its range is accepted, a value beyond is refused with these bounds."""
+    """A value at an end of its range is accepted; the next number beyond it is refused."""
     key = path.replace("/", ".")
     for end, direction in ((known["least"], -math.inf), (known["most"], math.inf)):
         beyond = math.nextafter(end, direction)
@@ -431,7 +431,7 @@ def test_the_configuration_has_the_bounds_of_the_library(path, known):
 
 
 def test_the_check_imports_no_numpy():
-    """It runs at every dry run."""
+    """The check runs at every dry run, and NumPy takes long to import."""
     code = "import sys, impact_damper.workflow.configuration; print('numpy' in sys.modules)"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout == "False\n"
@@ -448,7 +448,7 @@ def test_the_check_of_a_machine_imports_no_numba():
 
 
 def test_the_reference_is_up_to_date():
-    """After a change: python -m impact_damper.workflow.models > config/reference.md"""
+    """To write it again: python -m impact_damper.workflow.models > config/reference.md"""
     assert (ROOT / "config/reference.md").read_text() == reference()
 
 

@@ -1,4 +1,4 @@
-"""The quick ones of the trials of faults; `make faults` runs them all."""
+"""Faults of a run that can be tried quickly; `make faults` tries all (tests/faults)."""
 
 import os
 import subprocess
@@ -13,19 +13,19 @@ pytestmark = pytest.mark.workflow
 FILE = "results/harmonic_balance/figure_05a.nc"
 YEAR = 365 * 86400
 
-# Code of a job: it opens its log and then runs the statement that is inserted.
+# Code of a job: it opens its log, prints "begun" and runs a statement that is inserted.
 JOB = (
     "import sys, time; from types import SimpleNamespace; from impact_damper.workflow.job "
     "import Job; "
     "Job(SimpleNamespace(log=[{!r}], output=['a.nc'], params=[])); print('begun'); {}"
 )
 LONG = "time.sleep(60); sys.__stdout__.write('lived on')"
-# Code of a run: it starts a job, and waits.
+# Code of a process in place of Snakemake: it starts a job, and waits.
 RUN = "import subprocess, sys; subprocess.Popen([sys.executable, '-c', {!r}]); sys.stdin.read()"
 
 
 def job_log(folder):
-    """Path of a job's log in a folder of results."""
+    """Return the path of a job's log in a folder of results, which is created."""
     log = folder / "logs/stage/job.log"
     log.parent.mkdir(parents=True)
     return log
@@ -33,7 +33,7 @@ def job_log(folder):
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
-    """Return a project that has run one job, which needs no kernels."""
+    """Return a copy of the project with the result of one job, which needs no compiled kernels."""
     project = Project(tmp_path_factory.mktemp("faults") / "a project")
     code, told = project.run(targets=[FILE])
     assert code == 0, told
@@ -81,7 +81,7 @@ def test_a_job_ends_with_its_run(tmp_path):
 
 @pytest.mark.parametrize("kind, lines", [("OSError", 1), ("ValueError", None)])
 def test_what_stops_a_job_is_told(kind, lines, tmp_path):
-    """A file error is one line on terminal and log, another error a traceback in the log."""
+    """An error about a file is one line on terminal and log; others are tracebacks in the log."""
     log = job_log(tmp_path)
     command = JOB.format(str(log), f"raise {kind}('a.nc is broken')")
     job = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)
@@ -96,7 +96,7 @@ def test_what_stops_a_job_is_told(kind, lines, tmp_path):
 
 @pytest.mark.parametrize("megabytes", [0, 300])
 def test_the_timing_of_a_job_is_its_own(megabytes, tmp_path):
-    """It holds the job's memory and none of the process that starts it."""
+    """The timing holds the memory of the job, and not of the process that starts the job."""
     kept = bytearray(b"1") * (200 * 2**20)
     work = f"kept = bytearray(b'1') * ({megabytes} * 2**20); time.sleep(0.5)"
     code = JOB.format(str(job_log(tmp_path)), work)

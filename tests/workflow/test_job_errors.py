@@ -1,4 +1,4 @@
-"""What a job says about errors of files."""
+"""Messages of a job about errors of files."""
 
 import errno
 import os

@@ -1,4 +1,4 @@
-"""The record of versions, commit, configuration and machine is complete."""
+"""`provenance.json` records versions, commit and configuration of a run completely."""
 
 import shutil
 import subprocess

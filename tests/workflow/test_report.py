@@ -24,11 +24,11 @@ def test_caption_of_a_figure(name):
 
 @pytest.mark.parametrize("name", CONFIG["figures"])
 def test_caption_is_short_enough_to_be_read(name):
-    """Text of the kind and remark of the figure; its title and parameters come on top."""
+    """Only the text on the kind of figure and the remark count, without title and parameters."""
     figure = CONFIG["figures"][name]
     text = import_module(f"impact_damper.{KINDS[figure['kind']].source}").CAPTION
     assert len(f"{text} {figure['remark']}".split()) <= 90
-    # What all figures have in common stands once, in workflow/report/workflow.rst.
+    # This sentence belongs to all figures and stands once, in workflow/report/workflow.rst.
     assert "no such figure" not in text
 
 

@@ -1,6 +1,6 @@
-"""After an edit exactly those jobs run again that depend on it.
+"""After an edit exactly the jobs that depend on the edited value or file run again.
 
-Snakemake plans for a project whose results are empty files.
+Snakemake only plans the jobs, for a copy of the project whose results are empty files.
 """
 
 import copy
@@ -27,10 +27,12 @@ SCRIPTS = sorted(path.stem for path in (ROOT / "workflow/scripts").glob("*.py"))
 
 
 def chapters(*names):
+    """Return the names of the jobs of chapters of the report."""
     return {f"chapter/{name}" for name in names}
 
 
-# Edits of values, and the jobs that run again.
+# Paths of values in the configuration, and the jobs that run again after an edit. A final star
+# stands for any text.
 VALUES = {
     ("curves", "figure_08", "clearance"): {
         *(f"{s}/figure_08" for s in ("harmonic_balance", "response", "subharmonic", "branches")),
@@ -56,7 +58,7 @@ VALUES = {
     ("comparison", "orders"): {"accuracy/*", *chapters("methods")},
     ("figures", "figure_08", "title"): chapters("responses"),
 }
-# Edits of files, and the jobs that run again.
+# Files, and the jobs that run again after an edit.
 FILES = {
     "requirements.lock": {"*"},
     "src/impact_damper/figures/style.py": {"pages/machines", *chapters(*CHAPTERS)},
@@ -77,7 +79,7 @@ FILES = {
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory):
-    """Return the whole project with the results of a complete run, all of them empty files."""
+    """Return a copy of the project that looks as after a complete run; all results are empty."""
     project = copy_of_project(tmp_path_factory.mktemp("a project"))
     for line in snakemake(project, "everything", "--summary").stdout.splitlines()[1:]:
         output = project / line.split("\t")[0]
@@ -103,7 +105,7 @@ def jobs(config):
 
 @pytest.fixture
 def edit(project):
-    """Edit a file of the project until the test ends."""
+    """Return a function that changes the text of a file until the test ends."""
     originals = {}
 
     def change(name, text):
@@ -117,7 +119,7 @@ def edit(project):
 
 
 def leaves(value, path=()):
-    """Yield the path of keys of each value that is no mapping."""
+    """Yield path and value of each value that is not a mapping."""
     if isinstance(value, dict):
         for key, part in value.items():
             yield from leaves(part, (*path, key))
@@ -126,7 +128,8 @@ def leaves(value, path=()):
 
 
 def changed(config, path):
-    """The configuration with another number or another oscillator at a path, or None."""
+    """Return the configuration with another value at a path; None for kinds of values not
+    edited."""
     config = copy.deepcopy(config)
     place = config
     for key in path[:-1]:
@@ -146,7 +149,7 @@ def changed(config, path):
 
 
 def to_do(project, config):
-    """Jobs that Snakemake would run, by its summary of the outputs."""
+    """Return the names of the jobs that Snakemake would run, from its summary of the outputs."""
     result = snakemake(project, "everything", "--summary")
     assert result.returncode == 0, result.stdout + result.stderr
     lines = [line.split("\t") for line in result.stdout.splitlines()[1:]]
@@ -154,7 +157,7 @@ def to_do(project, config):
 
 
 def matching(jobs, patterns):
-    """Return the jobs with names in which a final star stands for any text."""
+    """Return the jobs whose names match one of the patterns, as in `VALUES`."""
     return {
         job
         for job in jobs
@@ -165,7 +168,7 @@ def matching(jobs, patterns):
 
 @pytest.fixture(scope="module")
 def noted(project, config):
-    """What Snakemake noted of the complete run: {job: its parameters and inputs}."""
+    """Return what Snakemake recorded of the complete run: {job: its parameters and inputs}."""
     found = {}
     for path in (project / ".snakemake/metadata").iterdir():
         record = json.loads(path.read_text())
@@ -193,7 +196,7 @@ def test_each_value_is_read_and_reruns_not_everything(config, jobs):
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_a_script_uses_all_of_its_parameters(stage, config):
-    """A change of a parameter that the job does not use would rerun the job unnecessarily."""
+    """Otherwise a change of the parameter would rerun the job without need."""
     text = (ROOT / f"workflow/scripts/{stage}.py").read_text()
     parameters = STAGES[stage].parameters(config, selection.entries(config, stage)[0])
     unused = {key for key in parameters if f'"{key}"' not in text and f".{key}" not in text}
@@ -222,7 +225,7 @@ def test_snakemake_reruns_what_edits_of_values_concern(project, edit, config, jo
 
 
 def test_snakemake_reruns_what_edits_of_files_concern(project, edit, config, jobs):
-    """Edits of a script, of a module of two stages, and of a template."""
+    """The edits concern a script, a module that two stages import, and a template."""
     paths = [
         "workflow/scripts/motion.py",
         "src/impact_damper/stages/studies.py",
@@ -251,7 +254,7 @@ def test_kernels_that_were_edited_are_compiled_before_the_first_job(tmp_path):
 
 @pytest.mark.parametrize("script", SCRIPTS)
 def test_sources_of_a_script_are_what_python_imports(script, config):
-    """Python's own search for imports finds the files that are inputs of the script's jobs."""
+    """Python's own search for imports finds the files that `sources` finds."""
     paths = [ROOT / f"workflow/scripts/{script}.py"]
     if script == "chapter":
         modules = {m for chapter in CHAPTERS for m in selection.chapter_modules(config, chapter)}
@@ -261,12 +264,12 @@ def test_sources_of_a_script_are_what_python_imports(script, config):
         finder.run_script(str(path))
     found = {Path(m.__file__) for m in finder.modules.values() if m.__file__} | set(paths)
     own = sources(*paths)
-    # An `__init__` that no name is taken from decides nothing.
+    # `sources` omits an `__init__.py` from which no name is imported, since it affects no result.
     assert own <= found and {path.name for path in found - own} <= {"__init__.py"}
 
 
 def test_chunks(project, edit, config):
-    """After a change of `chunks` a study is computed anew; a lost chunk reruns only its own job."""
+    """After a change of `chunks` the whole study is computed again."""
     edit("config/config.yaml", yaml.safe_dump(config | {"chunks": 2}, sort_keys=False))
     plan = snakemake(project, "-n", "results/studies/design_plane.nc")
     messages = re.findall(r"^Job \d+: (.*)$", plan.stdout, re.M)

@@ -1,6 +1,7 @@
 """Checkouts share results through a cache if parameters, sources and lock file agree.
 
-Scripts are replaced by one that writes the name of its checkout.
+In each checkout all scripts begin with a stub that writes the path of the checkout into the output
+and ends. The output therefore says where it was computed.
 """
 
 import inspect
@@ -32,7 +33,7 @@ BRANCHES = "results/branches/free_h215.nc"
 
 
 def checkout(folder):
-    """Return a copy of the project in which kernels count as compiled."""
+    """Return a copy of the project with the stub, in which the kernels count as compiled."""
     folder.mkdir()
     for script in (copy_of_project(folder) / "workflow/scripts").glob("*.py"):
         script.write_text(STUB + script.read_text())
@@ -44,7 +45,7 @@ def checkout(folder):
 
 
 def run(project, cache, *targets):
-    """Return the files that a run without results makes or takes from the cache."""
+    """Remove and make targets with the cache; return for each the checkout that computed it."""
     for target in targets:
         (project / target).unlink(missing_ok=True)
     result = snakemake(project, *targets, "--cache", env={"SNAKEMAKE_OUTPUT_CACHE": str(cache)})
@@ -53,13 +54,14 @@ def run(project, cache, *targets):
 
 
 def computed_in(path):
+    """Return the checkout in which a file was computed."""
     with Dataset(path) as file:
         return file.checkout
 
 
 @pytest.fixture(scope="module")
 def shared(tmp_path_factory):
-    """Two checkouts, a cache, and what the first one put there."""
+    """Return two checkouts and a cache with the results of the first checkout."""
     folder = tmp_path_factory.mktemp("sharing")
     cache = folder / "cache"
     cache.mkdir()

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.workflow
 
 
 def jobs(result):
-    """Number of jobs by rule, from the table that Snakemake prints first."""
+    """Return the number of jobs by rule, from the table that Snakemake prints first."""
     assert result.returncode == 0, result.stdout + result.stderr
     table = re.search(
         r"^job +count\n[- ]+\n(.*?)^total", result.stderr + result.stdout, re.M | re.S
@@ -33,7 +33,10 @@ def jobs(result):
     ("arguments", "beside"), [((), 81), (("--configfile", "config/smoke.yaml"), 12)]
 )
 def test_every_script_serves_the_paper_and_the_smoke_run(arguments, beside, tmp_path):
-    """Jobs beside one of each script are limited, because each takes a second to start or two."""
+    """The number of jobs is limited, because each takes one or two seconds to start.
+
+    `beside` is the largest number of jobs in addition to one for each script.
+    """
     scripts = {path.stem for path in (ROOT / "workflow/scripts").glob("*.py")}
     planned = snakemake(ROOT, "everything", *arguments, "-n", "--directory", tmp_path / "elsewhere")
     found = jobs(planned)
@@ -41,7 +44,7 @@ def test_every_script_serves_the_paper_and_the_smoke_run(arguments, beside, tmp_
     assert sum(found.values()) <= len(scripts) + beside
     chapters = {f"chapter_{name}" for name in CHAPTERS}
     assert chapters < found.keys()
-    # A study is cut into chunks in the smoke run only.
+    # Only the smoke run divides a study into chunks.
     assert found.keys() - chapters | {"chapter", "study_chunks"} == scripts
 
 
@@ -109,7 +112,7 @@ def test_a_key_that_stands_twice_is_told(tmp_path):
 
 
 def test_each_hook_stands_once():
-    """Snakemake ignores the first of two hooks of the same kind."""
+    """A second hook such as `onstart` would replace the first without a message."""
     files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
     hooks = re.findall("^(on[a-z]+):", "".join(path.read_text() for path in files), re.MULTILINE)
     assert sorted(hooks) == ["onstart", "onsuccess"]

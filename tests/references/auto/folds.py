@@ -1,4 +1,4 @@
-"""Folds and symmetry breakings of the free oscillator by AUTO-07p.
+"""Folds and symmetry breakings of the oscillator without damper, by the program AUTO-07p.
 
 The equations are in forced_cubic.f90, and AUTO's constants in constants.txt. The command
 
@@ -31,8 +31,10 @@ DAMPINGS = (0.215, 0.15, 0.107)
 RESPONSE = 1, 4.0, dict.fromkeys(DAMPINGS, (0.0, 0.0))
 SUBHARMONIC = 3, 1.8, {0.215: (-0.516, -0.232), 0.15: (0.262, 0.122), 0.107: (-0.745, 0.426)}
 
-# Settings of increasing accuracy. The numbers of the last setting are stored. A symmetry breaking
-# is a singular point of the equations, which AUTO reaches only with a larger tolerance (LOOSE).
+# Settings of increasing accuracy: numbers of mesh intervals (NTST) and collocation points (NCOL),
+# tolerances (EPSU, EPSS) and longest step (DSMAX). The numbers of the last setting are stored. A
+# symmetry breaking is a singular point of the equations, which AUTO reaches only with larger
+# tolerances (LOOSE).
 SHARP = [
     {"NTST": 100, "NCOL": 4, "EPSU": 1e-11, "EPSS": 1e-9, "DSMAX": 0.02},
     {"NTST": 100, "NCOL": 5, "EPSU": 1e-12, "EPSS": 1e-10, "DSMAX": 0.02},
@@ -45,8 +47,8 @@ LOOSE = [
     {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.03},
     {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.02},
 ]
-# For each run: the branch, its first orbit, AUTO's stopping condition, the kinds of points that are
-# stored (None for all), and the settings.
+# For each run: the branch, its first orbit, AUTO's stopping condition, the kinds of points stored
+# (None for all), and the settings.
 RUNS = {
     "response_folds": ("response", RESPONSE, "STOP = ['LP2']", {"fold"}, SHARP),
     "response": ("response", RESPONSE, "UZSTOP = {'W': 0.6}", {"symmetry_breaking"}, LOOSE),
@@ -55,8 +57,11 @@ RUNS = {
 # AUTO's types of points. AUTO calls type 6 a branch point. For symmetric orbits it is the loss of
 # symmetry, at which two orbits branch off that are mirror images of each other.
 KINDS = {5: "fold", 6: "symmetry_breaking", 7: "period_doubling", 8: "neimark_sacker"}
+# AUTO's type of the last point if the number of steps was too small.
 OUT_OF_STEPS = 9
+# Relative size of the last digit that AUTO writes.
 LAST_DIGIT = 1e-10
+# Messages of AUTO after which its results must not be used.
 FAILURES = re.compile("NOTE:(?:No convergence|Possible special point|Error)")
 
 
@@ -126,7 +131,10 @@ def points(folder, damping, run, setting):
 
 
 def first_orbit(damping, frequency, start, periods):
-    """Return T, Z1, Z1', sin W T, cos W T over one period of the orbit that a start leads to."""
+    """Return T, Z1, Z1', sin W T, cos W T over one period of the orbit that a start leads to.
+
+    The array has one row for each of 200 times in a forcing cycle, and a last row.
+    """
 
     def rate(time, z):
         return z[1], math.cos(frequency * time) - damping * z[1] - z[0] ** 3
@@ -142,8 +150,9 @@ def first_orbit(damping, frequency, start, periods):
 def solutions(path):
     """Yield the type and (parameters, profile) of each solution that AUTO stored.
 
-    A header states the number of values that follow: rows of t and U, then direction and
-    parameters. The profile has the columns t over the period, Z1, Z1', sin W T, cos W T.
+    In AUTO's file a header states the number of values that follow: the profile, then the direction
+    of the branch and the parameters. The profile has a row for each mesh point, with the columns
+    time divided by the period, Z1, Z1', sin W T, cos W T.
     """
     lines = path.read_text().splitlines()
     while lines:
@@ -172,9 +181,9 @@ def measured(solution, periods):
 def found_in(folder, damping, run, settings):
     """Return the points found with the last of several settings, each with an estimated error.
 
-    The error is the largest difference between the settings, but at least AUTO's tolerance of a
-    solution and at least the last digit that AUTO writes. Folds that AUTO meets a second time on a
-    closed branch are omitted.
+    The error is the largest difference between the settings, but at least AUTO's tolerance EPSU and
+    at least the last digit that AUTO writes. Folds that AUTO meets a second time on a closed branch
+    are omitted.
     """
     runs = [points(folder, damping, run, setting) for setting in settings]
     if len({tuple(point["kind"] for point in run) for run in runs}) != 1:

@@ -1,9 +1,10 @@
 """Motions in 80-bit arithmetic by a C program that shares no code with the package.
 
-State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and the doubles of `packed.pack`.
-The program uses Taylor series of order 32 with a local error of 1e-20, and isolates events by the
-signs of Bernstein coefficients (see motion.c). The compiler `cc` compiles the program on first use,
-in about half a second.
+The package's own integrators are called kernels. State and parameters are the same as theirs:
+(Z1, Z1', Z2, Z2') and the array from `system.packed.pack`. The program uses Taylor series of order
+32 with a local error of 1e-20, and isolates events (beginnings and ends of contacts) by the signs
+of Bernstein coefficients (see motion.c). The compiler `cc` compiles the program on first use, in
+about half a second.
 """
 
 import ctypes
@@ -72,20 +73,21 @@ class Run(NamedTuple):
         Wall, beginning, end, and Z2' at both; NaN for a contact that has not ended. If the first
         state is in contact, this contact is the first row and begins at the first state.
     begun : int
-        Number of contacts begun, without a contact of the first state.
+        Number of contacts that begin in the run; a contact of the first state is not counted.
     turnings : array, shape (m, 4)
         Extrema of Z2, in contact or in flight, and the last Z2. A row holds the time, the nearest
-        wall, the height beyond this wall (negative inside), and the largest factor by which an
-        error of the state at an earlier instant grows to an error of Z2. Empty without walls.
+        wall, the height of Z2 beyond this wall (negative inside the gap), and the largest factor by
+        which an error of the state at an earlier instant grows to an error of Z2. Empty without
+        walls.
     flow : array, shape (4, 4)
-        Derivative of the last state by the first state.
+        Derivative of the last state with respect to the first state.
     growth : long double
-        Largest norm of the flow's derivative from an instant of the run to the end, at least 1.
-        Instants are the first time, the requested times and the events (after their jump). The norm
-        is the largest sum of moduli in a row.
+        Largest norm of the derivative of the last state with respect to the state at an instant of
+        the run, at least 1. Instants are the first time, the requested times and the events (after
+        the jump of the derivative). The norm is the largest sum of moduli in a row.
     margin : long double
-        Smallest |height| / growth of the turnings. An error of this size could change the number of
-        contacts.
+        Smallest |height| / growth of the rows of `turnings`. An error of this size could change the
+        number of contacts.
     steps : int
         Number of steps.
     """
@@ -111,6 +113,7 @@ class Runs(NamedTuple):
 
 
 def _fail(status, what):
+    """Raise RuntimeError if a status of the program is not 0."""
     if status:
         raise RuntimeError(f"{what}: {STATUS[status]}")
 
@@ -127,9 +130,9 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=1
     start : float or long double
     times : array, shape (n,)
     tolerance, longest : float
-        Local error of a step, relative to the state if the state is above 1, and longest step.
+        Local error of a step, relative to the state if this is larger than 1; longest step.
     room : int
-        Largest number of contacts, and of turnings, that are logged.
+        Largest number of contacts, and of extrema of Z2, that are logged.
 
     Returns
     -------

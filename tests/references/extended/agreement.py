@@ -1,10 +1,14 @@
 """Errors of the kernels' last states and contact counts against the 80-bit reference.
 
+The kernels are the package's integrators, for one motion and for sixteen motions side by side. A
+start is a random initial state of a random system, see `starts`.
+
     PYTHONPATH=src:tests python -m references.extended.agreement
 
-prints a table. Its columns are the number of starts, the number of starts that are counted apart
-(`Agreement.apart`), the number of these whose contact count differs, and, for the other starts, the
-median, the 99 % quantile and the maximum of the error divided by growth and tolerance.
+prints a table. Its columns are the number of starts, the number of starts for which the kernel
+cannot know the number of contacts (`Agreement.apart`), how many of these differ in this number,
+and, for the other starts, the median, the 99 % quantile and the maximum of the error divided by
+growth and tolerance.
 """
 
 import functools
@@ -46,7 +50,7 @@ KERNELS = {"scalar": scalar, "lanes": side_by_side}
 
 
 class Agreement(NamedTuple):
-    """For each start of a kind, arrays of shape (m,).
+    """Errors of a kernel for the starts of one kind: arrays of shape (m,).
 
     Attributes
     ----------
@@ -59,9 +63,9 @@ class Agreement(NamedTuple):
         Whether the number of contacts differs.
     apart : array of bool
         Whether an extremum of Z2, or the last Z2, lies closer to a wall than the tolerance times
-        the growth of an error until then. The kernel cannot decide then whether the loose mass
-        touches the wall. Because a stiff wall may or may not turn the loose mass back, the flow's
-        derivative in one case does not hold in the other.
+        the growth of an error until then. In this case the kernel cannot decide whether the loose
+        mass touches the wall. Since the wall turns the loose mass back in one case and not in the
+        other, the growth of an error in one case says nothing about the other.
     """
 
     error: np.ndarray

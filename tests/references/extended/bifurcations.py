@@ -13,8 +13,7 @@ import numpy as np
 from impact_damper.system.packed import FREQUENCY
 from references import extended
 
-# Step of the difference quotients, far below the differences of 1e-10 of the heights near a
-# grazing.
+# Step of the difference quotients. Near a grazing the distances to the wall are only 1e-10.
 STEP = 1e-13
 ITERATIONS = 8
 
@@ -38,7 +37,8 @@ def _determinant(matrix):
 def _pairs(root):
     """Return the product of r_i r_j - 1 over all pairs of eigenvalues of a 4 x 4 matrix.
 
-    The product equals det(C - 1) with the second compound matrix C.
+    It is zero at a Neimark-Sacker point, where a complex pair has the modulus 1. The product equals
+    det(C - 1), where C is the second compound matrix.
     """
     values = np.linalg.eigvals(root.astype(float))
     first, second = np.triu_indices(4, 1)
@@ -46,6 +46,11 @@ def _pairs(root):
 
 
 def _test(kind, run, wall_phase, p):
+    """Return the test function of an event; `wall_phase` is the phase at which a contact grazes.
+
+    `root` is the derivative of the map over half a cycle followed by a change of sign. The test
+    function of a grazing is the height of the extremum of Z2 beyond the wall.
+    """
     root = -run.flow
     if kind == "fold":
         return _determinant(root - np.eye(4))
@@ -64,7 +69,7 @@ def located(kind, family, value, state, phase):
     Parameters
     ----------
     kind : str
-        The attribute `Event.kind`.
+        Kind of the event: "fold", "symmetry_breaking", "neimark_sacker", "grazing" or "merging".
     family : callable
         Maps the parameter to packed parameters.
     value, state, phase

@@ -1,13 +1,15 @@
-/* Motions of the damped oscillator in the machine's extended precision.
+/* Motions of the damped oscillator in the processor's extended precision (80 bits).
 
-   Equations (3), (4) and (20) to (24), integrated as a looped Taylor series of fixed order; the
-   kernels of the package share no code with it. Here the absence of an event is proved, and the
-   events are isolated, by the signs of Bernstein coefficients: a polynomial has at most as many
-   roots in an interval as its coefficients there change sign (Descartes' rule; Farouki, Computer
-   Aided Geometric Design 29, 2012). No sign change is no root, one is one root, more are bisected.
+   Equations (3), (4) and (20) to (24) of the paper are integrated by a Taylor series of fixed
+   order. The program shares no code with the kernels, the package's integrators. An event is the
+   beginning or the end of a contact, a root of the distance to a wall, which is a polynomial over a
+   step. The signs of its Bernstein coefficients prove that there is no event, or isolate it: in an
+   interval a polynomial has at most as many roots as its Bernstein coefficients have changes of
+   sign (Descartes' rule; Farouki, Computer Aided Geometric Design 29, 2012). No change means no
+   root, one change means one root; with more changes the interval is halved.
 
-   Z2 is kept as its distance from the wall that was touched last, so that a state on that wall
-   is exactly zero: the root there is divided out and cannot hide the next one. */
+   Z2 is kept as its distance from the wall that was touched last. A state on that wall is then
+   exactly zero, so that this root can be divided out and cannot hide the next root. */
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +25,7 @@ typedef struct {
         inverse_mass, dashpot;
 } Parameters;
 
-/* Numbers in an array of packed parameters. */
+/* Number of entries in an array of packed parameters. */
 enum { WIDTH = sizeof(Parameters) / sizeof(real) };
 
 /* One step: Taylor coefficients of Z1, of the distance z of Z2 from the wall, of Z1^2, and of
@@ -36,9 +38,10 @@ typedef struct {
     real m[4][4];
 } Matrix;
 
-/* A run under way. `origin` is the wall that z is measured from (Z2 = origin + z), `side` the
-   wall in contact or 0. `since` is the flow's derivative since the last instant (start, event,
-   time asked for); flows[i] is that from instant i to the last one. */
+/* A run under way. `origin` is the wall from which z is measured (Z2 = origin + z), `side` the wall
+   in contact or 0. Instants are the start, the events and the requested times. `since` is the
+   derivative of the present state with respect to the state at the last instant; flows[i] is the
+   derivative of the state at the last instant with respect to the state at instant i. */
 typedef struct {
     const Parameters *p;
     real y[4], origin, t;
@@ -91,7 +94,7 @@ static int sign_changes(const real *b)
     return changes;
 }
 
-/* The one root between left and right, by Newton's method kept between the bounds. */
+/* The only root between left and right, by Newton's method kept between these bounds. */
 static real refine(const real *c, real left, real right, int rising)
 {
     real slope[TERMS], t = (left + right) / 2;
@@ -110,8 +113,8 @@ static real refine(const real *c, real left, real right, int rising)
 }
 
 /* Roots inside (left, right) in increasing order, at most `most`; b holds the Bernstein
-   coefficients there. Roots closer to each other than rounding are passed over; if they leave
-   the sign changed, `roots` reports it at the beginning of the next step. */
+   coefficients of this interval. Roots that rounding cannot separate are skipped. If the sign has
+   changed after them, `roots` reports a root at the beginning of the next step. */
 static int isolate(const real *c, const real *b, real left, real right, real *found, int most)
 {
     int changes = sign_changes(b);
@@ -144,8 +147,8 @@ static int far_from_zero(const real *c, real length)
     return fabsl(c[0]) > rest;
 }
 
-/* Roots in (0, length), without those at zero, which are divided out. If the first sign after
-   zero is against `sign` (when it is not 0), zero itself is the first root. */
+/* Roots in (0, length); roots at zero are divided out. If `sign` is not 0 and the polynomial just
+   after zero has the opposite sign, zero itself counts as the first root. */
 static int roots(const real *series, real length, int sign, real *found, int most)
 {
     real c[TERMS], b[TERMS];
@@ -207,14 +210,15 @@ static real reach(const real *c, real allowed)
     return shortest;
 }
 
-/* Height of Z2 beyond the wall `side` over the step; negative inside. */
+/* Height of Z2 beyond the wall `side` as a polynomial over the step; negative inside the gap. */
 static void height(const Run *run, const Series *s, int side, real *c)
 {
     for (int k = 0; k <= ORDER; k++) c[k] = side * s->z[k];
     c[0] += side * run->origin - run->p->clearance;
 }
 
-/* First event within `length`: its time, or `length`; `wall` becomes the side after it. */
+/* Time of the first event within `length`, or `length` without event; `wall` becomes the wall in
+   contact afterwards, or 0. */
 static real first_event(const Run *run, const Series *s, real length, int *wall)
 {
     real c[TERMS], found;
@@ -294,9 +298,10 @@ static void saltation(Run *run, int direction)
     }
 }
 
-/* ---- what is noted along the way ---- */
+/* ---- records of a run ---- */
 
-/* Largest growth, from any instant to now, of an error of Z2; `row` is Z2 by the last instant. */
+/* Largest factor by which an error of the state at an instant has grown to an error of Z2; `row` is
+   the derivative of Z2 with respect to the state at the last instant. */
 static real growth_of_gap(const Run *run, const real *row)
 {
     real growth = 1;
@@ -309,8 +314,8 @@ static real growth_of_gap(const Run *run, const real *row)
     return growth;
 }
 
-/* An extremum of Z2 = origin + z, or its end, and how high beyond the wall on its side it lies:
-   where this is small, errors decide on a contact. */
+/* Record an extremum of Z2 = origin + z, or the last Z2, with its height beyond the nearer wall. If
+   the height is small, an error decides whether there is a contact. */
 static void note_turning(Run *run, real t, real z, const real *row)
 {
     int side = run->origin + z < 0 ? -1 : 1;
@@ -362,12 +367,13 @@ static int start_side(const Run *run, const real *y)
 
 /* One run from `start` through the increasing `times`.
 
-   settings: local error allowed (relative to the state where that is above 1), longest step.
-   contacts: rows of wall, beginning, end, Z2' at both (NaN while it lasts); the first row is
-   the contact of the start, if there is one. turnings: rows of time, wall, height beyond it,
-   growth of Z2 until there. states, extremes: for each time, Z1 Z1' Z2 Z2', and the least and
-   largest Z1 since the time before. flow: derivative of the last state by the first.
-   summary: growth, margin. counts: contacts in the log, contacts begun, turnings, steps. */
+   settings: allowed local error (relative to the state if this is larger than 1), longest step.
+   contacts: rows of wall, beginning, end, Z2' at both (NaN while the contact lasts); if the start
+   is in contact, this contact is the first row. turnings: rows of time, wall, height beyond the
+   wall, growth of an error of Z2 until then. states, extremes: for each time Z1, Z1', Z2, Z2', and
+   the smallest and largest Z1 since the time before. flow: derivative of the last state with
+   respect to the first. summary: growth, margin (see class Run in __init__.py). counts: contacts in
+   the log, contacts begun, turnings, steps. */
 int motion(const double *packed, const real *first, real start, const real *times, long n,
            const real *settings, real *states, real *extremes, real *contacts,
            long contact_room, real *turnings, long turning_room, real *flow, real *summary,
@@ -447,7 +453,7 @@ int motion(const double *packed, const real *first, real start, const real *time
     return status;
 }
 
-/* Many runs without their logs, each through n times of its own; the last state is kept. */
+/* Many runs without logs, each through its own n times; only the last state of each is kept. */
 void motions(long m, const double *packed, const real *first, const real *starts,
              const real *times, long n, const real *settings, real *last, real *summaries,
              long *contacts, int *status)

@@ -1,4 +1,4 @@
-"""Reference motions of the scenes on which methods are compared, in 80-bit arithmetic.
+"""Reference motions of the scenes, test cases on which methods are compared, in 80-bit arithmetic.
 
     PYTHONPATH=src:tests python -m references.extended.scenes > workflow/resources/references.json
 
@@ -20,14 +20,15 @@ last_amplitude
 contacts
     Rows of wall, beginning, end, Z2' at both; null for a contact that has not ended.
 error, contact_error
-    Largest difference of state and extremes, and of the contacts, from a run with another
+    Largest difference of state and extremes of Z1, and of the contacts, from a run with a smaller
     tolerance and shorter steps. The error of the time of a contact is the error of Z2 divided by
-    the speed, so it is large for a grazing contact.
+    the speed, so it is large for a contact that begins at a small speed.
 growth
-    Largest norm of the flow's derivative from an instant of the run to its end (see `Run`).
+    Largest factor by which an error at an instant of the run grows until the end (see
+    `extended.Run`).
 margin
-    Smallest distance of an extremum of Z2 to a wall divided by the growth (see `Run`). An error of
-    this size could change the number of contacts.
+    Smallest distance of an extremum of Z2 to a wall, divided by the growth of an error until then.
+    An error of this size could change the number of contacts.
 """
 
 import json
@@ -60,7 +61,7 @@ def configured_scenes():
 
 
 def packed(parameters):
-    """Return the packed parameters of parameters by name, as from `configured_scenes`."""
+    """Return the packed parameters from a dict of parameters, as `configured_scenes` yields it."""
     damper = Damper(**pick(Damper, parameters)) if "mass_ratio" in parameters else None
     return pack(Oscillator(**pick(Oscillator, parameters)), damper, parameters["frequency"])
 

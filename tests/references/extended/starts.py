@@ -16,7 +16,7 @@ from impact_damper.system.packed import (
 from impact_damper.system.parameters import Damper, Oscillator, pick
 from references import extended
 
-PERIODS = 3
+PERIODS = 3  # forcing cycles of a run
 FAR = 1e3  # a clearance that no motion reaches
 
 # USUAL: ranges of the parameters. KINDS: ranges that replace the usual ones for each kind of start.
@@ -54,7 +54,7 @@ KINDS = {
 
 
 class Starts(NamedTuple):
-    """Packed parameters (m, COUNT), states (m, 4), start times (m,), and times (m, PERIODS)."""
+    """Packed parameters (m, COUNT), states (m, 4), start times (m,), and end times (m, PERIODS)."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -63,6 +63,7 @@ class Starts(NamedTuple):
 
 
 def _draw(random, bounds):
+    """Return a random number within bounds."""
     low, high = bounds
     if high > 3 * low > 0:
         return math.exp(random.uniform(math.log(low), math.log(high)))
@@ -70,6 +71,7 @@ def _draw(random, bounds):
 
 
 def _parameters(random, ranges, elastic):
+    """Return random packed parameters from ranges by name."""
     drawn = {name: _draw(random, bounds) for name, bounds in ranges.items()}
     if elastic:
         drawn["restitution"] = 1.0
@@ -78,7 +80,7 @@ def _parameters(random, ranges, elastic):
 
 
 def _graze(random, p, state, start, end):
-    """Shift Z2 such that one of its extrema, without walls, lies 1e-13 to 1e-2 from a wall."""
+    """Shift Z2 such that an extremum of Z2 without walls would lie 1e-13 to 1e-2 from a wall."""
     unbounded = p.copy()
     unbounded[CLEARANCE] = FAR
     turnings = extended.run(unbounded, state, start, [end]).turnings[:-1]
