@@ -42,8 +42,7 @@ MARKERS = "DP<>"
 
 
 def looks():
-    """Return colour, line and marker of each method; rivals that locate contacts have full
-    lines."""
+    """Return colour, line and marker of each method; rivals that locate contacts get full lines."""
     rivals, markers = {}, {}
     for label in RIVALS:
         name, located = name_and_mode(label)

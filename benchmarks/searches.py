@@ -172,8 +172,7 @@ def known_by(found, p):
 
 
 def table(systems, count) -> pd.DataFrame:
-    """Return a row for each system: sizes by both searches, and starts that lead to missed
-    motions."""
+    """Return a row for each system: sizes by both searches, and starts at missed motions."""
     rows = []
     for name, oscillator, damper, frequency in systems:
         begin = time.process_time()

@@ -5,8 +5,10 @@ from helpers.known_orbits import IMPACTING, STARTS, polished_orbit
 
 
 def pytest_collection_modifyitems(items):
-    """Run files that start Snakemake first: they take longest, and would leave cores idle at the end."""
-    cores idle."""
+    """Run the files that start Snakemake first.
+
+    They take longest; if they were begun last, cores would be idle at the end.
+    """
     items.sort(key=lambda item: "workflow" not in item.path.parts)
 
 
@@ -30,8 +32,7 @@ def design_orbit():
 
 @pytest.fixture(scope="session")
 def heyoka_references():
-    """Return two heyoka.py integrators with different step limits; without heyoka.py skip the
-    test."""
+    """Return two heyoka.py integrators with different step limits; skip without heyoka.py."""
     pytest.importorskip("heyoka")
     from references.taylor_events import Reference
 

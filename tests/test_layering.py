@@ -103,8 +103,7 @@ def upward_edges(imports, floors):
 
 
 def circle(imports):
-    """Return modules each of which imports the next, and the last the first; [] without a
-    circle."""
+    """Return modules that import each other in a circle, or [] without a circle."""
     done = set()
 
     def search(module, path):

@@ -100,8 +100,7 @@ def optimum(mass_ratio, restitution):
 
 
 def migration():
-    """Return runs with one and two switchings, and releases from each motion to each free
-    motion."""
+    """Return runs with one and two switchings, and releases to each free motion."""
     time = np.linspace(-30, 300, 2000)
     kinds = [value for value in DAMPED_MOTION.values() if value >= 0]
     destinations = list(FREE_MOTION.values())

@@ -28,8 +28,7 @@ def read(path):
 
 @pytest.fixture(scope="module")
 def elsewhere(tmp_path_factory):
-    """Return the folder of all schematics, saved by a process with another hash seed and time
-    zone."""
+    """Return the folder of all schematics, saved with another hash seed and time zone."""
     folder = tmp_path_factory.mktemp("elsewhere")
     program = (
         "from impact_damper.figures import schematics, style\n"

@@ -35,8 +35,7 @@ def test_chaos_of_which_a_run_ended_is_a_transient():
 
 
 def test_a_motion_keeps_its_colour():
-    """In a panel each area is one motion over all parameter values; the legend names a kind
-    once."""
+    """In a panel each area is one motion over all values; the legend names each kind once."""
     drawn = draw_shares(response=[matched_sweep(), matched_sweep()])
     assert [len(axes.patches) for axes in drawn.axes] == [2, 2]
     (legend,) = drawn.legends

@@ -110,8 +110,7 @@ def early(subharmonic):
 
 
 def power(data):
-    """Set the penetration to the value that follows from the expansion of equation (6e) as
-    printed."""
+    """Set the penetration to the value by the expansion of equation (6e) as printed."""
     old = data["harmonic_balance"]["figure_05a"]
     clearance = extract.parameter(old, "clearance")
     depth = old.relative_amplitude - clearance

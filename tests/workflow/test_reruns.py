@@ -128,8 +128,7 @@ def leaves(value, path=()):
 
 
 def changed(config, path):
-    """Return the configuration with another value at a path; None for kinds of values not
-    edited."""
+    """Return the configuration with another value at a path; None for other kinds of values."""
     config = copy.deepcopy(config)
     place = config
     for key in path[:-1]:

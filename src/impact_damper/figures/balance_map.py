@@ -126,8 +126,7 @@ def _draw_classes(axes, data, name, classes):
 
 
 def _draw_edge(axes, verdict):
-    """Draw the boundary of the cells with a stable solution of harmonic balance; `verdict` a
-    flag."""
+    """Draw the boundary of the cells with a stable solution of harmonic balance."""
     stable = verdict == flag(verdict.name, "stable")
     if stable.any() and not stable.all():
         line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}

@@ -196,8 +196,7 @@ def mark_open_ends(axes, data):
 
 
 def mark_events(axes, data):
-    """Mark events of period 1 and, with large markers, events of any period next to stable
-    orbits."""
+    """Mark events of period 1, and with large markers all events next to stable orbits."""
     beside = _next_to_stable(data)
     plain = data["branch_period"].values[data["event_branch"].values] == 1
     kinds = data["event_kind"].values

@@ -12,8 +12,7 @@ COLOURS = "cividis_r"
 
 
 def mesh(axes, x, y, values, norm):
-    """Draw cells coloured by value, and return the mesh; cells with NaN show a hatched
-    background."""
+    """Draw cells coloured by value, and return the mesh; NaN leaves the hatched background."""
     axes.set_facecolor(PALE)
     axes.patch.set(hatch="////", edgecolor=GREY, linewidth=0)
     return axes.pcolormesh(

@@ -249,8 +249,7 @@ def letter_panels(panels) -> None:
 
 
 def legend(figure, columns, order=()) -> None:
-    """Add one legend below all axes that lists each label once; the labels in `order` come
-    first."""
+    """Add one legend below all axes that lists each label once, the labels in `order` first."""
     entries = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):

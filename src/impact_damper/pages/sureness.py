@@ -170,8 +170,7 @@ def _dependence(data):
 
 
 def _edges(data):
-    """Yield rows on the ends of the range of quiet gaps, and on the stability of the quiet
-    orbit."""
+    """Yield rows on the ends of the quiet gaps, and on the stability of the quiet orbit."""
     gap = float(data["design_gap"])
     for k, side in enumerate(("below", "above")):
         edge, beyond, frequency = (

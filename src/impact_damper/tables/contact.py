@@ -71,8 +71,7 @@ CELLS = {"exit": lambda cell: EXITS.get(cell, cell)}
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return for each exit rule the map cells by error of the restitution, and unloaded
-    contacts."""
+    """Return for each exit rule the numbers of map cells by verdict, and contacts without load."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -88,8 +87,7 @@ def contact_model(datasets) -> pd.DataFrame:
 
 
 def _unloaded(data, pulls):
-    """Return the columns of a contact without load; `pulls` adds columns on the pull of the
-    wall."""
+    """Return the columns of a contact without load; with `pulls` also on the pull of the wall."""
     realised = float(data.unloaded_restitution)
     row = {
         "damping ratio": float(data.unloaded_damping),

@@ -110,8 +110,7 @@ SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
 
 
 def outcomes(datasets) -> pd.DataFrame:
-    """Return the numbers of starts with each outcome; unresolved ones by sign of the exponent
-    too."""
+    """Return the numbers of starts by outcome, and of unresolved ones by sign of the exponent."""
     rows = []
     for stage in SWEPT:
         for name, data in extract.damped(datasets, stage).items():
@@ -144,8 +143,7 @@ def _row(stage, name, counts):
 
 
 def _reasons(data):
-    """Return the numbers of unresolved starts with positive, zero and negative Lyapunov
-    exponent."""
+    """Return the numbers of unresolved starts by the sign of the Lyapunov exponent."""
     dims = data.run_motion.dims
     chosen = {"motion": data.run_motion}
     mean, error = data.lyapunov_exponent.isel(chosen), data.lyapunov_error.isel(chosen)

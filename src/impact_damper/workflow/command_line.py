@@ -215,8 +215,7 @@ def machine(given):
 
 
 def hertz_contact(given):
-    """Return the contact of a file's content after Hertz's theory, or None if it has no
-    `contact`."""
+    """Return the contact after Hertz's theory, or None if the file has no key `contact`."""
     from impact_damper.machine.hertz import HertzContact
 
     ball = given.get("contact")

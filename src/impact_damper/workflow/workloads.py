@@ -115,8 +115,7 @@ def _too_stiff(case):
 
 
 def _too_narrow_or_wide(path, clearance, radius):
-    """Yield a line if hardly a start lies within the gap, or if the rule's clearance is too
-    large."""
+    """Yield a line if hardly a start lies within the gap, or if the clearance is too large."""
     least, most = radius / MOST_RADIUS, CLEARANCE_RANGE["most"]
     if clearance < least:
         reason = f"must be at least search.radius/{MOST_RADIUS:g} = {least:g}"

@@ -74,8 +74,7 @@ class RigidCells(Section):
 
 
 class RigidLimit(WithDamper):
-    """The quiet motion between rigid walls, compared with the quiet motion with compliant
-    contact."""
+    """The quiet motion between rigid walls compared with the one between compliant walls."""
 
     frequency: FREQUENCY
     frequencies: FREQUENCIES
@@ -86,8 +85,7 @@ class RigidLimit(WithDamper):
 
 
 class MissedContacts(WithOscillator):
-    """Contacts that barely touch the wall (near grazing), and integrators that find or miss
-    them."""
+    """Contacts that barely touch the wall (near grazing), found or missed by integrators."""
 
     frequency: FREQUENCY
     passages: count("random flights without contact, of a forcing cycle each", **RUNS_RANGE)

@@ -91,8 +91,7 @@ class JumpFrequencies(Section):
 
 
 class HertzImpacts(Section):
-    """Impacts of a steel ball, by Hertz's law and with the linear contact spring of this
-    package."""
+    """Impacts of a steel ball, by Hertz's law and by the linear contact of this package."""
 
     speeds: several(SPEED, "speeds before the impact, m/s", least=1, distinct=True)
 
