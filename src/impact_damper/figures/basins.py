@@ -119,7 +119,7 @@ def fill(axes, data, values, **look):
 
 
 def draw_shares(axes, data):
-    """Colour each state by the share of places of the loose mass that lead to motion 0, the smallest."""
+    """Colour states by the share of places of the loose mass that lead to the smallest motion."""
     shades = LinearSegmentedColormap.from_list("shares", [WHITE, SKY])
     drawn = fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"

@@ -44,7 +44,7 @@ def points_of(meaning):
 
 
 def keys_of(names, *, needed=(), without=()):
-    """Return a base class of models with a key for each parameter; only `needed` keys are required."""
+    """Return a base class of models with keys for parameters; only `needed` keys are required."""
     types = {
         name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
         for name in names
