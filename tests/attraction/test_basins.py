@@ -78,8 +78,7 @@ def test_neighbourhoods_contract(free):
         strobe = np.pi / 2 / frequency
         after = run(frequency, edge, strobe, strobe + n * period) - centre
         assert np.max(np.linalg.norm(after @ shape.T, axis=1)) < 1
-        # The neighbourhood is not needlessly small. A run lasts until it enters a
-        # neighbourhood.
+        # The neighbourhood is not needlessly small: runs last until they enter it.
         assert np.sqrt(abs(np.linalg.det(shape))) < 300
 
 

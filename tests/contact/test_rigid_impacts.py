@@ -50,7 +50,7 @@ def test_one_impact(damper, side):
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC, Damper(0.4, 0.625, 0.5)])
 def test_volume(damper):
-    """det = exp(-h period) e^(2 impacts): each impact shrinks volume by e^2."""
+    """The determinant is exp(-h period) e^(2 impacts): an impact multiplies volumes by e^2."""
     p = rigid(damper, 1.8, Oscillator(0.15, 1.2))
     generator = np.random.default_rng(3)
     seen = set()

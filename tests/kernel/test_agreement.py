@@ -12,8 +12,7 @@ pytestmark = [
 ]
 
 # Largest share of starts for which rounding decides whether a contact takes place, keyed by the
-# tolerance. Such starts graze a wall or lie on a wall, or lead to motions with large Lyapunov
-# exponents.
+# tolerance. Such starts graze a wall, lie on a wall, or have a large Lyapunov exponent.
 MOST_APART = {1e-6: 0.45, 1e-9: 0.25, 1e-12: 0.15}
 
 

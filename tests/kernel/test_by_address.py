@@ -58,8 +58,7 @@ import module_of_kernels as module
 print(module.twice(np.zeros(1)), sum(module.twice.stats.cache_hits.values()))
 """
 
-# Ctrl-C (SIGINT) arrives while the kernel of the module is compiled. USE then imports the module
-# again.
+# Ctrl-C (SIGINT) arrives while the kernel of the module is compiled. USE imports the module later.
 INTERRUPTED = """
 import os
 import signal

@@ -156,7 +156,7 @@ def test_flow_by_differences_and_liouville(case):
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
 @pytest.mark.parametrize("exponent", range(2, 17))
 def test_grazing_to_the_last_digit(damper, exponent):
-    """Z2 of a flight shifts with its start: an extremum is placed just beyond or before a wall."""
+    """The start is shifted so that an extremum of Z2 lies just beyond or just before a wall."""
     p = pack(PAPER, damper, 2.0)
     state, unbounded = np.array([0.3, 0.5, 0.0, 0.9], Real), p.copy()
     unbounded[CLEARANCE] = 16.0

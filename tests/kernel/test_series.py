@@ -80,7 +80,7 @@ def row(module, a, first, count):
 
 
 def state_series(lanes, p, state, phase):
-    """Z1 and penetration (None in flight) as polynomials."""
+    """Return Z1 and the penetration (None in flight) as polynomials."""
     module, a = filled(lanes, p, state, phase)
     order = ORDERS[phase]
     x = Polynomial(row(module, a, module.X, order + 1))

@@ -31,8 +31,7 @@ OUTCOMES = [
 ]
 MASS, STIFFNESS, FORCE = 12.0, 2e5, 40.0
 SPRINGS = {"linear": 0.0, "hardening": 4e9, "softening": -4e9}
-# Ends of the ranges. The gap is stated as a number from 0, its least value, to 1, its largest
-# value.
+# Ends of the ranges. The gap is a number from 0, the least gap, to 1, the largest gap.
 ENDS = {
     "mass_ratio": (1e-4, 1.0),
     "gap": (0.0, 1.0),

@@ -21,7 +21,7 @@ DAMPER = MACHINE.damper(mass=LOOSE, gap=GAP, restitution=RESTITUTION, contact_st
 
 
 def test_response_over_a_band_is_the_transmissibility_in_space():
-    """Over a range of frequencies the force has the relative error (2 zeta r)^4/8."""
+    """Over a range of frequencies w the force has the relative error (2 zeta w/w0)^4/8."""
     hertz = np.linspace(12, 30, 7)
     found = idm.frequency_response(MACHINE, None, hertz, starts=2)
     r = hertz / NATURAL
@@ -40,7 +40,7 @@ def branch():
 
 @pytest.fixture(params=[18.0, 20.0, 21.9])
 def point(branch, request):
-    """The orbit of the branch whose frequency is nearest."""
+    """Return the orbit of the branch whose frequency is nearest to the parameter."""
     return branch.isel(point=int(np.argmin(np.abs(branch.followed_value.values - request.param))))
 
 
@@ -120,7 +120,7 @@ def test_a_design_looks_where_the_machine_resonates():
     r = task.grid / NATURAL
     response *= np.hypot(1, 2 * RATIO * r) / np.hypot(1 - r**2, 2 * RATIO * r)
     assert_allclose(task.bare, 1e3 * response, rtol=1e-9)
-    # the peak of V/(W^2 D) lies below the natural frequency
+    # because the force falls as V/W^2, the peak lies below the natural frequency
     lowest, highest = task.resonance
     assert highest == pytest.approx(NATURAL) and 0.995 * NATURAL < lowest < NATURAL
 

@@ -53,7 +53,7 @@ def test_motions_without_a_finite_size(outcome, size):
 
 
 def test_chaos_that_is_small_for_a_while_is_the_same():
-    """The field `reach` is compared too, because the measurement may fall into a small phase."""
+    """The field `reach` is compared too, because chaos may be small while it is measured."""
     small = motion("chaotic", 2.1)
     small["maximum_displacement"] = 0.3
     assert match_unsettled(CHAOS, [small]) == [(0, 0)]
@@ -72,7 +72,7 @@ def test_settled_motions_are_followed_instead():
 
 @pytest.mark.thorough
 def test_a_torus_keeps_its_number():
-    """The torus of this damper exists at each value, and once only."""
+    """At each frequency there is one quasi-periodic motion, and all lie on one branch."""
     found = frequency_response(PAPER, Damper(0.25, 1.0, 0.75), [1.45, 1.5, 1.55], starts=40)
     torus = (found.outcome == flag("outcome", "quasi_periodic")).values
     assert np.all(torus.sum(axis=1) == 1)

@@ -46,7 +46,7 @@ def test_error_falls_faster_than_a_power():
 
 
 def test_slow_turning_curve_is_not_known_from_a_short_orbit():
-    """Every fifth point of the orbit advances by a small angle, here less than once around."""
+    """Near 2/5 every fifth point advances slowly, so a short orbit does not go around the curve."""
     found = find_rotation(on_curve(0.4 + 1e-4, 2000))
     assert found is None or not found.known
     assert abs(find_rotation(on_curve(0.4 + 1e-4, 200_000)).number - 0.4 - 1e-4) < AGREEMENT

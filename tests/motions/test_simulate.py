@@ -119,7 +119,7 @@ def test_random_states_are_uniform(damper, within_gap):
 
 
 def test_a_loose_mass_far_beyond_its_wall_is_told_with_its_speed():
-    """An elastic contact turns its energy into the relative speed of which the warning speaks."""
+    """An elastic contact turns its energy into the relative speed that the warning states."""
     beyond = 5 * DESIGN.clearance
     with pytest.warns(UserWarning, match="the loose mass is beyond its wall") as told:
         motion = simulate(PAPER, DESIGN, 2.0, (0, 0, beyond, 0), periods=0.5, samples=4000)

@@ -139,7 +139,7 @@ def test_following_finds_what_random_starts_miss():
 
 
 def test_mirrored_motion_is_the_same():
-    """The large motion with two contacts is not symmetric; its mirror image is not counted."""
+    """The large motion with two contacts and its mirror image count as one motion."""
     p = pack(PAPER, DESIGN, 1.7)
     y = np.array([1.87868319, -2.47688679, 0.02448582, -0.45289641])
     later = y.copy()

@@ -100,7 +100,8 @@ def tangents_80_bit(oscillator):
     return extended.run(packed(oscillator), np.tile(STATE[:2], 2), 0.0, [1.0]).flow[:2, :2]
 
 
-# For each file the functions of an oscillator whose results a field must change.
+# Functions of an oscillator whose results every field must change, keyed by the file of the
+# package.
 PLACES = {
     "system/packed.py": [packed],
     "kernel/equation.py": [
@@ -128,7 +129,7 @@ PLACES = {
     ],
     "tests/references/extended/motion.c": [reference_80_bit],
 }
-# The same for functions in which only some fields matter.
+# Functions whose results the fields of the spring must change: all fields, or the nonlinear ones.
 SPRING_PLACES = {
     "kernel/equation.py": [
         lambda oscillator: kernel.energy.py_func(packed(oscillator), STATE),
@@ -213,7 +214,7 @@ def test_closed_forms_know_or_refuse_a_nonlinear_term(file, function, name):
 
 @every_parameter
 def test_parameters_are_named_by_their_kind(name):
-    """The names of nonlinear terms and of forces, which other modules go through, are complete."""
+    """NONLINEAR and FORCING, which other modules go through, are complete."""
     for one, other in pairs(name):
         p, q = packed(one), packed(other)
         slopes = kernel.spring_slope.py_func(q, Z1) - kernel.spring_slope.py_func(p, Z1)
@@ -239,7 +240,7 @@ def test_parameters_are_named_by_their_kind(name):
 
 @every_parameter
 def test_damping_is_the_only_term_in_the_velocity(name):
-    """A further one needs the second list for velocities in CONTRIBUTING.md."""
+    """A second term in Z1' also needs the changes that CONTRIBUTING.md lists for the velocity."""
     for _, other in pairs(name):
         p, still, fast = packed(other), STATE * (1, 0, 1, 1), STATE
         drag = kernel.acceleration(p, still, 0.4) - kernel.acceleration(p, fast, 0.4)
@@ -248,7 +249,7 @@ def test_damping_is_the_only_term_in_the_velocity(name):
 
 @every_parameter
 def test_the_spring_is_odd(name):
-    """Otherwise symmetric motions do not exist, and the modules that seek them must refuse it."""
+    """An even term excludes symmetric motions; modules that seek these must refuse the term."""
     for _, other in pairs(name):
         force = kernel.spring.py_func(packed(other), Z1)
         assert np.array_equal(force, -force[::-1])
@@ -269,7 +270,7 @@ def test_a_spring_that_pushes_outward_is_said_to_soften(name):
 
 @pytest.mark.parametrize("number", range(COUNT), ids=NAMES)
 def test_derivatives_of_the_equation(number):
-    """By differences of exact step: `spring`, `forcing_amplitude` and the rest are polynomials."""
+    """Against central differences, whose step is a power of two."""
     p, step = packed(SPRINGS["shaken"]), np.zeros(COUNT)
     step[number] = 2.0**-12
     speed = np.linspace(-1.0, 1.0, len(Z1))
@@ -295,7 +296,7 @@ def test_derivatives_of_the_equation(number):
 
 @pytest.mark.parametrize("name", SPRINGS)
 def test_equations_of_the_package_are_those_of_the_reference(name):
-    """Force, slope and energy of the spring, and its force in harmonics, without aliasing."""
+    """Force, slope and energy of the spring, and the harmonics of its force without aliasing."""
     oscillator = SPRINGS[name]
     p = packed(oscillator)
     same = partial(assert_allclose, rtol=1e-10, atol=1e-12)
@@ -332,7 +333,7 @@ def test_every_parameter_is_in_the_systems_of_the_tests(name):
 
 
 def test_closed_form_of_a_linear_spring_refuses_others():
-    """Also checks that `flight_with_speed` distinguishes all parameters of a linear oscillator."""
+    """`flight_with_speed` depends on each parameter of a linear oscillator."""
     for name in PARAMETERS:
         check(
             "literature/masri_caughey.py",

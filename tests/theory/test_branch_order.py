@@ -41,7 +41,7 @@ def test_a_jump_begins_a_branch():
 
 
 def test_solutions_of_harmonic_balance_are_curves():
-    """Columns are smooth, and without the damper each is stable or unstable from fold to fold."""
+    """Branches are smooth. Without the damper each is stable or unstable from fold to fold."""
     found = harmonic_balance_response(Oscillator(0.215), Damper(0.12, 2.0), np.linspace(1, 3, 201))
     unstable = found.free_stability.values == flag("free_stability", "unstable")
     exists = np.isfinite(found.free_amplitude.values)

@@ -80,7 +80,7 @@ def acceleration(p, y, t):
 def acceleration_by_parameters(p, x, v, cosine):
     """Return the derivatives of `acceleration` with respect to the packed parameters.
 
-    The phase W T of the forcing is held fixed.
+    The derivatives hold at a fixed phase W T of the forcing.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def acceleration_by_parameters(p, x, v, cosine):
 
 
 def spring_slope_changes(p, x, change, parameters):
-    """Return the changes of `spring_slope` along k directions, to first order, shape (k, n).
+    """Return first-order changes of `spring_slope` under k changes of Z1 and of the parameters.
 
     Parameters
     ----------
@@ -114,6 +114,10 @@ def spring_slope_changes(p, x, change, parameters):
         Changes of Z1.
     parameters : array, shape (COUNT, k)
         Changes of the packed parameters.
+
+    Returns
+    -------
+    numpy.ndarray, shape (k, n)
     """
     bent = np.outer(parameters[CUBIC], x) + 2 * p[CUBIC] * change
     return parameters[STIFFNESS][:, None] + 3 * x * bent
