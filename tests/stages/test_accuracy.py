@@ -1,4 +1,7 @@
-"""Errors and counted work of methods on scenes, and the tolerance that stages use."""
+"""Errors and counted work of methods on scenes (test cases), and the tolerance that stages use.
+
+The counted work is the number of floating-point operations.
+"""
 
 import json
 import math
@@ -90,11 +93,14 @@ def calling(a):
 
 def test_operations_are_counted_as_by_hand():
     assert operations(straight) == 5
-    # ten rounds of a product and a sum; three of a product, a sum and an exponential; a cosine
+    # `calling` adds a sum to the operations of the function that it calls.
     assert operations(calling) == 1 + operations(compiled)
     assert operations(calling, without=(compiled,)) == 1
-    # a product of pairs and a difference in one, three sums, a difference; two products of numbers
+    # `of_pairs`: a product of a number and a pair, a difference in the pair, three sums and a
+    # difference of pairs, and two products of numbers.
     assert operations(of_pairs) == 2 + 1 + 3 * 2 + 2 + 1 + 1
+    # `with_loops`: ten rounds of a product and a sum; three of a product, a sum and an exponential;
+    # a cosine.
     assert operations(with_loops, 3, order=10) == 10 * 2 + 3 * (2 + ELEMENTARY) + ELEMENTARY
 
 
@@ -105,9 +111,9 @@ def test_a_loop_of_unknown_length_is_told():
 
 @pytest.mark.parametrize("kind", [taylor_runs.FLIGHT, taylor_runs.MEETING, taylor_runs.CONTACT])
 def test_a_step_costs_what_the_recurrence_does(kind):
-    # Products of the cube of order N and of the squares of half of the series: about N^2/2 and
-    # N^2/8, and as many sums; linear in N are the other terms, of two series in contact, and the
-    # search for the event.
+    # With the order N of the Taylor series, the product Z1 times Z1^2 takes about N^2/2 products
+    # and the square Z1^2, by symmetry, N^2/8, each with as many sums. All other terms, and the
+    # search for the contact, grow linearly with N.
     order = CONTACT_ORDER if kind == taylor_runs.CONTACT else FLIGHT_ORDER
     assert 1.0 < taylor_runs.step_work(kind) / (1.25 * order**2 + 20 * order) < 2.0
     assert taylor_runs.step_work(kind, 1) > taylor_runs.step_work(kind)
@@ -122,7 +128,7 @@ def test_a_contact_that_is_expected_costs_its_step_more():
     assert counts[taylor_runs.MEETING] == counts[taylor_runs.CONTACT] == 6
 
 
-def test_what_is_read_off_samples_agrees_with_the_series_and_its_events():
+def test_contacts_and_peaks_from_samples_agree_with_those_of_the_series():
     for name in ("resonance", "design"):
         given = scene(name)
         begin, period = strobe_time(given.p), 2 * math.pi / given.frequency
@@ -137,14 +143,14 @@ def test_what_is_read_off_samples_agrees_with_the_series_and_its_events():
         assert read.displacement == pytest.approx(run.displacement, rel=1e-7)
 
 
-def test_the_taylor_series_comes_to_the_extended_reference(inelastic):
+def test_the_taylor_series_agrees_with_the_80_bit_reference(inelastic):
     found = of(inelastic, "taylor")
     assert (found["run_status"] == flag("run_status", "ok")).all()
     assert (found["state_error"].values < 1e-2 * np.array(FEW["taylor"])).all()
     assert (np.diff(found["operations"]) > 0).all()
     other = of(inelastic, "taylor_10_13")
     assert (other["state_error"].values < 0.1 * np.array(FEW["taylor"])).all()
-    # a lower order costs less at a loose tolerance and more at a tight one
+    # A lower order needs fewer operations at a loose tolerance and more at a tight one.
     dearer = other["operations"].values > found["operations"].values
     assert list(dearer) == sorted(dearer) and dearer[-1]
 
@@ -155,7 +161,7 @@ def test_errors_of_merson_fall_with_its_order(inelastic):
     assert found["operations"][1] > found["operations"][0]
 
 
-def test_models_of_the_orbit_keep_their_order(inelastic):
+def test_models_of_the_orbit_have_errors_in_the_expected_order(inelastic):
     errors = {
         name: float(of(inelastic, name)["amplitude_error"][-1])
         for name in ("many_harmonics", "rigid", "rigid_mended", "shooting")
@@ -177,7 +183,7 @@ def test_an_elastic_balance_solves_its_own_equations():
     assert many[3].operations > model.operations
 
 
-def test_events_near_grazing_are_missed_by_those_who_look_at_the_ends_of_steps():
+def test_contacts_near_grazing_are_missed_by_methods_that_check_the_ends_of_steps():
     few = FEW | {"taylor": [1e-8], "merson": [1e-7]}
     data = accuracy.error_against_work(scene("grazing"), few, REFERENCES["grazing"])
     status = {
@@ -190,9 +196,9 @@ def test_events_near_grazing_are_missed_by_those_who_look_at_the_ends_of_steps()
 
 
 def typical_averages(given, integrate, periods, exponents=False):
-    """Medians over five starts of averages and their errors.
+    """Medians over five starts of the averages and their standard errors.
 
-    In one run the loose mass may be almost at rest for hundreds of periods.
+    A single run may not be typical: the loose mass may be almost at rest for hundreds of cycles.
     """
     begin, found = strobe_time(given.p), []
     for shift in 1e-3 * np.arange(5):
@@ -221,7 +227,10 @@ def test_averages_agree_between_methods_and_have_errors_that_fall():
 
 
 def loosest_tolerance(data):
-    """Return the loosest tolerance of the series that, with all tighter ones, is accurate."""
+    """Return the loosest tolerance at which the Taylor series, as at all tighter ones, is accurate.
+
+    Accurate means that the error is within the accuracy that the scene requires.
+    """
     of = data["method"].values == "taylor"
     tolerances = data["setting"].values[of]
     meets = data["meets_accuracy"].values[of] == flag("meets_accuracy", "yes")
@@ -257,7 +266,7 @@ def test_an_accuracy_that_a_motion_does_not_have_is_refused():
 
 def test_the_table_marks_the_cheapest(inelastic):
     table = models({"accuracy": {"inelastic": inelastic}})
-    # Averages are of chaotic scenes only.
+    # The column of averages exists for chaotic scenes only.
     assert SHOWN["models"].keys() - {"contacts a period"} <= set(table)
     chosen = table[table.choice == "cheapest that is accurate enough"]
     meets = table[(table["meets it"] == "yes") & table.method.isin(LABELS)]

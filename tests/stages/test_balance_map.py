@@ -1,4 +1,4 @@
-"""Maps of harmonic balance against the true motions, and their counts."""
+"""Maps of harmonic balance compared with exact motions, and their counts."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ def over_restitution():
 
 
 def names(data, variable):
-    """Cells of a flag variable as its meanings."""
+    """Return the meanings of a flag variable in all cells."""
     attributes = data[variable].attrs
     known = dict(zip(attributes["flag_values"], attributes["flag_meanings"].split(), strict=True))
     return np.vectorize(known.get)(data[variable].values)
@@ -57,7 +57,7 @@ def test_balance_does_not_depend_on_restitution(over_restitution):
         assert np.array_equal(values, np.broadcast_to(values[:1], values.shape), equal_nan=True)
 
 
-def test_classes_are_what_both_sides_say(over_restitution):
+def test_verdicts_combine_balance_and_orbit(over_restitution):
     said = names(over_restitution, "balance_quiet")
     orbit = names(over_restitution, "quiet_orbit")
     orbit = np.where(np.isin(orbit, ["stable", "absent", "unresolved"]), orbit, "unstable")
@@ -75,7 +75,7 @@ def test_classes_are_what_both_sides_say(over_restitution):
 
 
 def test_the_orbit_exists_only_before_the_fold_with_restitution(over_restitution):
-    """At e = 0.6 the balance predicts a stable quiet orbit at the design point; there is none."""
+    """At e = 0.6 and W = Wp harmonic balance predicts a stable quiet orbit, but there is none."""
     verdict = names(over_restitution, "quiet_verdict")
     design = np.argmin(np.abs(RATIOS - 1))
     assert verdict[0, design] == "stable_absent"
@@ -86,7 +86,7 @@ def test_the_orbit_exists_only_before_the_fold_with_restitution(over_restitution
 
 
 def test_absence_by_simulation():
-    """Beyond the end no start leads to the quiet orbit, before it some do."""
+    """At W/Wp = 0.7 some starts lead to the quiet orbit; at W/Wp = 1, beyond its fold, none do."""
     damper = Damper(0.12, 2.0, restitution=0.6)
     for ratio, expected in ((0.7, True), (1.0, False)):
         frequency = ratio * peak_frequency(PAPER)

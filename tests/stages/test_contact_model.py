@@ -1,4 +1,4 @@
-"""The map of the contact model, and the contacts of motions in it."""
+"""The map of the contact model over restitution and load, and contacts of simulated motions."""
 
 from dataclasses import replace
 
@@ -55,8 +55,8 @@ def test_logged_contacts_are_those_of_the_simulation():
     assert_allclose(seen["load"], load, atol=1e-4)
 
 
-def test_stiffer_contacts_come_closer_to_the_closed_form():
-    """The closed form neglects the change of the load during a contact."""
+def test_stiffer_contacts_agree_better_with_the_closed_form():
+    """The closed form assumes a constant load, which changes less in a shorter contact."""
     scene = polished_orbit("inelastic")
     errors = []
     for stiffness in (1e4, 1e6):
@@ -87,7 +87,7 @@ def test_dataset(model):
 
 
 def test_why_a_motion_without_pull_is_not_given():
-    """Either the motion has not settled, or its contacts are not those of the orbit."""
+    """The status says why no motion with walls that cannot pull was found."""
     settling = Settling()
     motion, _ = extreme_motions(PAPER, INELASTIC, 2.0, 2, 1995, settling)
     names = VARIABLES["scene_without_pull_status"].flags

@@ -1,4 +1,7 @@
-"""The exact quiet orbit at design points, simulated where it is stable and where it is not."""
+"""The exact quiet orbit at peak frequencies, compared with simulations.
+
+Motions settle on the orbit where it is stable, and leave it where it is unstable.
+"""
 
 import numpy as np
 import pytest
@@ -57,7 +60,7 @@ def test_starts_do_not_settle_where_it_is_unstable(linear):
     assert linear["design_run_displacement"].max() > 5 * float(linear["orbit_displacement"][0])
 
 
-def test_an_orbit_that_is_not_found_is_said_so():
+def test_an_orbit_that_is_not_found_has_a_status():
     """The only start meets no wall, so there is no orbit to follow."""
     data = design_orbit(LINEAR, Damper(0.12, 500.0), starts=1)
     assert data["design_orbit_status"] == flag("design_orbit_status", "no_start")

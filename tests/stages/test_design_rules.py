@@ -1,4 +1,4 @@
-"""Optima of exact orbits, against clearance sweeps, quadrature and runs; table and figure."""
+"""Optima of exact orbits compared with clearance sweeps, quadrature and runs; table and figure."""
 
 import numpy as np
 import pytest
@@ -81,8 +81,8 @@ def test_a_motion_that_ends_before_its_minimum_and_one_that_is_not_there():
 
 
 @pytest.mark.parametrize(("mass_ratio", "stable"), [(0.12, False), (0.4, True)])
-def test_stability_is_what_a_run_shows(mass_ratio, stable):
-    """With linear stiffness the quiet motion of a light loose mass is unstable: a run leaves it."""
+def test_stability_agrees_with_a_run(mass_ratio, stable):
+    """With a linear spring and a light loose mass the quiet motion is unstable: a run leaves it."""
     oscillator, frequency = Oscillator(0.215, 1.5), 2.3
     cell = design_rules(oscillator, [mass_ratio], [1.0], [2000.0], [frequency]).squeeze()
     cell = cell.sel(criterion="displacement")
@@ -101,9 +101,9 @@ def test_stability_is_what_a_run_shows(mass_ratio, stable):
 
 
 def test_rules_and_excess(grid):
-    """rm W^2 d0 is 1 by rule (18) and pi^2/8 by the first harmonic; the excess is not negative.
+    """The ratio rm W^2 d0 is 1 by rule (18) and pi^2/8 by the first harmonic of straight flight.
 
-    The explicit formula holds for e = 1 only.
+    The rule "elastic" holds for e = 1 only. By no rule is max |Z1| below its minimum.
     """
     rules = grid.rule_ratio
     assert np.all(rules.sel(rule="balance") == 1)
@@ -129,7 +129,7 @@ def test_table_counts(grid, sweeps):
 
 
 def test_drawing(grid, tmp_path):
-    """A row for each sweep of one parameter, and one for the errors."""
+    """The figure has a panel for each criterion, once over a parameter and once for the errors."""
     wide = design_rules(PAPER, [0.12], [1.0], [1000.0, 2000.0], [1.5, 2.0])
     drawn = draw_design_rules(design_rules=[grid, wide])
     assert len(drawn.axes) == 2 * len(CRITERIA)

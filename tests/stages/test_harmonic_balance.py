@@ -1,4 +1,4 @@
-"""Design rule and response by harmonic balance: closed forms and limits."""
+"""Design rule (19) and response by harmonic balance, compared with closed forms and limits."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Convergence of harmonic balance: rates against theory, and failures."""
+"""Convergence of harmonic balance with the number of harmonics: rates by theory, and failures."""
 
 import numpy as np
 import pytest
@@ -34,12 +34,12 @@ def test_elastic_contact_converges_by_the_predicted_powers(soft):
     assert (soft["hill_status"] == flag("hill_status", "found")).all()
     away = soft["decay_observed"] - soft["decay_predicted"]
     assert np.abs(away.sel(error_measure=["retained", "omitted"])).max() < 0.2
-    # the others oscillate
+    # The other two errors oscillate as N grows, so the fit is less accurate.
     assert np.abs(away).max() < 0.8
 
 
-def test_free_motion_converges_by_its_singularity(free):
-    """The rate comes from an integration in complex time, the errors from Fourier series."""
+def test_free_motion_converges_at_the_rate_of_its_singularity(free):
+    """The rate is predicted by integration in complex time; the errors are from Fourier series."""
     at = free.sel(error_measure="omitted")
     assert at["decay_observed"].item() == pytest.approx(at["decay_predicted"].item(), rel=1e-3)
     assert free["series_error"].sel(error_measure="maximum")[-1] < 1e-13
@@ -50,7 +50,7 @@ def test_singularity_of_a_fast_motion():
     amplitude = 10.0
     p = pack(Oscillator(1e-9), None, 5.0)
     near = convergence.singularity_distance(p, np.array([amplitude, 0, amplitude, 0]))
-    # the forcing is a thousandth of the spring's force
+    # The tolerance allows for the forcing, which is a thousandth of the spring's force.
     assert near == pytest.approx(ellipk(0.5) / amplitude, rel=1e-3)
 
 

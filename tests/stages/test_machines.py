@@ -1,4 +1,4 @@
-"""Designs of a damper: the number of threads, interruptions, and what goes on from there."""
+"""Designs of a damper: kept steps, interruptions, number of threads, and consistent results."""
 
 import json
 import os
@@ -68,8 +68,8 @@ def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
 
 
 @pytest.mark.thorough
-def test_an_interrupted_design_goes_on_where_it_was(finished, tmp_path, monkeypatch):
-    """On two threads the same comes out as on one."""
+def test_an_interrupted_design_continues_after_its_kept_steps(finished, tmp_path, monkeypatch):
+    """On two threads the result is the same as on one."""
 
     def interrupt(*_, **__):
         raise KeyboardInterrupt
@@ -90,7 +90,7 @@ def test_ctrl_c_is_heard_while_motions_run(tmp_path):
     presses.start()
     try:
         with pytest.raises(KeyboardInterrupt):
-            # takes far longer than until the key is pressed
+            # Such a design takes far longer than the 0.3 s until the key is pressed.
             design(folder=tmp_path, frequencies=41, candidates=40, starts=500, workers=2)
     finally:
         presses.join()
@@ -108,7 +108,7 @@ def test_a_free_restitution_is_the_best_of_several(tmp_path):
     assert used == tried[np.argmin(np.where(kinds == kinds.min(), worst, np.inf))]
     assert kept(tmp_path) == STEPS | {"restitutions"}
     assert f"{used:.3g} is best" in data.attrs["conclusion"]
-    # the gap it was chosen for is the one around which the design looks
+    # The candidates of the design lie around the best gap for this restitution.
     gap = data["tried_gap"].values[list(tried).index(used)]
     assert data["candidate_gap"].min() < gap < data["candidate_gap"].max()
 
@@ -121,7 +121,10 @@ def test_a_range_of_restitutions_ascends_within_bounds(ends):
 
 @pytest.mark.thorough
 def test_den_hartogs_absorber_stands_beside_the_optimum(finished):
-    """By f = 1/(1 + m) and z^2 = 3 m/(8 (1 + m)), with damping 2 z m_a w_a."""
+    """Closed form: tuning f = 1/(1 + m) and damping ratio z, z^2 = 3 m/(8 (1 + m)).
+
+    m is the mass ratio, and the damping is 2 z times mass times angular frequency of the absorber.
+    """
     ratio, angular = 0.1, np.sqrt(2e5 / 12) / 1.1
     data, mass = finished[0], 1.2
     damping = 2 * np.sqrt(3 * ratio / (8 * (1 + ratio))) * mass * angular
@@ -138,7 +141,7 @@ def test_each_variable_has_its_meaning_unit_and_words(finished):
 
 @pytest.mark.thorough
 def test_the_dataset_agrees_with_itself(finished):
-    """What is derived follows from what is stored beside it."""
+    """Gap, deviations and attributes of the dataset agree with each other."""
     data, _ = finished
     gap, asked = float(data["design_gap"]), json.loads(data.attrs["parameters"])
     assert data["candidate_gap"].min() <= gap <= data["candidate_gap"].max()

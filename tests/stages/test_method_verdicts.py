@@ -1,4 +1,7 @@
-"""Verdicts: the truth of a scene against another program, and the rule on invented states."""
+"""Verdicts: the truth of a scene compared with heyoka, and the rule on made-up states.
+
+A scene is a start near an orbit. Its truth is whether the motion stays on this orbit.
+"""
 
 import math
 
@@ -43,7 +46,7 @@ def test_settled_period_of_made_up_states():
     assert judged.settled_period(states) == 0
 
 
-def test_where_right_begins():
+def test_first_index_from_which_all_are_right():
     assert judged.right_from(np.array([True, True])) == 0
     assert judged.right_from(np.array([False, True, False, True])) == 3
     assert judged.right_from(np.array([True, False])) == 2
@@ -92,6 +95,6 @@ def test_verdicts_of_the_taylor_series_and_of_coarse_steps():
     assert row["heun"] == "not at the strictest"
 
 
-def test_an_orbit_that_is_not_there_is_told():
+def test_an_orbit_that_does_not_exist_is_refused():
     with pytest.raises(ValueError, match="there is no orbit of period 1"):
         judged.make_scene(PAPER, DESIGN, 2.0, **(QUIET | {"near": (0, 3.0, 0, 0)}))

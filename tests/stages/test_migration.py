@@ -1,4 +1,8 @@
-"""Migration control: runs against SciPy's integrator, and consistent totals."""
+"""Migration control: runs compared with SciPy's integrator, and consistent totals.
+
+The controller switches the damper on and off (release) until the oscillator settles on its small
+motion, the goal.
+"""
 
 import numpy as np
 import pytest
@@ -78,8 +82,8 @@ def test_workers_and_file(runs, tmp_path):
     assert load(tmp_path / "runs.nc").equals(runs)
 
 
-def test_single_run_is_the_trial(runs):
-    """`migrate` with the seed of the example repeats the example and its trace."""
+def test_a_single_run_repeats_the_trial(runs):
+    """`migrate` with the seed of the trial `example` gives the same switchings and displacement."""
     example = int(runs.example)
     seed = np.random.SeedSequence(1995).spawn(2)[0].spawn(SMALL["trials"])[example]
     one = migrate(CUBIC, PAPER, 1.85, seed=seed, longest_hold=20)
@@ -90,7 +94,7 @@ def test_single_run_is_the_trial(runs):
 
 
 def test_course_of_a_run():
-    """A run with an early release, against SciPy's integrator through both switchings."""
+    """A run with an early release agrees with SciPy's integrator through both switchings."""
     run = migrate(CUBIC, PAPER, 1.95, seed=3, longest_hold=1)
     here = release_case(CUBIC, PAPER, 1.95, Settling())
     on, off = float(run.on_time[0]), float(run.off_time[0])
@@ -101,7 +105,7 @@ def test_course_of_a_run():
         inside = (run.time >= first) & (run.time < last)
         times = np.append(run.time.values[inside], last)
         path = course(1.95, y, (first, last), damper, times)
-        # the reference does not locate contacts; the free transient amplifies this error
+        # SciPy's run does not locate contacts, and the free transient amplifies this error.
         assert_allclose(path[0, :-1], run.displacement.values[inside], atol=1e-4)
         y = path[:, -1]
 
@@ -146,7 +150,10 @@ def test_nothing_to_migrate_between(frequency):
 
 
 def test_survival():
-    """Compare with SciPy's Kaplan-Meier estimate; runs that survive the horizon are censored."""
+    """Survival agrees with SciPy's Kaplan-Meier estimate.
+
+    Runs that last longer than the horizon are censored: their life is known to be longer only.
+    """
     lives = np.array([3, 12, 12, 25, 40, 77, 100, 100])
     times = np.array([0, 10, 12, 30, 80])
     data = CensoredData(uncensored=lives[lives <= 80], right=np.full(2, 80))
@@ -158,7 +165,7 @@ def test_survival():
 
 
 def test_escape_rate():
-    """A case by hand; and intervals of drawn lifetimes mostly contain the true rate."""
+    """A case computed by hand; and intervals from random lifetimes mostly contain the true rate."""
     rate = escape_rate(np.array([10, 30, 40, 200]), horizon=100, lead=20)
     assert_allclose(rate, np.array([2, *chi2.ppf([0.025, 0.975], [4, 6]) / 2]) / (10 + 20 + 80))
     generator = np.random.default_rng(0)

@@ -1,4 +1,7 @@
-"""Contacts near grazing: the passages, SciPy's own events, and the counts."""
+"""Contacts near grazing: passages compared with heyoka, SciPy's events, and counts.
+
+A passage is a flight without walls whose largest |Z2| is known.
+"""
 
 import math
 
@@ -74,8 +77,8 @@ def test_the_taylor_series_misses_none_and_invents_none(passages):
 
 
 @pytest.mark.parametrize("method", ["RK45", "DOP853", "LSODA"])
-def test_scipy_events_find_what_the_ends_of_steps_show(method, passages):
-    """Runs with an event for each depth find the same contacts on the same flights."""
+def test_scipy_events_find_the_contacts_that_ends_of_steps_show(method, passages):
+    """SciPy's event location finds a contact exactly if a step ends beyond the wall."""
     p, drawn = passages
     free = without_walls(p)
 
@@ -101,7 +104,7 @@ def test_scipy_events_find_what_the_ends_of_steps_show(method, passages):
 
 @pytest.mark.parametrize("method", ["RK45", "DOP853"])
 def test_scipy_misses_on_a_sine(method):
-    """sin t crosses 1 - 1e-3 twenty times in ten turns, and 1 - 1e-6 too."""
+    """In ten turns sin t crosses the level 1 - depth twenty times; SciPy finds fewer crossings."""
     for depth, most in ((1e-3, 10), (1e-6, 2)):
         run = solve_ivp(
             lambda t, y: (y[1], -y[0]),
@@ -116,8 +119,8 @@ def test_scipy_misses_on_a_sine(method):
 
 
 @pytest.mark.thorough
-def test_fixed_steps_pass_contacts_unseen_as_often_as_chance_has_it(counted):
-    """A step falls beyond the wall with probability (time beyond it)/h."""
+def test_fixed_steps_miss_contacts_with_the_expected_probability(counted):
+    """A step h ends beyond the wall with the probability (time beyond the wall)/h."""
     counts = counted.passage_count.sel(integrator="runge_kutta_4", method_tolerance=1e-12)
     count, expected = int(counted.passages[0]), counted.expected_unseen[0]
     for depth in DEPTHS[DEPTHS > 1e-8]:
@@ -137,7 +140,7 @@ def test_every_passage_is_counted_once(counted):
 
 @pytest.mark.parametrize("method", ["merson", "RK45", "DOP853"])
 def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
-    """A rate that is never finite makes every run fail."""
+    """An infinite stiffness makes the rate infinite, so that every run fails."""
     p, drawn = passages
     p = without_walls(p)
     p[2] = -np.inf
@@ -156,7 +159,7 @@ def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
 
 @pytest.mark.thorough
 def test_failed_runs_are_neither_found_nor_missed(counted):
-    """In table and figure the share missed counts only runs that reached their end."""
+    """In table and figure the share of missed contacts counts only runs that reached their end."""
     data = counted.copy(deep=True)
     given = data.passage_count.sel(integrator="merson")
     given[0] = 0

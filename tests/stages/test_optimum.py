@@ -1,4 +1,4 @@
-"""Optimum clearance: against simulation and closed forms, and at the edges of the sweep."""
+"""Optimum clearance compared with simulations and closed forms; ends of sweep and branch."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ def sweeps():
 
 
 def settled(damper, clearance):
-    """Return max |Z1| over the last periods of a long run to the quiet motion, by dense samples."""
+    """Return max |Z1| over the last two cycles of a long run to the quiet motion."""
     flight = 4 * clearance / np.pi
     motion = simulate(
         PAPER,
@@ -63,9 +63,9 @@ def test_near_range_is_where_the_minimum_is_exceeded_by_a_tenth(sweeps, case):
 
 
 def test_kind_of_minimum(sweeps):
-    """With e = 1 the displacements at and between impacts cross at the minimum, a kink.
+    """With e = 1 the minimum is a kink, with e < 1 it is smooth.
 
-    With e < 1 the minimum is smooth.
+    At the kink the largest displacements at an impact and between impacts are equal.
     """
     assert [int(sweep.optimum_kind) for sweep in sweeps] == [
         flag("optimum_kind", "kink"),
@@ -86,7 +86,11 @@ def test_quiet_motion_is_no_larger_than_the_largest_reached(sweeps):
 
 
 def test_analytical_optimum_has_no_amplitude_and_tends_to_the_rule():
-    """a = 0 requires rm W^2 b = 1 and r1 B(b) = 1, where B grows as (b - d0)^(3/2)."""
+    """The optimum by (7) has a = 0, which requires rm W^2 b = 1 and r1 B(b) = 1.
+
+    b is the amplitude of Z2, and r1 B(b) the amplitude of the contact force, which grows as
+    (b - d0)^(3/2).
+    """
     excess = []
     for stiffness in (2e3, 2e5, 2e7):
         damper = ELASTIC | {"contact_stiffness": stiffness}
@@ -108,7 +112,11 @@ def test_inelastic_contact_has_no_analytical_curve(sweeps):
 
 @pytest.mark.parametrize("mass_ratio", [0.05, 0.12, 0.25, 0.4])
 def test_straight_flight_ratio_is_where_two_extrema_are_equal(mass_ratio):
-    """Elastic: q - 1 at the impact, and cos(t) - q + 2 q t/pi where sin(t) = 2 q/pi."""
+    """With elastic contact and impulse q, two extrema of the displacement are equal at the optimum.
+
+    One is q - 1, at the impact, the other cos(t) - q + 2 q t/pi, at the time t with
+    sin(t) = 2 q/pi.
+    """
 
     def difference(impulse):
         turn = np.arcsin(2 * impulse / np.pi)
@@ -128,7 +136,8 @@ def test_straight_flight_ratio_is_the_limit_of_rigid_walls_at_high_frequency(
     damper = {"mass_ratio": mass_ratio, "restitution": restitution, "contact_stiffness": 1e8}
     frequency = 30.0
     clearances = np.linspace(0.4, 1.6, 7) / (mass_ratio * frequency**2)
-    # With e = 1 one start in twenty leads to the quiet motion, soon; the others need not settle.
+    # With e = 1 about one start in twenty settles to the quiet motion, and does so within 600
+    # cycles. The other starts need not settle.
     sweep = clearance_sweep(
         Oscillator(0.1),
         damper,
@@ -177,7 +186,7 @@ def test_no_quiet_motion(tmp_path):
 
 
 class Line(Branch):
-    """Branch that ends at d0 = 1.3 and whose displacement equals the clearance."""
+    """A branch that ends at d0 = 1.3 and on which the displacement equals the clearance."""
 
     def displacement(self, clearance):
         return clearance if clearance >= 1.3 else np.inf

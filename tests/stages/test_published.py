@@ -1,4 +1,4 @@
-"""Published numbers beside ours: the stage, and what its table says of every difference."""
+"""Published numbers compared with those of this package, and the table of the differences."""
 
 import numpy as np
 import pytest
@@ -66,8 +66,8 @@ def test_closed_forms_of_light_masses_are_of_first_order(data):
     np.testing.assert_allclose(known[np.isfinite(known)], 1, atol=0.05)
 
 
-def test_ring_down_is_met(data):
-    """Within 1.5 % at a mass ratio of 0.005, and 0.4 % at 0.00125."""
+def test_ring_down_agrees_with_the_closed_form(data):
+    """The difference is below 1.5 % at the mass ratio 0.005, and below 0.4 % at 0.00125."""
     times = [str(name).startswith("time of ring-down") for name in data.comparison.values]
     first, second = differences(data.isel(comparison=times))
     assert abs(first) < 0.015 and abs(second) < 0.004
@@ -81,7 +81,10 @@ def test_absorbers(data):
 
 
 def test_differences_are_as_large_as_expected(data):
-    """Of rigid walls by another stiffness, of Hertz by closed forms, of light masses in size."""
+    """The differences for rigid walls and for Hertz's contact have the expected size.
+
+    Those for small mass ratios have the expected order of magnitude.
+    """
     for reason, tolerance in (("contact_stiffness", 0.05), ("linear_contact", 1e-3)):
         each = of(data, reason)
         known = np.isfinite(each.expected_difference.values)

@@ -1,4 +1,8 @@
-"""Dampers compared for migration and suppression."""
+"""Dampers compared for migration and suppression.
+
+Suppression leaves the damper on; migration switches it on and off to reach the small motion of the
+oscillator without a damper.
+"""
 
 import numpy as np
 import pytest
@@ -44,7 +48,7 @@ def test_success_is_that_of_trials_with_the_damper(data):
 
 
 def test_the_quiet_displacement_is_that_of_the_orbit(data):
-    """Against the orbit of Newton's method, followed over the clearance."""
+    """It agrees with the orbit that Newton's method follows over the clearance."""
     sweep = clearance_sweep(CUBIC, {"mass_ratio": 0.12}, 2.0, [1.9, 2.0], starts=4)
     found = data.isel(frequency=0).sel(mass_ratio=0.12, clearance=2, restitution=1)
     assert float(found.damper_quiet) == pytest.approx(float(sweep.quiet_displacement[1]), rel=1e-6)
@@ -52,7 +56,11 @@ def test_the_quiet_displacement_is_that_of_the_orbit(data):
 
 
 def made_up(state, quiet):
-    """Return one mass ratio and three clearances; cycles are known where all trials arrive."""
+    """Return a dataset with one mass ratio and three clearances.
+
+    `state` is the success of the policy by state, and `quiet` the quiet displacement, at each
+    clearance.
+    """
     cycles = np.array([[np.inf, 30.0, 20.0], [np.inf, 40.0, 50.0]])
     dims = ("policy", "mass_ratio", "clearance", "bound")
     bounds = [0.0, -1.0, 1.0]

@@ -1,4 +1,9 @@
-"""Policies of migration: against SciPy's integrator, and consistent trials."""
+"""Policies of migration: motions compared with SciPy's integrator, and consistent trials.
+
+A policy decides when to switch the damper off (release), so that the free oscillator settles to its
+small motion, the goal. A hold is the time with the damper on. The release set contains the states
+from which a release leads to the goal.
+"""
 
 import numpy as np
 import pytest
@@ -40,7 +45,7 @@ ON = pack(CUBIC, PAPER, W)
 
 @pytest.fixture(scope="module")
 def free():
-    """The oscillator without the damper, with the release set."""
+    """The oscillator without the damper at W, with its release set."""
     return free_case(CUBIC, W, 32, Settling(), 1)
 
 
@@ -60,13 +65,13 @@ def course(state, begin, end, damper):
 
 
 def some_holds(free, count):
-    """Starts on the resonance motion and random numbers of holds."""
+    """Return starts on the resonance motion, and the random numbers of holds."""
     draws = np.random.default_rng(4).random((count, DRAWS))
     return np.tile(free.attractors.centre[-1], (count, 1)), draws
 
 
 @pytest.mark.thorough
-def test_a_hold_is_the_motion_of_scipy(free):
+def test_a_hold_agrees_with_scipy(free):
     starts, draws = some_holds(free, 5)
     held = hold(ON, free, starts, draws, np.full(5, 350.0), Policy(HOLD, 1.3), np.zeros((5, 2)))
     period = 2 * np.pi / W
@@ -99,7 +104,7 @@ def test_a_recording_passes_through_the_releases_of_a_policy(free, phase):
 
 
 def test_the_earliest_arrival_is_that_of_all_moments(free):
-    """Pruning and the release set leave no earlier arrival out."""
+    """`earliest`, which skips moments outside the release set, misses no earlier arrival."""
     starts, draws = some_holds(free, 12)
     recording = record(ON, free, starts, draws, np.full(12, 15.0))
     rows, moments = np.nonzero(~np.isnan(recording.depth))
@@ -116,7 +121,10 @@ def test_the_earliest_arrival_is_that_of_all_moments(free):
 
 @pytest.mark.parametrize("damper", [PAPER, Damper(0.25, 1.0, 0.75)])
 def test_no_policy_beats_the_clairvoyant_bound(free, damper):
-    """In the same trials; a restart from another motion than the resonance may win a few."""
+    """In the same trials hardly any policy arrives earlier than the clairvoyant controller.
+
+    In a few trials another motion than the resonance, from which a hold begins, may be better.
+    """
     on = pack(CUBIC, damper, W)
     bound = clairvoyant(on, free, 40, 350.0, 6)
     policies = Policy(SETTLED), Policy(HOLD, 8.0), Policy(PHASE, 2.0, 3), Policy(STATE, 8.0)
@@ -147,7 +155,7 @@ def test_without_a_disturbance_the_success_is_that_of_the_policy(free):
 
 
 def test_expected_cycles_are_those_of_single_holds(free):
-    """The chance of success in a hold, by other random numbers and without a recording."""
+    """The estimate agrees with single holds with other random numbers, which are not recorded."""
     of_hold, of_phase = expected_cycles(ON, free, 100, [1])
     assert of_phase.shape == (len(HOLDS), PHASES) and np.all(of_hold >= of_phase.min(axis=1))
     drawn = Draws(2, 400).following()
@@ -169,7 +177,7 @@ def test_distances_in_a_half_plane():
 
 @pytest.mark.thorough
 def test_depth_tells_where_free_motions_of_scipy_settle(free):
-    """Deep inside the release set every motion comes to the goal; far outside none does."""
+    """Far inside the release set every motion settles to the goal; far outside none does."""
     attractors, releases = free.attractors, free.releases
     generator = np.random.default_rng(5)
     told = 0
@@ -189,7 +197,7 @@ def test_depth_tells_where_free_motions_of_scipy_settle(free):
 
 
 def test_depth_is_the_distance_from_the_stable_manifold_to_a_cell():
-    """At W = 1.7 only two motions exist, and the basins meet at the manifold of one saddle."""
+    """At W = 1.7 there are two attractors, and the stable manifold of one saddle divides them."""
     free = free_case(CUBIC, 1.7, 32, Settling(), 1)
     grid, half = free.releases.depth, free.releases.half
     even = np.linspace(-0.5, 0.5, 9)[:, None] * half

@@ -1,4 +1,4 @@
-"""Frequency response with labels, and the share of starts that collide."""
+"""Frequency response as a labelled dataset, and the share of starts that collide."""
 
 import math
 
@@ -23,7 +23,7 @@ def response():
     return frequency_response(PAPER, DESIGN, FREQUENCIES, starts=24, seed=4, workers=2)
 
 
-def test_response_holds_what_random_starts_come_to(response):
+def test_response_counts_the_starts_that_lead_to_each_motion(response):
     assert response.sizes["frequency"] == 3 and response.sizes["start"] == 24
     assert np.all(response.motion_starts.sum("motion") == 24)
     settled = (response.run_outcome == flag("outcome", "settled")).sum("start")
@@ -36,7 +36,7 @@ def test_response_holds_what_random_starts_come_to(response):
 
 
 def test_quiet_motion_is_there(response, design_orbit):
-    """There is one branch with two contacts a period; at W = 2 it is the known orbit."""
+    """There is one branch with two contacts in a cycle; at W = 2 it is the known orbit."""
     quiet = (response.contacts == 2) & (response.period == 1)
     assert np.all(quiet.sum("motion") == 1)
     assert len(np.unique(response.branch.values[quiet.values])) == 1
@@ -93,7 +93,10 @@ def test_arguments_of_collisions(wrong):
 
 
 def test_collisions():
-    """The share beyond a wall is that of the ball; other starts collide when a simulation does."""
+    """The share beyond a wall follows from the volume of the ball.
+
+    Other starts collide at the times of simulated first contacts.
+    """
     damper, starts = Damper(0.25, 1.0), 1500
     data = collisions(PAPER, damper, 1.8, starts=starts, radius=2.0, periods=60)
     literal, within = data.isel(ball=0), data.isel(ball=1)

@@ -1,4 +1,7 @@
-"""The quiet motion between rigid walls, mended walls and compliant ones."""
+"""The quiet motion between rigid walls, corrected walls (`mended`) and compliant walls.
+
+Corrected walls are rigid walls that account for the penetration at finite stiffness r1.
+"""
 
 from dataclasses import replace
 
@@ -24,7 +27,7 @@ NEAR = 0.2
     [(DESIGN, "design"), (INELASTIC, "inelastic"), (replace(INELASTIC, restitution=0.7), None)],
 )
 def test_orders(damper, name):
-    """States of rigid and compliant orbits differ by r1^(-1/2), with mended walls by 1/r1."""
+    """Errors of the state fall as r1^(-1/2) with rigid walls and as 1/r1 with corrected walls."""
     guess = polished_orbit(name or "inelastic").state
     errors = []
     for stiffness in (1e5, 1e6):
@@ -43,7 +46,7 @@ def test_an_orbit_repeats_and_is_symmetric():
     again, _ = rigid_orbit(PAPER, INELASTIC, 2.0, orbit.state + 1e-3, NEAR)
     assert_allclose(again.state, orbit.state, atol=1e-10)
     mirrored, _ = rigid_orbit(PAPER, INELASTIC, 2.0, -orbit.state, NEAR)
-    # the mirror image half a period later is the same motion with another state at the strobe
+    # The mirror image at the same phase of the forcing belongs to no orbit.
     assert mirrored is None
 
 
@@ -68,7 +71,7 @@ def test_dataset(limit):
 
 
 def test_stiffness_needed(limit):
-    """At the stiffness given, a separate solution has the error of the threshold."""
+    """At the stiffness stored for a threshold, an orbit computed separately has this error."""
     row = limit.sel(frequency=1.95)
     for level, r1, status in zip(
         limit.threshold.values, row.needed_stiffness.values, row.needed_status.values, strict=True

@@ -1,4 +1,4 @@
-"""Largest stable steps: exact orbits against laws and heyoka, cells against their definition."""
+"""Largest stable steps: exact orbits compared with heyoka and a power law; verdicts and slopes."""
 
 import math
 
@@ -49,7 +49,7 @@ def test_slope_of_a_power_law():
     assert_allclose([slope, error], [0.5, 0], atol=1e-12)
 
 
-def test_cells_are_what_the_deviation_says():
+def test_verdicts_follow_from_the_deviation():
     data = steps.stable_steps(
         PAPER,
         Damper(0.25, 1.0, 0.75),

@@ -1,4 +1,7 @@
-"""A study does not depend on its division into chunks, and each chunk fills its own cells."""
+"""A study does not depend on its division into chunks, and each chunk fills its own cells.
+
+A study runs motions in each cell of a grid of dampers and frequencies; a chunk is a range of cells.
+"""
 
 import json
 import math
@@ -56,7 +59,7 @@ def made_up(shape, cells, seed=7):
 
 
 def saved(folder, shape, bounds, seed=7):
-    """Files of made-up chunks between bounds."""
+    """Save made-up chunks, whose cells end at successive `bounds`, and return their files."""
     paths = []
     for first, last in zip(bounds, bounds[1:], strict=False):
         paths.append(folder / f"{first}-{last}.nc")
@@ -146,7 +149,7 @@ def test_a_damaged_chunk_is_named_and_nothing_is_written(spoil, tmp_path):
     assert not list(tmp_path.glob("all.nc*"))
 
 
-def test_chunks_hold_what_the_whole_holds(entire):
+def test_chunks_agree_with_the_whole_study(entire):
     for cells in ((0, 3), (3, 4), (4, 8)):
         part = chunk(cells, workers=2)
         for name in part.data_vars:
@@ -154,7 +157,7 @@ def test_chunks_hold_what_the_whole_holds(entire):
         assert json.loads(part.attrs["parameters"]) == json.loads(entire.attrs["parameters"])
 
 
-def test_a_cell_holds_what_its_starts_come_to(entire):
+def test_a_cell_counts_the_motions_from_its_starts(entire):
     damper = Damper(0.4, 1.0, restitution=0.75)
     number = np.ravel_multi_index((1, 0, 0, 0), (2, 2, 1, 2))
     motions = [
@@ -181,7 +184,7 @@ def test_without_a_radius_placed_starts_count_in_the_sizes_alone(entire):
 
 def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator():
     axes = AXES | {"mass_ratio": [0.12], "clearance": [1000], "restitution": [1]}
-    # shorter than a flight of the loose mass, which only drifts
+    # The run is shorter than a flight from wall to wall, so the loose mass meets no wall.
     settling = Settling(patience=100, limit=100, watched=20)
     given = {"starts": 20, "radius": 2.0, "settling": settling}
     wide = studies.study_chunk(PAPER, axes, (0, 1), **given).isel(cell=0)
@@ -204,7 +207,7 @@ def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator()
         ({"cells": (3, 3)}, r"cells\[1\] = 3: must be from 4 to 8"),
         ({"cells": (-1, 3)}, r"cells\[0\] = -1: must be from 0 to 7"),
         ({"starts": 0}, "starts = 0"),
-        # raised by the first chunk, although only the last cell is out of range
+        # The first chunk raises the error, although only the last cell is out of range.
         ({"axes": AXES | {"mass_ratio": [1, 20]}}, "mass_ratio = 20: must be .*at most 10"),
         (
             {"axes": AXES | {"clearance": [1e-3, 1]}, "radius": 2.0},

@@ -1,4 +1,7 @@
-"""One-third subharmonic: against long runs on both sides of its ends, and against laws."""
+"""One-third subharmonic compared with long runs on both sides of its ends, and the energy balance.
+
+Without the damper (free) the subharmonic is a motion of period 3.
+"""
 
 import numpy as np
 import pytest
@@ -27,7 +30,7 @@ def damped():
 
 
 def from_strobe(state, damper, frequency, periods=1):
-    """The motion from a state at W T = pi/2 over some periods."""
+    """Simulate a motion from a state at W T = pi/2 over some forcing cycles."""
     return simulate(
         PAPER,
         damper,
@@ -40,7 +43,7 @@ def from_strobe(state, damper, frequency, periods=1):
 
 
 def settled(state, damper, frequency):
-    """The motion that a state at W T = pi/2 leads to."""
+    """Return the motion to which a state at W T = pi/2 leads."""
     last = from_strobe(state, damper, frequency, 0.75).isel(time=-1)
     start = [
         float(last[name])
@@ -61,10 +64,7 @@ def test_free_subharmonic_ends_where_long_runs_leave_it(free, side):
 
 
 def test_free_subharmonic_is_symmetric_and_balances_its_energy(free):
-    """Half its period later the motion is mirrored.
-
-    The work of the forcing is dissipated by damping.
-    """
+    """Half a period later the motion is mirrored; the damping dissipates the work of the force."""
     state = free.at(1.9)["state"]
     motion = from_strobe(state, None, 1.9, 3)
     half = motion.displacement.values[len(motion.time) // 2 :]
@@ -83,7 +83,7 @@ def assert_energy_balance(motion, frequency):
 
 
 def test_free_subharmonic_is_absent_at_low_frequencies(damped):
-    """No such motion at W = 1.7 for h = 0.215."""
+    """With h = 0.215 the subharmonic begins above W = 1.7."""
     lower, upper = damped.free_subharmonic_frequency.values
     assert 1.7 < lower < 1.72 and 2.07 < upper < 2.08
 
@@ -102,7 +102,7 @@ def test_damped_subharmonic_is_a_motion_of_period_3(damped):
 
 
 def test_damped_branch_ends_where_long_runs_leave_it(damped):
-    """Its upper end is a fold, from which the quiet motion is reached."""
+    """The upper end of the branch is a fold, beyond which a run leads to the quiet motion."""
     branch = int(np.flatnonzero(damped.subharmonic_period.values == 3)[0])
     end = float(damped.subharmonic_frequency[branch, 1])
     assert damped.subharmonic_event[branch, 1] == flag("subharmonic_event", "fold")
@@ -148,7 +148,10 @@ def test_suppression_by_size():
 
 
 def test_no_free_subharmonic(tmp_path):
-    """With heavy damping there is none; frequencies stay as given, and the dataset is complete."""
+    """With heavy damping there is no subharmonic.
+
+    The frequencies are then those given, and the dataset is complete.
+    """
     frequencies = np.linspace(1.6, 2.2, 3)
     data = subharmonic_suppression(Oscillator(1.0), DAMPER, frequencies, starts=4)
     assert_allclose(data.frequency, frequencies)

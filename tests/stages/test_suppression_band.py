@@ -1,4 +1,4 @@
-"""The suppression band by harmonic balance: closed forms, limits and edges."""
+"""The suppression band by harmonic balance, compared with solutions on both sides of its edges."""
 
 import numpy as np
 import pytest
@@ -80,7 +80,7 @@ def test_band_without_folds_ends_where_nothing_is_gained():
 
 
 def test_no_band_where_the_damper_is_too_light():
-    """A light damper hardly changes the resonance branch, which continues past Wp."""
+    """A light damper hardly changes the resonance branch, which stays stable at Wp."""
     damper = Damper(0.0005, 0.1)
     band = suppression_band(CUBIC, damper)
     assert len(stable_amplitudes(float(band.peak_frequency), damper=damper)) == 2

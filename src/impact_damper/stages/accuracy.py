@@ -1,10 +1,12 @@
 """Error and counted work of every method and model on a test case (scene), at several settings.
 
+A method is an integrator, a model solves for a periodic motion directly (`rivals.orbit_models`).
 The reference is a run in 80-bit arithmetic by an independent program. Work is counted in
 floating-point operations. No method can follow a chaotic motion to its end. For such a motion
-averages are compared, with their standard errors, and the reference is a longer run (LONGER) of the
-Taylor series at its tightest tolerance. A method then misses or invents contacts if its number of
-contacts per cycle differs too much from the number of the reference (CONTACTS_OFF, SURE).
+averages are compared, with their standard errors. The reference is then a longer run of the Taylor
+series, the integrator of this package, at its tightest tolerance. A method misses or invents
+contacts of a chaotic motion if its number of contacts per cycle differs too much from the number of
+the reference (CONTACTS_OFF, SURE).
 """
 
 import numpy as np
@@ -29,7 +31,8 @@ from impact_damper.system.parameters import describe
 
 # Length of the reference run of a chaotic motion, divided by the length of the compared runs.
 LONGER = 4
-# Number of tolerances, the loosest ones, with which slow integrators run a chaotic motion.
+# Slow integrators (`methods.Method.slow`) run a chaotic motion only with their SHORT loosest
+# tolerances.
 SHORT = 1
 # The number of contacts per cycle of a chaotic motion is right if it differs from the number of the
 # reference by at most the fraction CONTACTS_OFF plus SURE standard errors of the compared run.
@@ -47,10 +50,10 @@ def error_against_work(scene, settings, stored=None):
         pairs of orders of the Taylor series, in flight and in contact; `evaluations`: for each name
         in `methods.LIMITED`, the number of evaluations of the right-hand side per forcing cycle
         after which a run is given up; `harmonics`: highest harmonic of harmonic balance; `batch`:
-        forcing cycles in each part (batch) from whose averages standard errors are estimated;
+        number of forcing cycles in a batch (standard errors follow from the averages of batches);
         `scipy_periods`: forcing cycles for which slow integrators run a chaotic motion.
     stored : dict or None
-        Stored reference record of this test case (`reference_of`); not needed if it is chaotic.
+        Stored reference of this test case (`reference_of`); not needed if the motion is chaotic.
 
     Returns
     -------
@@ -85,10 +88,20 @@ def error_against_work(scene, settings, stored=None):
 
 
 def integrations(scene, settings, slow_periods):
-    """Run each integrator at each setting; yield its label, the setting, the run and its periods.
+    """Run each integrator at each setting.
 
     Slow integrators run for `slow_periods` forcing cycles, and only with their loosest tolerances
     (SHORT) if the motion is chaotic. Once a slow run is given up, tighter tolerances are left out.
+
+    Yields
+    ------
+    label : str
+        Label of the integrator (`methods.COMPARED`).
+    setting : float
+        Tolerance.
+    run : rivals.runs.Run
+    periods : int
+        Forcing cycles of the run.
     """
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
@@ -102,7 +115,7 @@ def integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     rivals = [(label, *name_and_mode(label)) for label in COMPARED["accuracy"] if label != "taylor"]
-    # without walls there are no contacts to locate, and both modes are the same
+    # Without a damper there are no contacts to locate, and both modes are the same.
     for mode in (False, True) if scene.damper is not None else (False,):
         for label, name, locate in rivals:
             if locate == mode:
@@ -159,6 +172,7 @@ def _errors(scene, settings, reference):
 
 
 def _status(ended, wrong):
+    """Return the flag `run_status`, from how a run ended and its excess number of contacts."""
     if ended != "ended":
         return flag("run_status", ended)
     if wrong == 0:
@@ -167,6 +181,7 @@ def _status(ended, wrong):
 
 
 def _named(rows, status, met):
+    """Return the variables of the dataset that all kinds of test cases have."""
     return {
         "method": np.array([row[0] for row in rows]),
         "setting": np.array([row[1] for row in rows], float),
@@ -177,12 +192,12 @@ def _named(rows, status, met):
 
 
 def _met(accuracy, errors):
-    """Return whether each error is within the required accuracy; NaN is not."""
+    """Return whether each error is within the required accuracy; False for NaN."""
     return np.abs(errors[accuracy["quantity"]]) <= accuracy["within"]
 
 
 def _orbits(scene, settings):
-    """Yield label, setting and result of each model that solves for a steady motion's orbit."""
+    """Yield the label, the setting and the result of each model of a steady motion."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)
@@ -198,12 +213,13 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which contacts would begin if the reference were on a model's orbit.
+    """Return the times at which contacts begin by a model, for all cycles of the reference run.
 
-    Each contact in the last cycle of the reference is matched to the nearest contact of the orbit.
-    The difference of their times is added to the corresponding contacts of the reference in all
-    cycles. The times are NaN if two contacts of the reference have the same match. If the orbit has
-    another number of contacts per cycle, only the length of the result has a meaning.
+    A model computes one cycle only, while the reference approaches the periodic motion. Each
+    contact in the last cycle of the reference is matched to the nearest contact of the model. The
+    difference of their times is added to the corresponding contacts of the reference in all cycles.
+    The times are NaN if two contacts of the reference have the same match. If the model has another
+    number of contacts per cycle, only the length of the result has a meaning.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
@@ -221,7 +237,7 @@ def _times(scene, model, reference):
 
 
 def _exponent(scene, method, tolerance, batch):
-    """Return the Lyapunov exponent in each batch, if the method has variational equations."""
+    """Return the Lyapunov exponent in each batch, or {} without variational equations."""
     given = scene.p, np.array(scene.state, float), tolerance, scene.periods, batch
     if method == "taylor":
         return {"exponent": averages.exponents(*given)}

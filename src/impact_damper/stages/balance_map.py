@@ -1,11 +1,15 @@
 """Map of the errors of single-term harmonic balance, compared with the exact motions.
 
-A cell of the map is one forcing frequency and one value of a parameter. Two questions are answered
-in each cell. Quiet: is the solution of (7) with the smallest amplitude |a| stable by the slow flow
-(17), and is the exact orbit stable by its Floquet multipliers? High: is there a stable solution of
-at least half the amplitude of the free resonance, and to which motion does a simulation lead that
-starts from this solution? Harmonic balance describes elastic contact only: for e < 1 its verdict
-for e = 1 is taken.
+A cell of the map is one forcing frequency W and one value of a parameter. Numbers in brackets are
+equations of the paper: (7) is harmonic balance with one harmonic and (17) the slow flow, from which
+the stability of its solutions follows. The quiet orbit is the small symmetric periodic motion for
+which a damper is designed. Free means without the damper.
+
+Two questions are answered in each cell. Quiet: is the solution of (7) with the smallest amplitude
+|a| stable by (17), and is the exact quiet orbit stable by its Floquet multipliers? High: is there a
+stable solution of at least half the amplitude of the free resonance, and to which motion does a
+simulation lead that starts from this solution? Harmonic balance describes elastic contact only. For
+a restitution e < 1 its solution for e = 1 is taken.
 """
 
 from dataclasses import replace
@@ -32,8 +36,9 @@ from impact_damper.system.settling import check_settling
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.map_cells import HIGH, NEAR, balance_cells
 
-# At most CHECKED chaotic high motions are run again with LONG times the patience (`Settling`),
-# which shows whether the chaos lasts.
+# A chaotic motion is stopped after a number of cycles, the patience (`Settling.patience`). At most
+# CHECKED of the chaotic high motions are run again with LONG times the patience, to see whether the
+# chaos lasts.
 CHECKED = 50
 LONG = 10
 
@@ -58,10 +63,11 @@ def balance_map(
     values : array_like, shape (n,)
         Increasing values of this parameter, one for each row of the map.
     frequency_ratios : array_like, shape (m,)
-        Increasing forcing frequencies W, divided by the peak frequency Wp of the row.
+        Increasing forcing frequencies W, divided by the frequency Wp of the free resonance peak of
+        the row.
     fixed : dict
         The other arguments of `Oscillator` and `Damper`. Without `clearance` each row has the
-        clearance of rule (19), as a designer would choose.
+        clearance of rule (19) of the paper, as a designer would choose.
     settling : Settling, optional
     workers : int
         Threads; the result does not depend on it.
@@ -173,7 +179,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Return a record of the motion of each cell; its outcome is "absent" where no start exists."""
+    """Return a `records.MOTION` for each cell; its outcome is "absent" if the start is NaN."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -186,7 +192,11 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _long(parameters, starts, kinds, settling, workers):
-    """Return the outcomes of longer runs of some chaotic high motions, spread over the cells."""
+    """Return the outcome of a longer run of the high motion in each cell.
+
+    Only CHECKED of the chaotic motions, spread over the cells, are run. The other outcomes are
+    "absent".
+    """
     cells = np.flatnonzero(kinds == flag("high_run_motion", "high_chaotic"))
     outcome = np.full(kinds.size, flag("high_long_outcome", "absent"))
     if len(cells):
@@ -199,7 +209,10 @@ def _long(parameters, starts, kinds, settling, workers):
 
 
 def _kinds(records, resonance):
-    """Return the flag `quiet_run_motion` of each run."""
+    """Return the flag `quiet_run_motion` of each run, the kind of motion in which it ended.
+
+    `resonance` is the largest displacement of the free resonance in each cell.
+    """
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]
@@ -218,9 +231,10 @@ def _kinds(records, resonance):
 
 
 def _truth(orbits):
-    """Return the flag `quiet_orbit` of each cell.
+    """Return the flag `quiet_orbit` of each cell: whether the exact orbit is stable or exists.
 
-    A cell without an orbit is "absent" beyond a located end of the branch, otherwise "unresolved".
+    A cell without an orbit is "absent" if the branch of orbits is known to end before the cell,
+    otherwise "unresolved".
     """
     values = orbits.multiplier
     columns = np.arange(values.shape[1])
@@ -243,7 +257,7 @@ def _truth(orbits):
 
 
 def _quiet_verdict(balance, truth):
-    """Return the flag `quiet_verdict`."""
+    """Return the flag `quiet_verdict`, which combines harmonic balance and the exact orbit."""
     verdict = np.full(balance.shape, flag("quiet_verdict", "unresolved"))
     cases = {
         "stable": truth == flag("quiet_orbit", "stable"),
@@ -258,7 +272,7 @@ def _quiet_verdict(balance, truth):
 
 
 def _high_verdict(balance, kinds, displacement):
-    """Return the flag `high_verdict`."""
+    """Return the flag `high_verdict`, which combines harmonic balance and the simulation."""
     near = np.abs(displacement / balance.high_amplitude - 1) <= NEAR
     low = np.isin(
         kinds, [flag("high_run_motion", n) for n in ("quiet", "other_low", "low_chaotic")]
@@ -285,6 +299,7 @@ def _high_verdict(balance, kinds, displacement):
 
 
 def _rigid_end(row):
+    """Return W/Wp at which the quiet orbit ends by the theory of straight flight."""
     peak = peak_frequency(row.oscillator)
     end = straight_flight_end(row.oscillator, row.damper.clearance, row.damper.restitution)
     return end / peak

@@ -1,4 +1,9 @@
-"""Basins of attraction in a plane of states, without or with a damper."""
+"""Basins of attraction in a plane of states, without or with a damper.
+
+An attractor is a stable periodic motion, and its basin the set of all states that lead to it.
+Without a damper the boundaries of basins are the stable manifolds of unstable orbits: curves of
+states that lead to such an orbit.
+"""
 
 import math
 
@@ -17,16 +22,22 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 from impact_damper.system.settling import check_settling
 
-# Half widths, over the largest displacement and speed of the free motions: of the plane, if none
-# are given, and of the region in which stable manifolds are followed.
+# Half widths in Z1 and Z1', divided by the largest displacement and speed of the motions without a
+# damper.
+# WIDTH: of the plane, if the user gives none.
+# REACH: of the region in which stable manifolds are followed.
 WIDTH, REACH = 1.5, 3.0
-# Number of states on each axis of the grids from which attractors and unstable orbits are searched.
+# Number of states on each axis of a grid.
+# SEARCHED: grid of starts whose motions lead to the attractors.
+# NEWTON: grid of first guesses for unstable orbits.
 SEARCHED, NEWTON = 24, 16
-# Number of unresolved states whose motions are run until they settle, to find further attractors.
+# If states lead to no known attractor, the motions from TRIED of them are run until they settle, to
+# find further attractors.
 TRIED = 64
 # Places of the loose mass over which a plane is averaged, as fractions of the clearance.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 CELLS_RANGE = {"least": 2, "most": 10**4}
+# Default phase W T of the forcing at which the states are given.
 STROBE = math.pi / 2
 
 
@@ -124,7 +135,10 @@ def basins(
 
 
 def _window(sizes, displacement, velocity):
-    """Return half widths of the plane, shape (2,); `sizes` belong to the free motions."""
+    """Return the half widths of the plane, shape (2,).
+
+    `sizes` are the largest displacement and speed of the motions without a damper.
+    """
     given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
     return np.array(
         [
@@ -135,7 +149,11 @@ def _window(sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Return variables of the plane of the free oscillator, and the records of its attractors."""
+    """Return the variables of the plane without a damper, and the records of the attractors.
+
+    `plane` are the states, shape (cells^2, 2), `window` half widths of the plane, and `reach` half
+    widths of the region in which stable manifolds are followed.
+    """
     attractors = free_attractors(p, reach / 2, settling)
     labels, periods = label_states(
         p, plane, phase, attractors, settling.tolerance, settling.limit, **running
@@ -162,14 +180,14 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
 
 
 def free_attractors(p, window, settling, workers=1) -> Attractors:
-    """Return the attractors to which a grid of states in a window leads."""
+    """Return the attractors to which a grid of states leads; `window` are its half widths."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling, workers)
 
 
 def _joined(p, attractors, more):
-    """Return attractors together with the new ones among `more`."""
+    """Return `attractors` joined with those of `more` that are not among them."""
     new = [
         record
         for index, record in enumerate(more.records)
@@ -184,8 +202,11 @@ def _joined(p, attractors, more):
 
 
 def boundary_data(p, attractors, window, reach, phase, cells, settling):
-    """Return registered variables of the unstable orbits and of their stable manifolds."""
-    # unstable orbits lie closer together near the origin
+    """Return a dict of dataset variables of the unstable orbits and of their stable manifolds.
+
+    The arguments are those of `_free`.
+    """
+    # Unstable orbits lie closer together near the origin, so the grid is finer there.
     even = np.linspace(-1, 1, NEWTON)
     grid = [half * even * np.abs(even) for half in reach / 2]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
@@ -214,7 +235,10 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Return variables of a plane of states with the damper on, and records of the attractors."""
+    """Return the variables of the plane with a damper, and the records of the attractors.
+
+    The arguments are those of `_free` and `basins`.
+    """
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -243,7 +267,10 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
 
 
 def _attractor_data(p, records, phase, plane):
-    """Return registered variables of the attractors; `plane` holds the variables of the plane."""
+    """Return a dict of dataset variables of the attractors.
+
+    `records` are their `records.MOTION`, and `plane` are the variables of the plane.
+    """
     labels = plane["basin_label"]
     if "basin_share" in plane:
         shares = plane["basin_share"].mean(axis=(1, 2))

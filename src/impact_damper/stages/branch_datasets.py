@@ -1,4 +1,8 @@
-"""Orbits, branches and their events as labelled datasets."""
+"""Periodic orbits, branches and their events as labelled datasets.
+
+A branch is the curve of the orbits over a parameter. An event is a point of a branch at which an
+orbit changes, such as a fold or a loss of stability.
+"""
 
 import numpy as np
 
@@ -7,8 +11,9 @@ from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.orbits.tori import torus_behind
 
-# Relative speed at the beginning of a contact below which the contact counts as near grazing. There
-# the 3/2-power term of the map matters, and Floquet multipliers hold for tiny disturbances only.
+# A contact counts as near grazing if the relative speed at its beginning is below SLOW. Floquet
+# multipliers then describe very small disturbances only: the effect of a disturbance d also has a
+# term with the power 3/2 of d, whose coefficient grows near grazing.
 SLOW = 0.01
 # Two branches meet at an event if its parameter and max |Z1| on both agree within this tolerance.
 SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
@@ -25,7 +30,10 @@ def _status(orbit):
 
 
 def orbit_variables(pairs):
-    """Return the variables of dimension `point` from pairs of a parameter value and an orbit."""
+    """Return the variables with the dimension `point`, a dict.
+
+    `pairs` is a list of pairs of a value of the parameter and an `Orbit`.
+    """
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = [orbit.record for orbit in orbits]
     first, second = (
@@ -56,9 +64,10 @@ def orbit_variables(pairs):
 
 
 def _met(branches, number, edge):
-    """Return the number of the branch that a branch meets at one edge, -1 if there is none.
+    """Return the index of the branch that a branch meets at its end, or -1 if there is none.
 
-    Both have an event of the same kind with the same orbit there.
+    `number` is the index of the branch, and `edge` is 0 for its first and 1 for its last point. Two
+    branches meet if the other branch has an event of the same kind with the same orbit.
     """
     branch = branches[number]
     kind = branch.ends[edge]
@@ -80,9 +89,10 @@ def _met(branches, number, edge):
 
 
 def torus_variables(branches):
-    """Return the variables of dimension `event` that say what splits off at Neimark-Sacker points.
+    """Return the variables of the tori that begin at Neimark-Sacker points.
 
-    Of a point that lies on several branches the torus is looked for once.
+    A torus is a surface in the space of states on which quasi-periodic motions surround an orbit.
+    If an event lies on several branches, its torus is looked for once.
 
     Parameters
     ----------
@@ -92,6 +102,7 @@ def torus_variables(branches):
     Returns
     -------
     dict of numpy.ndarray
+        Variables with the dimension `event`; the kind is "absent" for other events.
     """
     known, kinds, numbers = [], [], []
     for branch in branches:
@@ -127,8 +138,8 @@ def branches_dataset(branches, back, parameters, title):
     ----------
     branches : list of Branch
     back : callable
-        Maps the coordinate in which the branches were followed (the parameter or its logarithm) to
-        the parameter.
+        Function that returns the parameter for the coordinate in which the branches were followed,
+        which is the parameter itself or its logarithm.
     parameters : dict
         Parameters of the dataset, as from `describe`.
     title : str

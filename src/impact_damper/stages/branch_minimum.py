@@ -1,6 +1,8 @@
 """Minimum of the largest displacement along a branch of motions over the clearance, for `optimum`.
 
-The motion is followed between the clearances of the sweep, so that the minimum is exact.
+A sweep computes motions at several clearances. A branch consists of the motions of period 1 at
+successive clearances that belong together. Between the clearances of the sweep the motion is
+followed by Newton's method, so that the minimum is exact.
 """
 
 from typing import NamedTuple
@@ -14,7 +16,7 @@ from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE
 
-# The range near the minimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
+# The range of clearances near the minimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
 
 
@@ -37,14 +39,14 @@ class Branch(NamedTuple):
     def follow(self, start, clearance):
         """Follow the motion from the known point nearest to `start` to a clearance.
 
-        The result is as from `follow_stable`.
+        Return the packed parameters and the `StrobeOrbit` at the last clearance reached.
         """
         away = np.abs(self.parameters[:, CLEARANCE] - start)
         k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
         return follow_stable(self.parameters[k], self.states[k], 1, CLEARANCE, clearance)
 
     def displacement(self, clearance):
-        """Return max |Z1| at a clearance, infinity beyond the end of the branch."""
+        """Return max |Z1| at a clearance; infinity beyond the end of the branch."""
         p, orbit = self.follow(clearance, clearance)
         if p[CLEARANCE] != clearance:
             return np.inf
@@ -67,7 +69,12 @@ class Branch(NamedTuple):
 
 
 def minimum_table(branch):
-    """Return the minimum of max |Z1|, its kind, and the range of clearances near the minimum."""
+    """Return the variables of the minimum of max |Z1| along a `Branch`, a dict.
+
+    They are the clearance and max |Z1| at the minimum, its kind, and the range of clearances near
+    it. Kinds: "smooth", "kink", "jump" (at the end of the branch), "edge" (at the end of the sweep)
+    and "not_found".
+    """
     if not np.isfinite(branch.displacements).any():
         return {
             "optimum_clearance": np.nan,
@@ -103,21 +110,23 @@ def _kind(branch, best, least, longest):
     """Return "smooth" or "kink" for a minimum.
 
     The kind follows from the rise of max |Z1| after a step away from the minimum. When the step is
-    halved, the rise falls to a quarter at a smooth minimum and to half at a kink. No step exceeds
-    `longest`, because the branch may end beyond.
+    halved, the rise falls to a quarter at a smooth minimum and to half at a kink. `longest` is the
+    longest step that stays on the branch.
     """
     rises = [
         branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
         for step in (longest, longest / 2)
     ]
+    # 0.36 lies between a quarter and a half: it is close to their geometric mean.
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 
 def _near(branch, best, level, step):
     """Return the clearance where max |Z1| reaches a level on one side of the optimum.
 
-    The second value is "crossed". If the branch or the sweep ends before the level is reached,
-    return its end and event as `Branch.limit` does.
+    `best` is the optimum, and `step` is -1 or 1, the side. The second result is "crossed". If the
+    branch or the sweep ends before the level is reached, its end and "branch_ends" or "sweep_ends"
+    are returned.
     """
     outside, event = best, "crossed"
     while event == "crossed":

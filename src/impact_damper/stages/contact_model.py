@@ -1,11 +1,12 @@
 """Map of the contact model over restitution and load, and contacts of simulated motions.
 
-Equation (25) gives the dashpot for which a contact has the restitution e if no other force acts and
-the contact ends at zero penetration. Other forces cause an acceleration g of the primary mass
-towards the wall. The load is G = g/(wn v0), with the natural frequency wn of the contact and the
-speed of approach v0. With walls that cannot pull the contact ends sooner. The map gives the
-restitution that a contact has under load, for both rules for its end. Contacts of simulated motions
-show which loads occur.
+Equation (25) of the paper gives the dashpot for which a contact has the restitution e if no other
+force acts and the contact ends at zero penetration. Other forces cause an acceleration g of the
+primary mass towards the wall. The load is G = g/(wn v0), with the natural frequency wn of the
+contact and the speed of approach v0. At the end of a contact the dashpot pulls the loose mass. With
+walls that cannot pull the contact ends sooner. The map gives the restitution that a contact has
+under load, for both rules for its end (exit rules). Contacts of simulated motions show which loads
+occur.
 """
 
 from dataclasses import replace
@@ -34,10 +35,11 @@ from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# The loads of the map are evenly spaced up to about this |load|, and logarithmically above it.
+# The loads of the map are evenly spaced up to |G| of about LINEAR, and logarithmically above it.
 LINEAR = 1e-3
-# Variables with one value for each logged contact: three indices of its motion and, keyed by the
-# quantity of `logged_contacts`, the names under which the quantities are stored.
+# Variables with one value for each logged contact.
+# LOG: indices of its motion: of the restitution, the frequency and the size.
+# LOGGED: names under which the quantities of `logged_contacts` are stored.
 LOG = ("contact_used", "contact_row", "contact_size")
 LOGGED = {
     "load": "contact_load",
@@ -45,6 +47,7 @@ LOGGED = {
     "duration": "contact_time",
 }
 
+# Variables of motions that are integers.
 COUNTED = ("scene_outcome", "scene_without_pull_status", "scene_contacts", "scene_unreleased")
 
 
@@ -77,7 +80,7 @@ def contact_model(
     starts : int
         Number of random starts of the search for motions at each restitution and frequency.
     periods : int
-        Forcing periods over which the contacts of a motion are logged.
+        Forcing cycles over which the contacts of a motion are logged.
     seed : int
     settling : Settling, optional
 
@@ -166,7 +169,7 @@ def contact_map(restitutions, loads):
 
 
 def _verdict(found, restitution):
-    """Return the verdict on a contact: the size of its error, or why the loose mass stays."""
+    """Return the flag `contact_verdict`: the size of the error, or why the loose mass stays."""
     if found.outcome != "released":
         return found.outcome
     error = abs(found.departure / restitution - 1)

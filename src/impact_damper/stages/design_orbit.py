@@ -1,8 +1,9 @@
 """The exact quiet orbit at the design point (peak frequency Wp) of a damper, stable or unstable.
 
-The quiet orbit has period 1 and two contacts per cycle. Harmonic balance approximates it to design
-the damper. The orbit may be unstable, so that no simulation settles on it. With heavy damping
-motions do settle on it; from there it is followed down to the damping h of the oscillator.
+The quiet orbit is the periodic motion for which a damper is designed. It has period 1 and two
+contacts per cycle. The orbit may be unstable, so that no simulation settles on it. With heavy
+damping motions do settle on it. From there the orbit is followed by Newton's method down to the
+damping h of the oscillator.
 """
 
 from dataclasses import replace
@@ -27,7 +28,7 @@ HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
 def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling=None):
-    """Find the quiet orbit at the peak frequency Wp of rule (19), and follow it in the damping h.
+    """Find the quiet orbit at the peak frequency Wp, and follow it in the damping h.
 
     Parameters
     ----------
@@ -41,10 +42,10 @@ def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settl
     Returns
     -------
     xarray.Dataset
-        A branch as from `branches.orbit_branch` over the damping, from the h of the oscillator up
-        to the heavy damping; `design_orbit_status`, whether the orbit was found and followed down
-        to the h of the oscillator; for each `design_start` the outcome of the start with this h;
-        and `peak_frequency`.
+        The variables of `branches.orbit_branch` for the orbits over the damping, from the h of the
+        oscillator up to the heavy damping; `design_orbit_status`, whether the orbit was found and
+        followed down to the h of the oscillator; for each `design_start` the outcome of a run from
+        this start with this h; and `peak_frequency`.
 
     Raises
     ------

@@ -1,9 +1,12 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The optimum belongs to the quiet orbit, which is symmetric and has period 1 and two contacts per
-cycle. Newton's method finds the orbit, stable or unstable, from the state that
-`theory.straight_flight` predicts. Clearances are given as the ratio rm W^2 d0/f, which is 1 by rule
-(18), and displacements as W^2 Z1/f, where f is the forcing amplitude.
+The optimum is the clearance at which the quiet orbit has the smallest displacement. The quiet orbit
+is the periodic motion for which a damper is designed: it is symmetric and has period 1 and two
+contacts per cycle. Newton's method finds the orbit, stable or unstable. Its first guess is the
+theory of straight flight (`theory.straight_flight`), in which the loose mass flies at constant
+speed between the walls. Clearances d0 are given as the ratio rm W^2 d0/f, with the mass ratio rm,
+the forcing frequency W and the forcing amplitude f. This ratio is 1 by rule (18) of the paper.
+Displacements are given as W^2 Z1/f.
 """
 
 import itertools
@@ -25,17 +28,21 @@ from impact_damper.theory.straight_flight import (
 )
 
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
+# Number of values of Z1 in a cycle for the integral of the first harmonic.
 SAMPLES = 1024
+# Largest asymmetry of a symmetric orbit, divided by the clearance.
 SAME = 1e-4
-STEP = 0.02
-MOST_STEPS = 40
-PRECISION = 1e-8
-# A minimum is smooth or a kink. A small step (CLOSE) away from the minimum decides: as the step is
+# Search for the minimum over the ratio rm W^2 d0/f.
+# STEP, MOST_STEPS: relative step of the search downhill, and largest number of steps.
+# PRECISION: accuracy of the ratio at the minimum.
+STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
+# A minimum is smooth or a kink. A step away from the minimum, by CLOSE, decides: when the step is
 # halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at a kink.
 # KINK is the limit between these two fractions.
 CLOSE, KINK = 1e-3, 0.36
 # Displacement assigned where the motion does not exist, because the search needs a number.
 ABSENT = 1e3
+# Number of impulses of a contact for which the theory of straight flight is evaluated.
 IMPULSES = 400
 
 
@@ -55,11 +62,11 @@ def design_rules(
     Returns
     -------
     xarray.Dataset
-        The criterion is the smallest max |Z1| or the smallest first harmonic of Z1. For each
-        criterion: rm W^2 d0/f at the optimum, its least value in units of f/W^2, the
+        The criterion of the optimum is the smallest max |Z1| or the smallest first harmonic of Z1.
+        For each criterion: the ratio rm W^2 d0/f at the optimum, the minimum in units of f/W^2, the
         kind of minimum, stability, and the modulus of the dominant Floquet multiplier. For each
-        `rule`: the ratio rm W^2 d0/f that it predicts, and the fraction by which max |Z1| there
-        exceeds the smallest max |Z1|. The rules:
+        `rule`: the ratio rm W^2 d0/f that the rule predicts, and the fraction by which max |Z1| at
+        this ratio exceeds the smallest max |Z1|. The rules:
 
         - balance, equation (18): 1;
         - gap_harmonic, pi^2/8: condition (18), derived again for a loose mass that crosses the gap
@@ -126,7 +133,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The symmetric motion of period 1 with two contacts, as a function of the ratio rm W^2 d0/f.
+    """The quiet orbit as a function of the ratio rm W^2 d0/f.
 
     Parameters
     ----------
@@ -153,9 +160,10 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return max |Z1| and |first harmonic of Z1|, in units of f/W^2, and |dominant multiplier|.
+        """Return max |Z1|, the first harmonic of Z1 and the dominant multiplier, as moduli.
 
-        If the motion does not exist at this ratio: infinity, infinity and NaN.
+        The first two are in units of f/W^2. If the orbit does not exist at this ratio, infinity,
+        infinity and NaN are returned.
         """
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)

@@ -1,4 +1,8 @@
-"""Steps of the design of a damper for a machine, in the order in which they are run."""
+"""Steps of the design of a damper for a machine, in the order in which they are run.
+
+A start is a random initial state. A motion is quiet if its largest displacement is at most the
+quiet limit. The cliff is the gap beyond which fewer starts lead to quiet motions.
+"""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -26,14 +30,15 @@ from impact_damper.stages.response import frequency_response
 from impact_damper.system.settling import Settling
 
 _complete_branches, _response = map(takes_machine, (complete_branches, frequency_response))
-# A sweep changes the frequency at SWEEP (damping ratio x natural frequency)^2 Hz/s, or faster if it
-# would last longer than MOST_SWEPT cycles.
+# A swept sine changes the frequency at the rate SWEEP (damping ratio x natural frequency in Hz)^2
+# Hz/s, or faster if it would last longer than MOST_SWEPT cycles.
 SWEEP, MOST_SWEPT = 4.0, 6000
-# Absorbers are tuned for the largest displacement from ABSORBED[0] times the lowest frequency of
-# band and resonance to ABSORBED[1] times their highest frequency.
+# Tuned absorbers, with which the damper is compared, are tuned for the smallest maximum of the
+# response over a range of frequencies. The range extends from ABSORBED[0] times the lowest
+# frequency of band and resonance to ABSORBED[1] times the highest.
 ABSORBED = 0.5, 2.0
 # BARE: variables of the response without the damper, with their names in the dataset of a design.
-# TRANSIENT: variables and dimensions of transients, whose names get a prefix in this dataset.
+# TRANSIENT: variables and dimensions of transients, which get a prefix in the dataset of a design.
 BARE = {
     "followed_value": "bare_frequency",
     "orbit_displacement": "bare_displacement",
@@ -63,7 +68,7 @@ class DesignSteps(NamedTuple):
     progress: bool | None
 
     def run(self):
-        """Return the choice of the gap and the datasets of all steps."""
+        """Return the `choose.Choice` of the gap, and a list of the datasets of all steps."""
         task, step = self.task, self.kept.step
         first = step("screening", self.screening)
         compared = step("comparison", lambda: self.comparison(first))
@@ -93,15 +98,17 @@ class DesignSteps(NamedTuple):
         return choice, parts
 
     def running(self, title) -> dict:
-        """Return the arguments `workers` and `progress` of a step."""
+        """Return the arguments `workers` and `progress` of a step, a dict."""
         return {"workers": self.workers, "progress": title if self.progress else None}
 
     def screening(self):
+        """Return the first look: the machine alone, rules for the gap, and exact orbits."""
         return labelled.screening_dataset(
             self.task, screen(self.task, **self.running("First look"))
         )
 
     def comparison(self, first):
+        """Return the comparisons of gaps by starts; `first` is the dataset of the screening."""
         span, limit = first["screened_gap"].values[[0, -1]], float(first["orbit_limit"])
         running = self.running("Gaps, coarsely")
         coarse = compare.coarse_comparison(self.task, span, limit, **running)
@@ -110,6 +117,7 @@ class DesignSteps(NamedTuple):
         return labelled.comparison_dataset(coarse, candidates)
 
     def cliff(self, comparison):
+        """Return the chosen gap, the cliffs around it, and lives of chaos beyond them."""
         task, limit = self.task, comparison.limit
         running = self.running("Tolerances of gaps")
         choice, edges = cliff.choose_with_edges(task, comparison, **running)
@@ -118,6 +126,10 @@ class DesignSteps(NamedTuple):
         return labelled.cliff_dataset(choice, edges, lives)
 
     def orbits(self, gap, frequency):
+        """Return the quiet orbit over the gap and over the force, and its derivatives.
+
+        `gap` is in mm and `frequency` in Hz, as in the other steps.
+        """
         force = "force" if self.task.machine.unbalance is None else "unbalance"
         orbit = cliff.quiet_orbit(self.task, gap, frequency, workers=self.workers)
         over_gap, over_force = (
@@ -130,8 +142,10 @@ class DesignSteps(NamedTuple):
         return found.assign(branch_frequency=shown_variable("branch_frequency", frequency))
 
     def response(self, gap):
+        """Return the response with and without the damper: motions and branches of orbits."""
         task, span = self.task, self.task.band
-        # motions undecided at the limit are run further, which the comparisons of gaps do not do
+        # Motions that have not settled after the largest number of cycles are run further. The
+        # comparisons of gaps do not do this, to save time.
         settling = replace(task.settling, further=Settling().further)
         searched = {"starts": task.starts, "seed": task.seed, "settling": settling}
         searched |= self.running("Response")
@@ -141,11 +155,13 @@ class DesignSteps(NamedTuple):
         alone = _response(task.machine, None, task.grid, **searched)
         alone = _complete_branches(task.machine, None, span, [alone])
         bare = {new: shown_variable(new, alone[old].values) for old, new in BARE.items()}
-        # `branch` is a variable of the motions; the grid is the same in all steps
+        # The motions have a variable `branch`, so the dimension `branch` of the orbits is renamed.
+        # All steps get the same coordinate `frequency`.
         motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
         return motions.merge(orbits.rename_dims(branch="curve")).merge(xr.Dataset(bare))
 
     def deviations(self, choice, frequency, limit):
+        """Return the tests with deviating values and with new starts; `limit` is in mm."""
         task, gap = self.task, choice.gap
         running = self.running("Tolerances")
         samples = deviations.sample_tolerances(task, gap, frequency, limit, **running)
@@ -155,6 +171,7 @@ class DesignSteps(NamedTuple):
         return labelled.deviations_dataset(samples, unseen, promise, limit)
 
     def maps(self, gap, frequency, limit):
+        """Return maps over frequency and force, and over gap and restitution."""
         task, running = self.task, self.running("Operating range")
         orbit = cliff.quiet_orbit(task, gap, frequency, workers=self.workers)
         return labelled.maps_dataset(
@@ -169,15 +186,17 @@ class DesignSteps(NamedTuple):
         )
 
     def masses(self, gap, limit):
+        """Return dampers of other masses beside this one."""
         running = self.running("Other masses")
         found = [judge(self.task, gap, limit, **running)]
         return labelled.masses_dataset(found + alternatives(self.task, limit, **running))
 
     def transients(self, gap):
+        """Return a swept sine and a ring-down, each with and without the damper."""
         task, machine = self.task, self.task.machine
         damper = task.damper(1e-3 * gap)
-        # the sweep of a nonlinear machine leads to its large motions only if it extends beyond the
-        # natural frequency
+        # A sweep over a nonlinear machine leads to its large motions only if it passes all its
+        # resonances, which may lie outside the band.
         low = min(task.band[0], task.resonance[0])
         high = max(task.band[1], task.resonance[1])
         span = (high**2 - low**2) / 2
@@ -189,6 +208,7 @@ class DesignSteps(NamedTuple):
         return _prefixed(swept, "sweep").merge(_prefixed(rung, "ring"))
 
     def competitors(self):
+        """Return the responses with tuned absorbers of the same mass."""
         task = self.task
         low, high = task.resonance
         band = ABSORBED[0] * min(low, task.band[0]), ABSORBED[1] * max(high, task.band[1])
@@ -202,7 +222,11 @@ class DesignSteps(NamedTuple):
 
 
 def _critical(edges, first):
-    """Return the frequency (Hz) at which quiet gaps end first, or else of the worst response."""
+    """Return the frequency (Hz) at which the cliff is met first.
+
+    Without a cliff, return the frequency at which the machine without damper moves most. `edges`
+    and `first` are the datasets of the steps `cliff` and `screening`.
+    """
     known = edges["cliff_frequency"].values[np.isfinite(edges["cliff_frequency"].values)]
     return float(known[-1]) if len(known) else float(first["worst_frequency"])
 

@@ -1,7 +1,10 @@
 """Design of an elastic impact damper by single-term harmonic balance (section 3).
 
 Single-term means that one harmonic of the forcing, with the amplitudes a and b, approximates the
-displacement Z1 of the primary mass and its displacement Z2 relative to the loose mass.
+displacement Z1 of the primary mass and its displacement Z2 relative to the loose mass. Numbers in
+brackets are equations of the paper: (7) is the balance with elastic contacts, (14) its limit for
+rigid walls. Free means without the damper. The slow flow is the equation by which amplitude and
+phase of a solution change slowly; from it the stability of the solution follows.
 """
 
 import numpy as np
@@ -78,12 +81,13 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     -------
     xarray.Dataset
         For each (frequency, free_solution) a motion without the damper. With a damper also, for
-        each (frequency, solution), a solution of (7) or a motion in which the loose mass rests. The
-        stability of such a motion follows from the free slow flow, because the loose mass may rest
-        at any place. For each (frequency, root) a root of (14). Each index of these dimensions
-        is a branch, continuous over frequency from fold to fold, so that
-        `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not exist,
-        entries are NaN or flagged absent. The number of solutions is given for each frequency.
+        each (frequency, solution), a solution of (7) or a motion in which the loose mass rests, and
+        for each (frequency, root) a root of (14). The stability of a motion with the loose mass at
+        rest follows from the slow flow without the damper, because the loose mass may rest at any
+        place. Each index of these dimensions is a branch, continuous over frequency from fold to
+        fold, so that `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not
+        exist, entries are NaN or flagged absent. The number of solutions is given for each
+        frequency.
 
     Raises
     ------
@@ -116,7 +120,10 @@ def harmonic_balance_response(oscillator, damper, frequencies):
 
 
 def _table(columns, rows, fill=np.nan):
-    """Return rows of unequal length as one array, each entry in the column of its branch."""
+    """Return rows of unequal length as one array, each entry in the column of its branch.
+
+    `columns` holds for each row the numbers of the branches. Empty entries are `fill`.
+    """
     width = max((1 + row.max() for row in columns if len(row)), default=1)
     table = np.full((len(rows), width), fill)
     for target, place, row in zip(table, columns, rows, strict=True):
@@ -130,6 +137,7 @@ def _plane(amplitude, phase):
 
 
 def _free_table(oscillator, frequencies):
+    """Return the variables of the solutions without a damper."""
     free = [free_solutions(oscillator, frequency) for frequency in frequencies]
     signs = [
         stability(growth_rate(fixed_points(each), oscillator, None, frequency))
@@ -145,6 +153,7 @@ def _free_table(oscillator, frequencies):
 
 
 def _solution_table(oscillator, damper, frequencies):
+    """Return the variables of the solutions of (7), and of motions with the loose mass at rest."""
     rows, status = [], []
     for frequency in frequencies:
         resting = single_harmonic.resting_solutions(oscillator, damper, frequency)
@@ -182,7 +191,10 @@ def _solution_table(oscillator, damper, frequencies):
 
 
 def _solution_branches(amplitude, relative, phase, kinds):
-    """Return the branches of solutions with a damper; motions with the loose mass at rest last."""
+    """Return for each frequency the branches of the solutions with a damper.
+
+    Motions in which the loose mass rests have the last branches.
+    """
     resting = flag("kind", "resting")
     found, begun = [np.empty(len(row), int) for row in kinds], 0
     for chosen in ([row != resting for row in kinds], [row == resting for row in kinds]):
@@ -199,6 +211,7 @@ def _solution_branches(amplitude, relative, phase, kinds):
 
 
 def _rigid_table(oscillator, damper, frequencies):
+    """Return the variables of the roots of (14)."""
     rigid = [
         single_harmonic.rigid_solutions(oscillator, damper, frequency) for frequency in frequencies
     ]

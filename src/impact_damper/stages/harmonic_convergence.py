@@ -1,6 +1,9 @@
 """Harmonic balance with a rising number of harmonics, compared with the exact periodic orbit.
 
-A balance is the system of equations for the coefficients of the harmonics 1, 3, ... N.
+A balance is the system of equations for the coefficients of the harmonics 1, 3, ... N. An exact
+orbit is a periodic motion found by Newton's method with an accurate integrator. Equation (7) of the
+paper is the balance with one harmonic, of amplitude |a|; e is the restitution. Floquet multipliers
+say whether a motion is stable.
 """
 
 import numpy as np
@@ -17,10 +20,13 @@ from impact_damper.theory import convergence, fourier, hill
 from impact_damper.theory.harmonic_solutions import refine, single_term, solve, state_of
 from impact_damper.theory.many_harmonics import Balance
 
+# Number of values of Z1 in a cycle of the exact orbit for its Fourier coefficients.
 SAMPLES = 2**14
+# Two solutions are the same if their coefficients differ relatively by less than SAME.
 SAME = 1e-6
 # Errors below this value are due to rounding; fits of the decrease leave them out.
 ROUNDING = 1e-12
+# Tolerance with which the exact orbit is integrated.
 FINEST = 1e-14
 
 
@@ -123,7 +129,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 def cold_status(warm, first) -> int:
     """Solve a balance from the single-term solution; return the result as a flag `cold_status`.
 
-    `warm` is the solution of the same balance reached from the balance before.
+    `warm` is the solution of the same balance found from the balance with fewer harmonics.
     """
     found = solve(warm.balance, first)
     if found.status != "converged":
@@ -134,7 +140,10 @@ def cold_status(warm, first) -> int:
 
 
 def hill_table(solutions, exact):
-    """Return the variables of Floquet multipliers by Hill's method."""
+    """Return the variables of Floquet multipliers by Hill's method, a dict.
+
+    `solutions` are the solutions of the balances, and `exact` is the exact `Orbit`.
+    """
     oscillator, damper, frequency = (
         getattr(solutions[0].balance, name) for name in ("oscillator", "damper", "frequency")
     )
@@ -194,7 +203,8 @@ def errors(data, solutions, exact):
         start=np.pi / (2 * balance.frequency),
         tolerance=FINEST,
     )
-    # the samples begin at W T = pi/2, a quarter of a forcing cycle after T = 0
+    # The samples begin at W T = pi/2, a quarter of a forcing cycle after T = 0, so they are shifted
+    # by a quarter.
     coefficients = np.fft.rfft(np.roll(orbit["displacement"].values[:-1], SAMPLES // 4)) / SAMPLES
     for k, solution in enumerate(solutions):
         if solution.status == "converged":
@@ -212,9 +222,9 @@ def errors(data, solutions, exact):
 
 
 def _farthest(values, references):
-    """Return the largest distance of pairs of values and references, paired as closely as possible.
+    """Return the largest distance between a value and its reference.
 
-    The pairing has the smallest sum of distances.
+    Values and references are paired such that the sum of distances is smallest.
     """
     if np.isnan(values).any():
         return np.nan
@@ -223,7 +233,10 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return rates at which errors decrease with N, from `convergence.asymptotic_harmonic` on."""
+    """Return the variables of the rates at which errors decrease with N, observed and predicted.
+
+    The observed rates are fitted from `convergence.asymptotic_harmonic` on.
+    """
     measures = len(convergence.MEASURES)
     lowest = convergence.asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = convergence.decay(damper, p, exact.strobe_states[0])

@@ -1,9 +1,9 @@
 """Design of an impact damper for a machine: the gap, its effect, its tests and its costs.
 
-Cheap steps come first: the screening by exact orbits (`design.screen`), a comparison of gaps from
-many starts over the band (`design.compare`), the choice of the gap (`design.choose`) and the cliff
-beside it (`design.cliff`). Then follow motions, deviations, other masses, transients and tuned
-absorbers.
+Cheap steps come first: the screening by exact periodic orbits (`design.screen`), a comparison of
+gaps by motions from many initial states (`design.compare`), the choice of the gap (`design.choose`)
+and the cliff (`design.cliff`), a gap beyond which fewer initial states lead to small motions. Then
+follow motions, deviations, other masses, transients and tuned absorbers.
 """
 
 import json
@@ -59,7 +59,7 @@ def design_damper(
     contact : HertzContact, optional
         Radius and materials of the contact, for its pressure. If no contact stiffness is given,
         they also determine the stiffness, for an impact at the speed with which the loose mass
-        crosses the gap of the flight rule in half a forcing cycle.
+        crosses the gap of the paper's rule (18) in half a forcing cycle.
     frequencies : int
         Number of frequencies over the band; the resonances in it are added.
     candidates : int

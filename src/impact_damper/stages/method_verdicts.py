@@ -1,10 +1,10 @@
 """Verdict on each method at each tolerance: does its motion settle on the right orbit?
 
-A test case (scene) is a start near an orbit. Its truth is computed by the Taylor series with
-located contacts at a tolerance of 1e-13. Newton's method gives the orbit, if it exists at the
-frequency, and its Floquet multipliers; integration gives the motion to which the start leads. The
-same rule judges all methods. It uses only strobed states, the states at the phase W T = pi/2 of
-each cycle.
+A method is an integrator. A test case (scene) is a start, an initial state, near a periodic orbit.
+Its truth is the motion to which the start leads, computed by the Taylor series, the integrator of
+this package, at a tolerance of 1e-13. Newton's method gives the orbit, if it exists at the
+frequency, and its Floquet multipliers. The same rule judges all methods. It uses only strobed
+states, the states at the phase W T = pi/2 in each cycle.
 """
 
 from typing import NamedTuple
@@ -31,7 +31,7 @@ LABELS = COMPARED["method_verdicts"]
 # Tolerance with which the truth is computed.
 EXACT = 1e-13
 # A motion has settled if its last strobed Z1 and Z1' repeat within REPEATS. A settled motion is on
-# an orbit if one of its strobed states is within NEAR of one of the orbit.
+# an orbit if one of its last strobed states differs from one of the orbit by less than NEAR.
 REPEATS, NEAR = 1e-3, 5e-3
 
 
@@ -42,14 +42,15 @@ class VerdictScene(NamedTuple):
     ----------
     parameters : numpy.ndarray, shape (packed.COUNT,)
     orbit, start : numpy.ndarray, shape (4,)
-        States at W T = pi/2. If the orbit does not exist at the frequency of the scene, `orbit` is
-        its state at the frequency where it was found.
+        States at W T = pi/2 of the orbit and of the start. If the orbit does not exist at the
+        frequency of the scene, `orbit` is its state at the frequency at which it was found.
     period, periods : int
         Period of the orbit, and length of a run, both in forcing cycles.
     multiplier : float
         Modulus of the dominant Floquet multiplier, NaN if the orbit does not exist.
     landing : numpy.ndarray, shape (n, 2)
-        Strobed Z1, Z1' of the orbit that the motion settles on, none if it does not settle.
+        Strobed Z1, Z1' of the orbit of period n on which the motion settles; n is 0 if it does not
+        settle.
     stays : bool
         Whether the motion settles on the orbit near which it starts.
     scipy_every : int
@@ -69,7 +70,7 @@ class VerdictScene(NamedTuple):
 
 
 def settled_period(states):
-    """Return the smallest period with which the last strobed states repeat, 0 if they do not."""
+    """Return the smallest period with which the last LAST strobed states repeat, or 0."""
     for n in range(1, LONGEST_PERIOD + 1):
         last = states[-LAST:, :2]
         if np.abs(last - states[-LAST - n : -n, :2]).max() < REPEATS:
@@ -100,18 +101,18 @@ def make_scene(
         A state near the orbit at W T = pi/2.
     period : int
     offset : sequence of float
-        Start state minus state of the orbit.
+        State of the start minus state of the orbit.
     periods : int
-        Forcing periods to run.
+        Forcing cycles of a run.
     orbit_frequency : float
-        Frequency W at which the orbit is searched for; it need not exist at `frequency`.
+        Frequency W at which the orbit is searched for. The orbit need not exist at `frequency`.
     scipy_every : int
         As in `VerdictScene`.
 
     Raises
     ------
     ValueError
-        If there is no such orbit, or `periods` are too few for the rule.
+        If there is no such orbit, or the run is too short to show that the motion leaves the orbit.
     """
     check_count("scipy_every", scipy_every, least=0)
     check_count("periods", periods, **VERDICT_PERIODS_RANGE)
@@ -140,7 +141,7 @@ def make_scene(
 
 
 def judge(states, scene):
-    """Compare strobed states of a method with the truth of the scene; return a flag `verdict`."""
+    """Return the verdict on the strobed states of a method, a meaning of the flag `verdict`."""
     if not np.isfinite(states).all():
         return "failed"
     found, landed = settled_period(states), len(scene.landing)
@@ -156,15 +157,15 @@ def judge(states, scene):
 
 
 def right_from(right):
-    """Return the first index from which on all entries are True; the length if the last is not."""
+    """Return the first index from which all entries are True; the length if the last is False."""
     wrong = np.flatnonzero(~right)
     return wrong[-1] + 1 if len(wrong) else 0
 
 
 def _by_resolution(label, scene, tolerances, steps):
-    """Return a method's verdict at each tolerance or number of steps, and its `right_from`.
+    """Return a method's verdict at each tolerance or number of steps, and from where it is right.
 
-    `verdicts` describes `right_from`.
+    The second result is the entry `right_from` of the dataset (see `verdicts`).
     """
     name, locate = name_and_mode(label)
     method, integrator = METHODS[name], integrators()[name]

@@ -1,7 +1,8 @@
 """Migration control: the controller of figure 17, from the resonance to the non-resonance branch.
 
-At first the free oscillator is on its resonance branch. The controller switches the damper on and
-off (release) until the oscillator settles on its non-resonance branch. See `migration.controller`.
+Without the damper (free) the oscillator has a large motion on its resonance branch and a small one
+on its non-resonance branch. The controller switches the damper on and off (release) until the
+oscillator changes from the large to the small motion. See `migration.controller`.
 """
 
 import numpy as np
@@ -43,7 +44,7 @@ PAPER_CYCLES = 350
 
 
 def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
-    """Return the `ReleaseCase` and the parameters of the dataset, or raise for a bad argument."""
+    """Check arguments of `migrate`; return the `ReleaseCase` and the parameters of the dataset."""
     check_damper(damper)
     pack(oscillator, damper, frequency)
     check_count("longest_hold", longest_hold, **PERIODS_RANGE)
@@ -84,9 +85,9 @@ def migrate(
     seed : int or numpy.random.SeedSequence
         Seed of the switching phases and of the places of the loose mass.
     longest_hold : int
-        Forcing periods after which the damper is switched off even if the motion has not settled.
+        Forcing cycles after which the damper is switched off even if the motion has not settled.
     periods : int
-        Forcing periods after which the damper is not switched on any more.
+        Forcing cycles after which the damper is not switched on any more.
     switchings : int
         Largest number of switchings.
     settling : Settling, optional
@@ -96,9 +97,9 @@ def migrate(
     -------
     xarray.Dataset
         For each `time` T (dimensionless) the displacement of the primary mass; for each `switching`
-        the times T of switching on, of switching off and of the end of the free run, the damped
-        motion before the release and the free motion after it; and totals of the run, in forcing
-        periods.
+        the times T at which the damper is switched on and off and at which the free motion has
+        settled, the motion before the release and the free motion after it; and totals of the run,
+        in forcing cycles.
 
     Raises
     ------
@@ -133,9 +134,9 @@ def migrate(
 
 
 def _example(totals):
-    """Return the number of the run to be drawn: the first with the median number of switchings.
+    """Return the index of the run to be drawn: the first with the median number of switchings.
 
-    Only runs that reach the non-resonance branch count. Return 0 if none does.
+    Only runs that reach the non-resonance branch are considered. Return 0 if none does.
     """
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
@@ -145,7 +146,7 @@ def _example(totals):
 
 
 def _summary(logs_data, totals):
-    """Return shares of all runs, and counts of releases by damped motion and destination."""
+    """Return shares of all runs, and numbers of releases by the motions before and after them."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     number = len(reached)
     count = [
@@ -184,8 +185,8 @@ def trials(
 ):
     """Run the controller many times, and find the motions to which releases lead.
 
-    After the damper is switched on, a violent transient comes first. The time until it settles, its
-    life, is measured too.
+    After the damper is switched on, a large irregular motion comes first, the violent transient.
+    The time until it settles, its life, is measured too.
 
     Parameters
     ----------
@@ -206,10 +207,11 @@ def trials(
     Returns
     -------
     xarray.Dataset
-        For each `trial` the results of `migrate`, but the displacement of the run `example` only;
-        shares of runs that reach the non-resonance branch. For each (damped, release) the free
-        motion to which a release leads; the first damped motion is the violent transient. For each
-        `run` the life of the transient, and for each `age` the share that survives.
+        For each `trial` the results of `migrate`; the displacement is stored for one trial only,
+        `example`. Shares of trials that reach the non-resonance branch. For each (damped, release)
+        the free motion to which a release leads; the first damped motion is the violent transient.
+        For each `run` the life of the transient, and for each `age` the share of transients that
+        last longer.
 
     Raises
     ------

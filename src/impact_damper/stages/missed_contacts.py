@@ -2,10 +2,11 @@
 
 A passage is a flight without contact whose largest |Z2| is known, where Z2 is the displacement of
 the primary mass relative to the loose mass. If the wall is placed nearer than this |Z2| by some
-depth, a contact begins; if it is placed farther away by the same depth, none does. Integrators
-other than the Taylor series find the contact only if a step ends beyond the wall, whether they
-integrate through the kink of the force or locate events as SciPy does. Their steps before the
-contact do not depend on the wall. One run therefore gives the outcome at all depths.
+depth, a contact begins. If it is placed farther away by the same depth, none does. Integrators
+other than the Taylor series of this package find the contact only if a step ends beyond the wall.
+This holds whether they locate the beginning of a contact, as SciPy does, or not. Their steps before
+the contact do not depend on the wall. One run without walls therefore gives the outcome for all
+depths.
 """
 
 import math
@@ -24,6 +25,7 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
 LABELS = COMPARED["missed_contacts"]
+# The docstring of `missed_contacts` explains the outcomes.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 
@@ -37,7 +39,7 @@ def _counts(integrator, p, passages, depths, resolution):
     spurious : array of int, shape (depth,)
         Number of contacts reported if the wall is farther away by the depth.
     error, steps : float
-        Median error of the largest |Z2| and mean number of steps, NaN if all runs failed.
+        Median error of the largest |Z2|, and mean number of steps; NaN if all runs failed.
     """
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
@@ -90,7 +92,7 @@ def _taylor_seen(p, states, clearances, tolerance):
 
 
 def _taylor_largest(p, passage, tolerance):
-    """Return |Z2| by the Taylor series without walls, at the time of the true largest |Z2|."""
+    """Return |Z2| by the Taylor series without walls, at the time of the passage's largest |Z2|."""
     times = np.array([passage.time, 2 * math.pi / p[FREQUENCY]])
     states = np.empty((2, 4))
     trace(without_walls(p), passage.state.copy(), 0.0, times, tolerance, states, np.empty((0, 5)))
@@ -109,7 +111,7 @@ def missed_contacts(
     implicit_passages,
     seed=1995,
 ):
-    """Return the numbers of contacts near grazing that methods find and miss.
+    """Return the numbers of contacts near grazing that integrators find and miss.
 
     Parameters
     ----------
@@ -117,7 +119,7 @@ def missed_contacts(
     frequency : float
         W.
     passages : int
-        Random passages for each method and tolerance, the same for all.
+        Number of random passages for each integrator and tolerance, the same for all.
     radius : float
         Radius of the ball from which the states of the passages at T = 0 are drawn.
     depths : sequence of float
@@ -138,10 +140,10 @@ def missed_contacts(
         found; unseen (the computed motion passes the wall and returns within one step); not reached
         (the computed motion does not reach the wall, since its error exceeds the depth); failed
         (the run did not reach its end). `spurious_count`: contacts reported where none exists.
-        `motion_error`, the median error of the largest |Z2|, and `mean_steps` are taken from the
-        passages that did not fail, NaN if all did. `expected_unseen`: the share expected to be
-        unseen if fixed steps h end at random times, the mean of max(0, 1 - b/h), where b = 2 sqrt(2
-        depth/|Z2''|) is the time beyond the wall.
+        `motion_error`, the median error of the largest |Z2|, and `mean_steps` come from the
+        passages that did not fail; NaN if all failed. `expected_unseen`: the share expected to be
+        unseen if fixed steps h end at random times. This is the mean of max(0, 1 - b/h), with the
+        time b = 2 sqrt(2 depth/|Z2''|) that the motion spends beyond the wall.
 
     Raises
     ------
@@ -202,7 +204,7 @@ def _count_table(p, passages, totals, depths, tolerances, steps):
 
 
 def _passage_table(passages, depths, steps, period):
-    """Return time, size and curvature of each passage, and shares expected to be unseen."""
+    """Return time, value and curvature of each largest |Z2|, and shares expected to be unseen."""
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
     expected = [np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps]

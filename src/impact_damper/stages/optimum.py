@@ -1,8 +1,10 @@
 """Largest displacement as a function of the clearance, and its minimum (figures 6, 7 and 11).
 
-The motion is the one on the quiet orbit: it has period 1, is symmetric and has two contacts per
-cycle. If there are several branches of such motions, the branch nearest to the clearance of rule
-(18) is taken.
+The motion is the quiet motion, for which a damper is designed: it has period 1, is symmetric and
+has two contacts per cycle. A branch consists of the quiet motions at successive clearances that
+belong together. If there are several branches, the one nearest to the clearance of rule (18) of the
+paper, rm W^2 d0 = f, is taken. Here rm is the mass ratio, W the forcing frequency, d0 the clearance
+and f the forcing amplitude.
 """
 
 import numpy as np
@@ -27,6 +29,7 @@ from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import check_settling
 from impact_damper.theory.optimum_clearance import analytical_table, excess_table
 
+# Parameters of the damper that are the same at all clearances.
 SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
 
 
@@ -65,12 +68,13 @@ def clearance_sweep(
         `clearance` max |Z1| of the quiet motion, the largest max |Z1| of all motions to which
         starts lead, and the amplitude |a| of the smallest stable solution of the harmonic balance
         (7). Scalars: the optimum and the kind of minimum, both for the quiet motion and for (7);
-        the clearances of rules (18) and (19), NaN for (19) if the free response has no peak; rm W^2
-        d0/f at the optimum, with the forcing amplitude f; and the fractions of its excess over 1
-        that two corrections of (18) explain. These are pi^2/8, the first harmonic of a loose mass
-        in straight flight, and straight flight between walls of this stiffness. For each `edge` an
-        end of the range of clearances in which max |Z1| is within 10 % of its minimum. The
-        attribute `optimum` is a sentence on the optimum, or says that there is no quiet motion.
+        the clearances of rules (18) and (19), NaN for (19) if the response without the damper has
+        no peak; rm W^2 d0/f at the optimum, with the forcing amplitude f; and the fractions of its
+        excess over 1 that two corrections of (18) explain. The first replaces the 1 by pi^2/8, from
+        the first harmonic of a loose mass that flies at constant speed. The second is the theory of
+        this straight flight between walls of finite stiffness. For each `edge` an end of the range
+        of clearances in which max |Z1| is within 10 % of its minimum. The attribute `optimum` is a
+        sentence on the optimum, or says that there is no quiet motion.
 
     Raises
     ------
@@ -142,7 +146,7 @@ def clearance_sweep(
 
 
 def _peak_rule(oscillator, mass_ratio):
-    """Return the clearance of rule (19), NaN if the free response has no peak."""
+    """Return the clearance of rule (19); NaN if the response without damper has no peak."""
     try:
         return optimum_clearance(oscillator, mass_ratio)
     except ValueError:
@@ -150,9 +154,9 @@ def _peak_rule(oscillator, mass_ratio):
 
 
 def _quiet_branch(data, parameters, rule):
-    """Return the branch of the quiet motion nearest to the clearance `rule`.
+    """Return the `Branch` of quiet motions nearest to the clearance `rule`.
 
-    If there is no quiet motion, all its states and displacements are NaN.
+    If there is no quiet motion, all states and displacements of the branch are NaN.
     """
     table = {
         name: data[name][1]

@@ -13,6 +13,7 @@ from impact_damper.data.datasets import dataset, flag
 from impact_damper.system.bounds import shown
 from impact_damper.system.settling import check_settling
 
+# Names of the groups, with the functions that compare them.
 GROUPS = {
     "rigid_walls": rigid_walls,
     "vibro_impact": vibro_impact,
@@ -42,10 +43,10 @@ def published(settings, *, seed=1995, settling=None):
     -------
     xarray.Dataset
         For each `comparison`: the published value, the value computed here, the publication, the
-        reason for their difference, the order with which the difference falls, the computed value
-        extrapolated to the limit in which the closed form holds, the standard error of the
-        difference if both values are shares of random samples, and the expected size of the
-        relative difference.
+        reason for their difference; the exponent of the power of a parameter with which the
+        difference falls; the computed value extrapolated to the limit in which the closed form
+        holds; the standard error of the difference if both values are shares of random samples; and
+        the expected size of the relative difference.
 
     Raises
     ------

@@ -1,4 +1,10 @@
-"""Dampers compared for migration and for suppression: maps over mass, gap and restitution."""
+"""Dampers compared for migration and for suppression: maps over mass, gap and restitution.
+
+Suppression means that the damper stays on and keeps the motion small. Migration means that the
+damper is switched on and off until the oscillator without it changes from its large motion, the
+resonance motion, to its small one, the goal. A policy decides when to switch the damper off (to
+release it). A hold is the time with the damper on.
+"""
 
 import math
 
@@ -17,12 +23,13 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import check_settling
 
-# Cycles after which the policy by state gives up waiting for a state in the goal's basin and
-# switches the damper off and on again: few, or infinitely many (it then waits for the quiet
-# motion). The better of the two counts.
+# The policy by state switches the damper off once a release would lead to the goal. If no such
+# state comes within a number of cycles, it switches the damper off and on again. Two numbers are
+# tried, few and infinitely many, and the better one counts.
 WAITS = [Policy(STATE, 5.0), Policy(STATE, math.inf)]
 POLICIES = ["settled", "state"]
-# Quiet limit as a fraction of the largest displacement of the free resonance motion.
+# A motion is quiet if its largest displacement is below QUIET times that of the resonance motion
+# without the damper.
 QUIET = 0.5
 
 
@@ -52,13 +59,14 @@ def release_dampers(
     mass_ratios, clearances, restitutions : sequence of float
         Values of the dampers of the map; all combinations are computed.
     cut : dict
-        `mass_ratio`, `clearance` and a list `restitutions` of the dampers of the cut.
+        Further dampers that differ in the restitution only: `mass_ratio`, `clearance`, and a list
+        `restitutions`.
     trials : int
         Trials of each policy.
     starts : int
         Random starts of motions with the damper on.
     cells : int
-        Cells on each axis of the coarse grid of a release set.
+        Cells on each axis of the coarse grid on which the states that lead to the goal are found.
     seed : int
     settling : Settling, optional
     workers : int
@@ -69,11 +77,10 @@ def release_dampers(
     Returns
     -------
     xarray.Dataset
-        For each damper and policy (the paper's, and release by state) the share of trials that
-        reach the goal within 350 cycles and the median of the cycles until the goal; for each
-        damper max |Z1| of the quiet motion and the largest max |Z1| with the damper on. A quiet
-        motion here is the smallest settled motion of any period, if max |Z1| is below QUIET times
-        the max |Z1| of the free resonance motion.
+        For each damper and policy (the paper's, and the policy by state) the share of trials that
+        reach the goal within 350 cycles and the median of the cycles until the goal. For each
+        damper the largest displacement with the damper on, and the displacement of the quiet
+        motion. This is the smallest settled motion of any period, if it is quiet (QUIET).
 
     Raises
     ------
@@ -122,14 +129,26 @@ def release_dampers(
 
 
 class _Judge:
-    """Computes the results of dampers at one frequency."""
+    """Computes the results of dampers at one frequency.
+
+    Parameters
+    ----------
+    free : FreeCase
+        The oscillator without the damper, with the states that lead to the goal.
+    oscillator, frequency, trials, starts, seed
+        Arguments of `release_dampers`; `frequency` is one value.
+    """
 
     def __init__(self, free, oscillator, frequency, trials, starts, seed):
         self.free, self.oscillator, self.frequency = free, oscillator, frequency
         self.trials, self.starts, self.seed = trials, starts, seed
 
     def dampers(self, dampers):
-        """Return arrays of success, cycles, quiet and largest displacement; rows are dampers."""
+        """Return a dict of arrays, whose rows are dampers.
+
+        "success" and "cycles" come from the trials of both policies, "quiet" and "largest" are
+        displacements.
+        """
         rows = [self._migration(damper) for damper in dampers]
         sizes = self._displacements(dampers)
         return {
@@ -140,7 +159,10 @@ class _Judge:
         }
 
     def _migration(self, damper):
-        """Return success and median of the cycles of each policy with bounds, shape (2, 3)."""
+        """Return the success of each policy and the median of its cycles, shape (2, 3) each.
+
+        A row holds the number and the ends of its 95 % confidence interval.
+        """
         on, limit = pack(self.oscillator, damper, self.frequency), float(PAPER_CYCLES)
         chosen = best_policy(on, self.free, WAITS, self.trials, limit, [self.seed, 1])
         outcomes = [

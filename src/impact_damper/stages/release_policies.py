@@ -1,8 +1,13 @@
 """Policies of migration compared: when should the damper be switched off?
 
-Each policy of `migration.policies` is tried from the free resonance motion. The parameters of a
-policy are chosen in trials with other random numbers than the trials that measure its success. The
-clairvoyant bound (`migration.clairvoyant`) is computed for comparison.
+Without the damper the oscillator has a large motion, the resonance motion, and a small one, the
+goal. Migration leads from the large to the small motion by switching the damper on and off.
+Switching off is called release. The release set contains the states from which a release leads to
+the goal; its margin is a required distance of the measured state from the boundary of this set.
+
+Each policy of `migration.policies` is tried from the resonance motion. The parameters of a policy
+are chosen in trials with other random numbers than the trials that measure its success. The success
+of a controller that knows the future (`migration.clairvoyant`) is an upper bound.
 """
 
 import math
@@ -30,11 +35,12 @@ from impact_damper.system.parameters import describe
 from impact_damper.system.settling import check_settling
 
 POLICIES = ["settled", "hold", "phase", "state", "clairvoyant"]
-# Margins over the size of the resonance motion.
+# Margins of the policy by state, divided by max |Z1| of the resonance motion.
 MARGINS = (0.0, 0.02, 0.04, 0.08, 0.16)
-# Disturbances of the policy by state. noise: error of the measured state over the size of the
-# resonance motion; delay: in 1/PHASES of a cycle; model: factors of damping and force of the model
-# from which the release set is computed.
+# Disturbances of the policy by state.
+# noise: standard deviation of the measured Z1, divided by max |Z1| of the resonance motion.
+# delay: time from the measurement to the release, in 1/PHASES of a cycle.
+# model: factors of damping and force of the wrong model from which the release set is computed.
 DISTURBANCES = {
     "none": {},
     "noise 0.1 %": {"noise": 0.001},
@@ -50,12 +56,13 @@ DISTURBANCES = {
     "h -5 %, force -1 %": {"model": (0.95, 0.99)},
     "noise 3 %, delay 1/8, h +5 %, force -1 %": {"noise": 0.03, "delay": 2, "model": (1.05, 0.99)},
 }
-# Number of trials of a policy divided by that with a disturbance, and by that of the clairvoyant
-# bound.
+# To save time there are fewer trials with a disturbance, by the factor DISTURBED, and of the
+# clairvoyant bound, by the factor CLAIRVOYANT.
 DISTURBED, CLAIRVOYANT = 2, 4
-# Changes of velocity that are tried, in units of the largest speed of the resonance motion.
+# Changes of velocity that are tried to reach the goal without a damper, divided by W max |Z1| of
+# the resonance motion.
 IMPULSES = np.linspace(-2, 2, 801)
-# Cycles with the damper on before a release that tests the prediction.
+# Cycles with the damper on before a release that tests whether the release set is right.
 TESTED_HOLD = 10
 
 
@@ -73,7 +80,7 @@ def release_policies(
     workers=1,
     progress=None,
 ):
-    """Compare policies of migration, and test the prediction of the release set.
+    """Compare policies of migration, and test the release set.
 
     Parameters
     ----------
@@ -87,7 +94,7 @@ def release_policies(
         Trials of each policy; half as many with each disturbance, and a quarter of them for the
         clairvoyant bound.
     tested : int
-        Releases that test the prediction, spread evenly over the phases.
+        Releases that test the release set, spread evenly over the phases.
     cells : int
         Cells on each axis of the coarse grid of a release set.
     seed : int
@@ -100,10 +107,12 @@ def release_policies(
     Returns
     -------
     xarray.Dataset
-        For each (case, frequency, policy) the share of trials that reach the goal within 350
-        cycles, quantiles of the cycles until the goal, and the cost, each with 95 % bounds;
-        predicted and realised shares of the test; the smallest impulse without a damper; success
-        and median of the cycles under noise, delay and a wrong model for each margin.
+        A case is a damper. For each (case, frequency, policy) the share of trials that reach the
+        goal within 350 cycles, quantiles of the cycles until the goal, and the cost (time with the
+        damper on, impacts, releases), each with the ends of its 95 % interval; the shares of
+        releases that lead to the goal, as predicted by the release set and as realised; the
+        smallest change of velocity that leads to the goal without a damper; success and median of
+        the cycles under noise, delay and a wrong model for each margin.
 
     Raises
     ------
@@ -175,7 +184,10 @@ def release_policies(
 
 
 def compared(on, free, trials, seed):
-    """Return the policies, and the outcomes of their trials and of the bound, in that order."""
+    """Return the policies, and the outcomes of their trials.
+
+    The last outcome is that of the clairvoyant bound, which has no policy.
+    """
     limit = float(PAPER_CYCLES)
     policies = [Policy(SETTLED), *chosen_policies(on, free, trials, limit, [seed, 1])]
     outcomes = [run_trials(on, free, policy, trials, limit, [seed, 0]) for policy in policies]
@@ -185,7 +197,11 @@ def compared(on, free, trials, seed):
 
 
 def prediction(on, free, count, seed):
-    """Return registered variables of a test of the release set by releases at every phase."""
+    """Return the variables of a test of the release set by releases at every phase, a dict.
+
+    They are shares of the releases, each with the ends of its 95 % interval: predicted and realised
+    share of the goal, and share of releases for which both agree.
+    """
     generator = np.random.default_rng([seed, 2])
     each = max(1, count // PHASES)
     start = np.tile(free.attractors.centre[-1], (each, 1))
@@ -205,7 +221,11 @@ def prediction(on, free, count, seed):
 
 
 def impulses(free):
-    """Return the smallest change of velocity to the goal: at the best phase, and the median."""
+    """Return the smallest change of velocity that leads from the resonance motion to the goal.
+
+    The first result is the change at the best phase of the forcing, the second the median over the
+    phases.
+    """
     speed = free.size * free.p[FREQUENCY]
     least = []
     for phase in 2 * math.pi * np.arange(PHASES) / PHASES:
@@ -217,7 +237,10 @@ def impulses(free):
 
 
 def wrong_models(oscillator, frequency, cells, free):
-    """Return cases with release sets of wrong models, keyed by factors of damping and force."""
+    """Return copies of `free` with release sets of wrong models, a dict.
+
+    Its keys are the factors of damping and force of the wrong models.
+    """
     found = {}
     for damping, force in {each["model"] for each in DISTURBANCES.values() if "model" in each}:
         wrong = replace(
@@ -229,14 +252,16 @@ def wrong_models(oscillator, frequency, cells, free):
 
 
 def under_disturbance(on, models, policy, trials, seed, disturbances=DISTURBANCES):
-    """Return success and median of the cycles for each disturbance and margin, with bounds.
+    """Return success and median of the cycles for each disturbance and margin.
+
+    Both have the shape (disturbances, margins, 3), with the ends of the 95 % interval.
 
     Parameters
     ----------
     on : array, shape (packed.COUNT,)
         Packed parameters with the damper.
     models : dict
-        The case with the true release set, and the cases of `wrong_models`.
+        `FreeCase` with the true release set, keyed by (1.0, 1.0), and those of `wrong_models`.
     policy : Policy
         The policy by state.
     trials, seed : int

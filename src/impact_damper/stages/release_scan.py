@@ -1,6 +1,8 @@
 """Free motions to which releases of the damper lead, at each frequency of a scan.
 
-A release switches the damper off (`migration.damper_release`).
+A release switches the damper off (`migration.damper_release`). Free means without the damper. At
+the frequencies of a scan the free oscillator has two motions of period 1, a large and a small one,
+and sometimes others.
 """
 
 import numpy as np
@@ -23,7 +25,7 @@ from impact_damper.system.settling import check_settling
 
 
 def _scan_records(response):
-    """Return records of the settled motions at one frequency of a frequency response.
+    """Return an array of `records.MOTION` of the settled motions at one frequency of a response.
 
     Only the fields that `release_data` reads are set. The smallest motion comes first.
     """
@@ -35,7 +37,7 @@ def _scan_records(response):
 
 
 def _padded(values, length):
-    """Return `values`, its first axis extended to a length with NaN, or with -1 for integers."""
+    """Return `values` with its first axis extended to a length by NaN, or by -1 for integers."""
     missing = np.full(
         (length - len(values), *values.shape[1:]),
         np.nan if values.dtype.kind == "f" else -1,
@@ -71,9 +73,9 @@ def release_scan(
     radius : float, optional
         As in `response.frequency_response`.
     releases : int
-        Number of releases of each motion.
+        Number of releases from each motion.
     lifetime : int
-        Number of forcing cycles within which the motion that has not settled is released.
+        Largest number of forcing cycles of a run that is released before it settles.
     seed : int
     settling : Settling, optional
     workers, progress

@@ -1,4 +1,10 @@
-"""The free oscillator, and trials of policies, for all stages on policies of migration."""
+"""The free oscillator, and statistics of trials, for all stages on policies of migration.
+
+Without the damper (free) the oscillator has a large motion, the resonance motion, and a small one,
+the non-resonance motion. Migration leads from the large to the small one by switching the damper on
+and off. A policy decides when to switch the damper off. The release set contains the states from
+which the free motion settles to the small motion.
+"""
 
 import math
 
@@ -13,11 +19,14 @@ from impact_damper.system.packed import pack
 
 # Number of phases in a cycle at which the controller observes the state.
 PHASES = 16
+# Quantiles of the cycles until the goal that are stored: the median and the 95 % quantile.
 QUANTILES = [0.5, 0.95]
 
 
 def free_case(oscillator, frequency, cells, settling, workers) -> FreeCase:
-    """Return the free oscillator at a frequency with its release set.
+    """Return the `FreeCase` at a frequency, with its release set.
+
+    `cells` is the number of cells on each axis of the coarse grid of the release set.
 
     Raises
     ------
@@ -40,7 +49,7 @@ def free_case(oscillator, frequency, cells, settling, workers) -> FreeCase:
 
 
 def summary(outcome):
-    """Return registered variables of the trials of one policy."""
+    """Return a dict of dataset variables of the trials of one policy, from their `Outcome`."""
     return {
         "policy_success": wilson(np.sum(outcome.reached), len(outcome.reached)),
         "policy_cycles": [quantile(outcome.cycles, share) for share in QUANTILES],
@@ -51,9 +60,11 @@ def summary(outcome):
 
 
 def quantile(values, share):
-    """Return a quantile and its distribution-free 95 % interval, by order statistics, shape (3,).
+    """Return a quantile and the ends of its 95 % confidence interval, shape (3,).
 
-    The number of values below the quantile is binomial.
+    The interval needs no assumption on the distribution of the values: the number of values below
+    the quantile has a binomial distribution, which gives the ends as sorted values (order
+    statistics).
     """
     ordered, count = np.sort(np.asarray(values, float)), len(values)
     spread = QUANTILE * math.sqrt(count * share * (1 - share))

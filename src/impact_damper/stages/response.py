@@ -1,4 +1,7 @@
-"""All motions at each frequency, and the share of random starts that lead to a collision."""
+"""All motions at each frequency, and the share of random starts that lead to a collision.
+
+A start is an initial state of oscillator and loose mass.
+"""
 
 import numpy as np
 
@@ -143,7 +146,8 @@ def collisions(
 ):
     """Count the random starts that lead to a collision, in the whole ball and within the gap.
 
-    The whole (literal) ball of the paper extends beyond the walls.
+    A start is a state in a ball around rest. Read literally, the ball of the paper extends beyond
+    the walls.
 
     Parameters
     ----------
@@ -155,11 +159,11 @@ def collisions(
     starts : int
         Number of starts at T = 0 in each ball.
     radius : float, optional
-        Radius of the ball; 2 in the paper (section 3, iii). Without it the largest displacement or
-        speed of the free motions, whichever is larger.
+        Radius of the ball; 2 in the paper (section 3, iii). By default the largest displacement or
+        speed of the motions without the damper, whichever is larger.
     seed : int
     periods : int
-        Forcing periods of a run; only collisions within them count.
+        Forcing cycles of a run; only collisions within them count.
     tolerance : float
         Local error allowed in a step of the integrator.
 

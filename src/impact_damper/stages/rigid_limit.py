@@ -1,7 +1,8 @@
 """Errors of the rigid-impact model as functions of contact stiffness r1 and frequency.
 
-The exact system has compliant contacts. The quiet orbits (period 1, two symmetric contacts) of both
-systems are compared, stable or unstable. The compliant orbit is followed through a grid of
+The rigid-impact model has rigid walls and impacts that take no time. The exact system has compliant
+contacts of stiffness r1. The quiet orbits of both, periodic motions of one cycle with two symmetric
+contacts, are compared, stable or unstable. The compliant orbit is followed through a grid of
 frequencies and r1. The rigid orbit does not depend on r1 and is followed in frequency. It is also
 computed with corrected walls (`mended`), which account for the penetration at finite r1.
 """
@@ -21,7 +22,7 @@ from impact_damper.system.packed import pack
 from impact_damper.system.parameters import check_damper, describe
 from impact_damper.system.settling import check_settling
 
-# Relative errors of max |Z1| for which the dataset holds the stiffness needed.
+# Relative errors of max |Z1|. The dataset says from which stiffness the error is smaller.
 THRESHOLDS = (0.01, 0.1)
 # Largest distance of an orbit's state from the state predicted for it.
 REACH = 0.1
@@ -43,7 +44,7 @@ def rigid_limit(
     frequencies, stiffnesses : sequence of float
         Increasing W and r1 of the grid, dimensionless; at least two each.
     starts : int
-        Number of random starts of this search.
+        Number of random initial states from which the quiet motion is searched for.
     seed : int
     settling : Settling, optional
 
@@ -51,9 +52,10 @@ def rigid_limit(
     -------
     xarray.Dataset
         For each (frequency, stiffness) the compliant orbit, the rigid orbit with corrected walls
-        (`mended`), errors and verdict; for each `frequency` the rigid orbit, the orders with which
-        errors decrease as r1 grows, and the stiffness above which the error of max |Z1| is below
-        each threshold; errors at the damper's own r1 as scalars.
+        (`mended`), errors and verdict (whether both orbits exist and are stable); for each
+        `frequency` the rigid orbit, the exponents n with which errors decrease as r1^-n, and the
+        stiffness above which the error of max |Z1| is below each of THRESHOLDS; errors at the
+        damper's own r1 as scalars.
 
     Raises
     ------
@@ -99,7 +101,13 @@ def rigid_limit(
 
 
 def _quiet(oscillator, damper, frequency, starts, seed, settling):
-    """Return the quiet orbit to which random starts lead, or raise an error."""
+    """Return the quiet orbit to which random starts lead.
+
+    Raises
+    ------
+    ArithmeticError
+        If no start leads to a quiet orbit.
+    """
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
         p = pack(oscillator, damper, frequency)
@@ -122,9 +130,12 @@ def _spread(correct, points, cell, own_point, orbit):
 
 
 def _reached(followed, key):
-    """Return the orbit at the end of a line if it was reached, otherwise raise an error.
+    """Return the orbit at the end of the line along which it was followed.
 
-    The error names `key`, the axis of the grid.
+    Raises
+    ------
+    ArithmeticError
+        If the end was not reached. The message names `key`, the axis of the grid.
     """
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
@@ -160,7 +171,10 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
 
 
 def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
-    """Return the rigid orbits with corrected walls, keyed by cell, and the status of each cell."""
+    """Return the rigid orbits with corrected walls, keyed by cell, and the status of each cell.
+
+    `rigid` are the rigid orbits, keyed by cell.
+    """
     orbits = {}
     flags = np.full((len(frequencies), len(stiffnesses)), flag("mended_status", "not_attempted"))
     for (i,), orbit in rigid.items():
@@ -174,7 +188,10 @@ def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
 
 
 def _columns(name, found, status):
-    """Return the variables of a model; `found` maps cells of the grid to its orbits."""
+    """Return the variables of a model: status, largest displacement and multiplier of each cell.
+
+    `found` maps cells of the grid to orbits.
+    """
     displacement, multiplier = np.full(status.shape, np.nan), np.full(status.shape, np.nan + 0j)
     for cell, orbit in found.items():
         displacement[cell], multiplier[cell] = orbit.displacement, orbit.multiplier

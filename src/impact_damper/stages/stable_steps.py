@@ -1,9 +1,10 @@
 """The largest steps with which fixed-step methods keep the quiet motion, for each stiffness r1.
 
-The quiet motion has period 1 and two contacts per cycle. Every run starts on the exact quiet orbit
-and integrates through the kinks of the force with equal steps h, a whole number of them in each
-cycle. The linear stability of a method limits h omega_c, where omega_c = sqrt(r1 (1 + 1/rm)) is the
-natural frequency of an undamped contact.
+The quiet motion, for which a damper is designed, has period 1 and two contacts per cycle. A method
+keeps it if its computed motion stays close. Every run starts on the exact quiet orbit and takes
+equal steps h, a whole number of them in each cycle, without locating contacts. The linear stability
+of a method limits h omega_c, where omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an
+undamped contact and rm the mass ratio.
 """
 
 import itertools
@@ -32,10 +33,12 @@ from impact_damper.system.settling import Settling
 from impact_damper.theory.free_oscillator import main_solutions
 
 LABELS = COMPARED["stable_steps"]
-# A run keeps the quiet motion if max |Z1| of every cycle is within this fraction of the exact one.
+# A run keeps the quiet motion with an accuracy if max |Z1| of every cycle differs relatively by at
+# most this number from that of the exact orbit.
 ACCURACIES = (0.01, 0.1)
-# Orbits are followed in r1. Largest factor between neighbouring r1; largest distance of an orbit's
-# state from the predicted state.
+# Orbits are followed in r1.
+# FACTOR: largest factor between neighbouring r1.
+# REACH: largest distance of an orbit's state from the predicted state.
 FACTOR = 10.0**0.0625
 REACH = 0.2
 # Local error allowed in the exact orbits, the reference of the runs.
@@ -43,12 +46,13 @@ EXACT = 1e-13
 # A stable step is reported only if at least this number of the smallest steps tested keep the quiet
 # motion.
 CONFIRMED = 4
-# The slope is fitted from this r1 on, where contacts are much shorter than a cycle.
+# The largest stable step falls as a power of r1. The exponent is fitted to r1 from STIFF on, where
+# contacts are much shorter than a cycle.
 STIFF = 1e3
 
 
 def quiet_state(p):
-    """Return the state at W T = pi/2 of the quiet motion, or None if the run leads elsewhere.
+    """Return the state at W T = pi/2 of the quiet motion, or None if a run leads to another motion.
 
     At the start of the run the primary mass is at rest and the loose mass crosses the gap.
     """
@@ -74,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     Returns
     -------
     list of CompliantOrbit or None
-        One for each stiffness; None where the orbit could not be followed so far.
+        One for each stiffness; None if the orbit could not be followed to this stiffness.
 
     Raises
     ------
@@ -115,9 +119,10 @@ def _in_steps(own, targets):
 
 
 def _verdict(largest, exact, bound):
-    """Compare the largest |Z1| of each period with the exact one.
+    """Return the largest relative deviation of max |Z1| in any cycle, and the name of a verdict.
 
-    Returns the largest relative deviation and the name of a verdict.
+    `largest` are the computed max |Z1| of the cycles, and `exact` that of the orbit. A run has
+    escaped if |Z1| exceeds `bound`.
     """
     if not np.isfinite(largest).all():
         return np.inf, "diverged"
@@ -131,9 +136,10 @@ def _verdict(largest, exact, bound):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step that holds together with all smaller tested steps.
+    """Return the largest step that keeps the quiet motion, as do all smaller tested steps.
 
-    NaN if these steps are fewer than CONFIRMED. `held` marks the steps that keep the quiet motion.
+    `held` and `tested` mark the steps that keep it, and the steps that were tested. Return NaN if
+    fewer than CONFIRMED steps remain.
     """
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
@@ -172,19 +178,19 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     most_steps : int
         Runs that would take more steps than this in a forcing cycle are left out.
     periods : int
-        Forcing periods of a run.
+        Forcing cycles of a run.
 
     Returns
     -------
     xarray.Dataset
         For each (fixed_method, contact_stiffness, scaled_step): `step_verdict`, and
-        `step_deviation`, the largest relative deviation of a period's max |Z1| from the exact one,
-        NaN if not run. A run has escaped if |Z1| exceeds half the largest free amplitude of
-        harmonic balance at W. For each (fixed_method, contact_stiffness, accuracy): `stable_step`,
-        the largest step h for which this and all smaller tested steps keep the accuracy, NaN if
-        these are too few (CONFIRMED); `largest_holding_step`, the largest h that keeps the
-        accuracy, even if a smaller one does not. `step_slope` and its error: slope of log(1/h) as a
-        function of log r1 for r1 >= 1000.
+        `step_deviation`, the largest relative deviation of a cycle's max |Z1| from the exact one,
+        NaN if not run. A run has escaped if |Z1| exceeds half the largest amplitude without damper
+        by harmonic balance at W. For each (fixed_method, contact_stiffness, accuracy):
+        `stable_step`, the largest step h that keeps the accuracy, as do all smaller tested steps,
+        NaN if these are fewer than CONFIRMED; `largest_holding_step`, the largest h that keeps the
+        accuracy, even if a smaller one does not. For each (fixed_method, accuracy): `step_slope`,
+        the slope of log(1/h) over log r1 from r1 = STIFF on, and its standard error.
 
     Raises
     ------
@@ -231,7 +237,10 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
 
 
 def _cells(methods, orbits, counts, tested, bound, periods):
-    """Return the verdict and the deviation of each method, orbit and number of steps."""
+    """Return the verdict and the deviation of each method, orbit and number of steps.
+
+    `counts` are numbers of steps in a cycle, and `tested` marks those that are run.
+    """
     shape = (len(methods), *counts.shape)
     verdicts = np.full(shape, flag("step_verdict", "not_run"))
     deviations = np.full(shape, np.nan)
@@ -271,5 +280,5 @@ def _step_data(deviations, tested, sizes, stiffnesses):
 
 
 def _of(found, name):
-    """Return the attribute `name` of each orbit, NaN in place of a missing orbit."""
+    """Return the attribute `name` of each orbit; NaN for a missing orbit."""
     return np.array([np.nan if orbit is None else getattr(orbit, name) for orbit in found])

@@ -1,9 +1,10 @@
 """Studies: motions from random starts in each cell of a grid of dampers and frequencies.
 
-The cells are numbered in the order of `AXES`, the last axis fastest. A chunk of a study is a range
-of these numbers. The seed and the number of a cell determine its random starts, so the results do
-not depend on the division into chunks. After every few cells the runs are reduced to a few numbers
-per cell, so the memory of a chunk hardly grows with its size.
+A start is an initial state. A cell is one combination of mass ratio, clearance, frequency and
+restitution. The cells are numbered in the order of `AXES`, the last axis fastest. A chunk of a
+study is a range of these numbers. The seed and the number of a cell determine its random starts, so
+the results do not depend on the division into chunks. After every few cells the runs are reduced to
+a few numbers per cell, so the memory of a chunk hardly grows with its size.
 """
 
 import math
@@ -27,6 +28,8 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import Settling
 
+# Results of a cell: number of random starts with each outcome and of those that lead to the quiet
+# orbit; largest displacement of all motions, and smallest one on a quiet orbit.
 CELL = np.dtype(
     [
         ("outcome_count", "i4", len(OUTCOMES)),
@@ -67,9 +70,10 @@ def study_chunk(
     Returns
     -------
     xarray.Dataset
-        For each `cell`: largest displacement of all motions to which the starts lead, displacement
-        on the quiet orbit (period 1, two symmetric contacts), numbers of random starts that lead to
-        the quiet orbit and to each outcome. The coordinates include the axes of the whole grid.
+        For each `cell`: largest displacement of all motions to which the starts lead; displacement
+        on the quiet orbit, a periodic motion of one cycle with two symmetric contacts; numbers of
+        random starts that lead to the quiet orbit and to each outcome. The coordinates include the
+        axes of the whole grid.
 
     Raises
     ------
@@ -95,7 +99,8 @@ def study_chunk(
         return random_states(starts, radius, damper, [seed, cell]), NO_STARTS
 
     check_count("seed", seed, **SEED_RANGE)
-    # axes are sorted, so a value out of range is at an end: checked now, not after hours of work
+    # The axes are sorted, so a value out of range is at an end of its axis. It is found here, not
+    # after hours of work.
     for end in (0, -1):
         _, damper = system([end] * len(AXES))
         if radius is not None:
@@ -115,7 +120,7 @@ def study_chunk(
         for k, of_cell in enumerate(np.split(runs, ends[:-1]), part.start):
             found[k] = _condensed(of_cell, starts)
 
-    # cells computed at a time: together they have about `ensemble.CHUNK` random starts
+    # Number of cells that are run together. They have about `ensemble.CHUNK` random starts.
     together = max(1, ensemble.CHUNK // starts)
     ensemble.run_chunks(work, last - first, workers, progress, stop, size=together)
     data = {
@@ -128,9 +133,10 @@ def study_chunk(
 
 
 def _condensed(runs, starts):
-    """Return the results of the runs in a cell, random starts first, as a row of `CELL`.
+    """Return the results of the runs in a cell as a row of `CELL`.
 
-    Only random starts are counted.
+    The first `starts` runs are those from random starts. Only these are counted. The others begin
+    on motions without the damper.
     """
     sizes = runs["maximum_displacement"]
     quiet = is_settled(runs) & is_symmetric_pair(runs)
@@ -143,7 +149,13 @@ def _condensed(runs, starts):
 
 
 def _checked(axes):
-    """Return the axes as arrays in the order of `AXES`, or raise TypeError or ValueError."""
+    """Return the axes as increasing arrays in the order of `AXES`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an axis is missing or unknown, or does not increase.
+    """
     if not isinstance(axes, dict) or set(axes) != set(AXES):
         raise TypeError(f"axes = {axes!r}: must be a dictionary of {', '.join(AXES)}")
     return {name: check_increasing(f"axes[{name!r}]", np.atleast_1d(axes[name])) for name in AXES}

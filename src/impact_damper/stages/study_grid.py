@@ -19,9 +19,9 @@ def gather_chunks(paths, path) -> None:
     """Write the chunks of a study, in their order, into one file.
 
     The file has the variables of a chunk, with the axes of the grid as dimensions in place of
-    `cell`. In addition it has the clearance of the grid with the smallest largest displacement, for
-    each mass ratio, frequency and restitution, and the clearance of rule (18), for each mass ratio
-    and frequency.
+    `cell`. It also has two clearances. The first, for each mass ratio, frequency and restitution,
+    is the clearance of the grid at which the largest displacement is smallest. The second, for each
+    mass ratio and frequency, is the clearance of the paper's rule (18).
 
     Parameters
     ----------
@@ -62,7 +62,10 @@ def gather_chunks(paths, path) -> None:
 
 
 def _place(file, chunk, first, shape):
-    """Write a chunk to its cells, from cell number `first` on, and return their number."""
+    """Write a chunk to its cells, from cell number `first` on, and return the number of cells.
+
+    `file` is an open file, and `shape` the shape of the grid.
+    """
     count = chunk.sizes["cell"]
     for cells, block in blocks(first, first + count, shape):
         lengths = [index.stop - index.start for index in block]
@@ -89,9 +92,10 @@ def _check_next(chunk, path, first, head):
 
 
 def blocks(first, last, shape):
-    """Divide a range of cells, numbered with the last axis fastest, into blocks of the grid.
+    """Divide a range of cells into rectangular blocks of the grid.
 
-    For n axes there are at most 2 n - 1 blocks, whatever the length of the range.
+    The cells are numbered with the last axis fastest. For n axes there are at most 2 n - 1 blocks,
+    whatever the length of the range.
 
     Parameters
     ----------
@@ -106,7 +110,7 @@ def blocks(first, last, shape):
     """
     while first < last:
         axis, stride = len(shape) - 1, 1
-        # the largest block that begins here and does not extend beyond the end
+        # Find the largest block that begins at cell `first` and does not extend beyond the range.
         while axis > 0 and first % (wider := stride * shape[axis]) == 0 and first + wider <= last:
             axis, stride = axis - 1, wider
         place = np.unravel_index(first, shape)
@@ -119,7 +123,7 @@ def blocks(first, last, shape):
 
 
 def _write_clearances(file, axes, oscillator):
-    """Write the clearance of least displacement, and by mass ratio the clearance of rule (18)."""
+    """Write both clearances that `gather_chunks` adds."""
     dims = tuple(name for name in AXES if name != "clearance")
     _define(file, "best_clearance", dims, float)
     _define(file, "rule_clearance", ("mass_ratio", "frequency"), float)

@@ -1,7 +1,8 @@
 """The one-third subharmonic of the free oscillator, and its suppression by a damper.
 
-Free means without the damper. The free subharmonic is a symmetric motion of period 3 (in forcing
-periods). With the damper, every motion whose period is a multiple of 3 counts as a subharmonic.
+Free means without the damper. The free subharmonic is a symmetric motion that repeats after three
+forcing cycles (period 3). With the damper, every motion whose period is a multiple of 3 counts as a
+subharmonic. A start is an initial state.
 """
 
 import numpy as np
@@ -24,11 +25,13 @@ from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import check_damper, check_oscillator, describe
 from impact_damper.system.settling import check_settling
 
-# Margin of the frequencies beyond each end of the free subharmonic, as a fraction of its width.
+# The frequencies extend beyond each end of the free subharmonic by BEYOND times the width of its
+# range of frequencies.
 BEYOND = 0.1
-# A subharmonic counts as reduced if its max |Z1| is below this fraction of the free subharmonic's.
+# A subharmonic counts as reduced if its max |Z1| is below REDUCED times that of the free one.
 REDUCED = 0.95
-# Motions or outcomes that follow when the damper is switched on.
+# Motions that follow, or ways in which a run ends, if the damper is switched on during the free
+# subharmonic.
 SWITCHED_MOTIONS = (
     "quiet",
     "other_period_1",
@@ -53,7 +56,7 @@ def subharmonic_suppression(
     workers=1,
     progress=None,
 ):
-    """Find all motions with the damper where the free oscillator has its one-third subharmonic.
+    """Find all motions with the damper at frequencies at which the free subharmonic exists.
 
     Parameters
     ----------
@@ -78,12 +81,13 @@ def subharmonic_suppression(
     xarray.Dataset
         For each (frequency, motion) a motion found, as in a frequency response. For each
         `frequency` max |Z1| of the largest subharmonic without and with the damper (NaN where none
-        exists), their ratio, contacts and period of the damped one, and flags for what the damper
-        does to the subharmonic (removed, reduced, unchanged), judged by all damped motions and by
-        those to which starts lead. For each (frequency, switched_motion) the share of starts on the
-        subharmonic that lead to this motion when the damper is switched on; a quiet motion there
-        has period 1 and two symmetric contacts. For each `edge` an end of the free subharmonic, for
-        each (subharmonic, edge) an end of a damped branch.
+        exists), their ratio, contacts and period of the subharmonic with the damper, and flags for
+        the effect of the damper on the subharmonic (removed, reduced, unchanged), judged by all
+        motions with the damper and by those to which starts lead. For each (frequency,
+        switched_motion) the share of starts on the free subharmonic that lead to this motion when
+        the damper is switched on; a quiet motion has period 1 and two symmetric contacts. For each
+        `edge` an end of the free subharmonic, for each (subharmonic, edge) an end of a branch with
+        the damper.
 
     Raises
     ------
@@ -153,9 +157,11 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Replace half of the starts (n, m, 4) by `switched_on`, where the free subharmonic exists.
+    """Replace half of the starts by states at which the damper is switched on.
 
-    Return max |Z1| of the free subharmonic, shape (n,), NaN where it does not exist.
+    `states` are the starts, shape (n, m, 4), at n frequencies. Only starts at frequencies at which
+    the free subharmonic exists are replaced. Return max |Z1| of the free subharmonic, shape (n,);
+    NaN where it does not exist.
     """
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
@@ -171,7 +177,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def _subharmonic_table(data, free):
-    """Return for each frequency the subharmonics without and with the damper, as variables."""
+    """Return the variables of the subharmonics without and with the damper at each frequency."""
     size = np.where(is_subharmonic(data), data["maximum_displacement"][1], -np.inf)
     place = np.argmax(size, axis=1)
     row = np.arange(len(size))
@@ -219,7 +225,8 @@ def _branch_table(data, frequencies):
 def _shares(data, present, count):
     """Return the share of the first `count` starts that lead to each of SWITCHED_MOTIONS.
 
-    The shares are NaN at frequencies where no free subharmonic exists, on which starts could lie.
+    These starts lie on the free subharmonic. The shares are NaN at frequencies at which it does not
+    exist (`present` is False).
     """
     settled = data["outcome"][1] == flag("outcome", "settled")
     period = data["period"][1]

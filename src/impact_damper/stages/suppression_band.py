@@ -1,4 +1,10 @@
-"""The suppression band of an elastic impact damper, by single-term harmonic balance (section 3)."""
+"""The suppression band of an elastic impact damper, by single-term harmonic balance (section 3).
+
+Single-term means that one harmonic of the forcing approximates the motion. The suppression band is
+the range of the forcing frequency W in which a small motion replaces the large one that exists
+without the damper. Free means without the damper. The free resonance branch consists of the large
+free motions; with a hardening spring it ends at a fold above its peak, the frequency Wp.
+"""
 
 from typing import NamedTuple
 
@@ -11,8 +17,10 @@ from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.single_harmonic import check_elastic, impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# Range of frequencies, and step, of the search for an edge of the band, over the peak frequency;
-# largest error of an edge.
+# Search for an edge of the band.
+# SEARCHED: least and greatest W/Wp.
+# SEARCH_STEP: step in W/Wp.
+# EDGE_TOLERANCE: largest error of the frequency of an edge.
 SEARCHED = (0.2, 2.0)
 SEARCH_STEP = 0.005
 EDGE_TOLERANCE = 1e-10
@@ -25,10 +33,10 @@ def suppression_band(oscillator, damper):
     The band is computed by harmonic balance, equation (7) of the paper, whose solutions have the
     amplitude |a|. A frequency belongs to the band if (7) has exactly one stable solution, and |a|
     of this solution is below the amplitude of the free resonance branch. The band is the connected
-    range of such frequencies that contains the peak frequency Wp. The free resonance branch is that
-    of `free_oscillator.resonance`. With a hardening spring this branch, and with it the band, ends
-    at the upper fold; where the free response has no fold it is the whole curve. Motions in which
-    the loose mass rests do not count, as in the paper.
+    range of such frequencies that contains the peak frequency Wp. With a hardening spring the free
+    resonance branch (`free_oscillator.resonance`), and with it the band, ends at the upper fold. If
+    the free response has no fold, the branch is the whole curve. Motions in which the loose mass
+    rests do not count, as in the paper.
 
     The search goes from Wp in steps of 0.005 Wp down to 0.2 Wp and up to 2 Wp, and the edges are
     bisected to 1e-10. An interruption of the band narrower than a step can be missed.
@@ -43,11 +51,10 @@ def suppression_band(oscillator, damper):
     -------
     xarray.Dataset
         For each `edge` (lower, upper) its frequency and the event that ends the band there; the
-        width of the band; the reduction of |a| at Wp and at the edges; and `break_even_frequency`,
-        above Wp (below with a softening spring), beyond which the quiet motion is not smaller than
-        the smallest free motion: the end of the band if the end of the resonance branch is
-        disregarded. NaN and a flag where an edge is not found. All NaN, and the status no_peak, if
-        the free response has no peak.
+        width of the band; the reduction of |a| at Wp and at the edges; and `break_even_frequency`.
+        Beyond this frequency, which lies above Wp (below with a softening spring), the quiet motion
+        is not smaller than the smallest free motion. NaN and a flag where an edge is not found. All
+        NaN, and the status no_peak, if the free response has no peak.
 
     Raises
     ------
@@ -130,10 +137,18 @@ def _no_band():
 
 
 class _Look(NamedTuple):
-    """Number of solutions of (7) at a frequency, |a| of the stable ones, and free amplitudes.
+    """The solutions of (7) and the free motions at one frequency.
 
-    `resonance` is the amplitude of the free resonance branch, `least_free` the smallest free
-    amplitude.
+    Attributes
+    ----------
+    count : int
+        Number of solutions of (7).
+    stable : numpy.ndarray
+        |a| of the stable solutions, ascending.
+    resonance : float
+        Amplitude of the free resonance branch; NaN beyond its end.
+    least_free : float
+        Smallest amplitude of a free motion.
     """
 
     count: int
@@ -160,10 +175,10 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Return neighbouring frequencies inside and outside the band, or None.
+    """Return two frequencies on both sides of an edge of the band, the inner one first, or None.
 
-    The search goes from the peak to limit * peak. `inside` returns whether a frequency belongs
-    to the band; both frequencies differ by EDGE_TOLERANCE at most.
+    They differ by EDGE_TOLERANCE at most. The search goes from `peak` to `limit` times `peak`.
+    `inside` is a function that returns whether a frequency belongs to the band.
     """
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
@@ -180,7 +195,7 @@ def _edge(inside, peak, limit):
 
 
 def _event(inner, outer):
-    """Return the event that ends the band, by comparing the motions on both sides of its edge."""
+    """Return the flag `edge_event`, from the solutions on both sides of an edge of the band."""
     if np.isnan(outer.resonance):
         return "resonance_branch_ends"
     same = inner.count == outer.count
